@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "natator/gait.h"
+#include "natator/scene.h"
+#include "natator/solver.h"
+
+namespace natator {
+
+enum class Precision { single_precision, double_precision };
+enum class Stopped { completed, touched_plane, no_progress, unstable };
+
+/// Random shift of all starting positions, for ensembles of a chaotic system.
+struct Perturbation {
+    double amplitude = 0;  ///< each coordinate is shifted uniformly within +-amplitude, length
+    std::uint64_t seed = 1;
+};
+
+/// What one evaluation of a gait in a scene gives.
+struct Evaluation {
+    Stopped stopped = Stopped::completed;
+    double distance = 0;   ///< change of mean x over the body's particles since time 0, length (thesis 2.6)
+    double simulated = 0;  ///< s
+    int frames = 0;
+    std::uint64_t hash = 0;  ///< of the final positions and velocities
+    std::optional<Instability> instability;
+};
+
+/// One body position per frame, for callers that want a trajectory.
+using FrameObserver = std::function<void(double time, const std::vector<Eigen::Vector3d>& body_positions)>;
+
+/// Settles the scene and runs it with a gait until its duration or an early stop.
+/// Throws InputError when the gait does not fit the scene.
+Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision = Precision::single_precision,
+                    const Perturbation& perturbation = {}, const FrameObserver& on_frame = {});
+
+}  // namespace natator

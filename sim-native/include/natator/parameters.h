@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+namespace natator {
+
+/// Which update rule advances the particles (DESIGN: schemes).
+enum class Scheme {
+    flex,        ///< behaves as NVIDIA Flex 1.2.0 was measured to behave
+    conserving,  ///< mass-splitting projection that keeps linear and angular momentum
+};
+
+/// How the summed corrections of one iteration are scaled before they are applied.
+enum class RelaxationMode {
+    global = 0,  ///< x += omega * sum
+    local = 1,   ///< x += min(1, (1 + omega) / n) * sum, n = number of constraints on the particle
+};
+
+/// Solver parameters under the names of NVIDIA Flex, defaults from Appendix A of the thesis.
+/// Units are those of the scene (length, second, mass); the ranges are checked when a scene is read.
+struct SolverParameters {
+    int substeps = 4;       ///< substeps per frame, >= 1
+    int numIterations = 4;  ///< constraint iterations per substep, >= 1
+
+    Eigen::Vector3d gravity{0, -10, 0};  ///< acceleration, length/s^2
+    double radius = 0.15;                ///< interaction radius R of particles, length, > 0
+    double solidRestDistance = 0.15;     ///< distance held between a solid and any other particle, 0 < d <= radius
+    double fluidRestDistance = 0.10;     ///< spacing of the fluid at rest density, 0 < d < radius
+
+    double dynamicFriction = 0.2;   ///< Coulomb coefficient against planes; > 0 also switches particle friction on
+    double staticFriction = 0.0;    ///< static Coulomb coefficient, planes and particles
+    double particleFriction = 0.2;  ///< dynamic Coulomb coefficient between particles
+    double restitution = 0.0;       ///< rebound at planes
+    double adhesion = 0.0;          ///< pull towards planes
+    double sleepThreshold = 0.0;    ///< speed below which a particle is held, length/s
+
+    double maxSpeed = std::numeric_limits<float>::max();  ///< limit of |v|, length/s
+    double maxAcceleration = 100.0;                       ///< limit of |dv|/h per substep, length/s^2
+    double shockPropagation = 0.0;                        ///< lowers the mass of particles with height
+    double dissipation = 0.0;                             ///< damping per contact
+    double damping = 1.0;                                 ///< drag on the velocity, 1/s
+
+    double cohesion = 0.0;              ///< attraction between fluid particles
+    double surfaceTension = 0.0;        ///< minimises the fluid's surface
+    double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s
+    double vorticityConfinement = 0.0;  ///< strengthens the fluid's vortices
+    double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density
+    double freeSurfaceDrag = 0.0;       ///< drag on fluid particles at the surface
+    double buoyancy = 1.0;              ///< factor on gravity for fluid particles
+
+    double collisionDistance = 0.05;       ///< distance held from planes, length
+    double particleCollisionMargin = 0.0;  ///< added to radius when pairs are found, length
+    double shapeCollisionMargin = 0.0;     ///< added to collisionDistance when plane contacts are found, length
+
+    RelaxationMode relaxationMode = RelaxationMode::local;
+    double relaxationFactor = 1.0;  ///< omega
+
+    int maxNeighborsPerParticle = 96;  ///< fluid neighbours kept per particle, the first found in cell order
+};
+
+/// Half space a*x + b*y + c*z + d >= 0 that particles are kept in; (a, b, c) has length 1.
+struct Plane {
+    Eigen::Vector3d normal{0, 1, 0};
+    double offset = 0;  ///< d
+
+    /// Signed distance of a point, positive inside.
+    double distance(const Eigen::Vector3d& point) const { return normal.dot(point) + offset; }
+};
+
+}  // namespace natator

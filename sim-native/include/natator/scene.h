@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "natator/parameters.h"
+
+namespace natator {
+
+/// How the mass of fluid particles depends on their initial height y.
+enum class MassGradient {
+    uniform,              ///< every particle has the mass `bottom`
+    mass_linear,          ///< mass linear in y from `bottom` to `top`
+    inverse_mass_linear,  ///< 1/mass linear in y from 1/`bottom` to 1/`top`
+};
+
+/// A block of fluid particles on a cubic lattice (thesis 2.3).
+struct FluidBlock {
+    Eigen::Vector3i count{50, 7, 17};            ///< lattice points along x, y, z
+    double spacing = 0.09;                       ///< lattice constant, length
+    Eigen::Vector3d origin{0.05, 0.05, 0.05};    ///< first lattice point
+    MassGradient gradient = MassGradient::mass_linear;
+    double bottom_mass = 2.0;                    ///< mass of the lowest layer
+    double top_mass = 1.0 / 14.0;                ///< mass of the highest layer
+    double clearance = 0.15;                     ///< lattice points closer than this to a body particle are left out
+};
+
+/// One cross-section of a body: a grid of height x width particles in (y, z).
+struct Slice {
+    int height = 1;  ///< particles along y
+    int width = 1;   ///< particles along z
+};
+
+/// A soft body of slices along x (thesis 2.2). Slice 0 is the head; the head faces +x, the top +y, the right side +z.
+struct Creature {
+    std::string name;
+    std::vector<Slice> slices;
+    std::vector<int> joints;           ///< indices of the slices shared by neighbouring clusters, ascending
+    double spacing = 0.075;            ///< distance of neighbouring particles at rest, length
+    double cluster_stiffness = 0.2;    ///< shape-matching stiffness of every cluster, [0, 1]
+    double particle_mass = 1.0;        ///< m_s
+    double spring_stiffness = 1.0;     ///< stiffness of every muscle spring, [0, 1]
+    int springs_per_particle = 4;      ///< springs that each connected particle gives (thesis 2.4)
+    Eigen::Vector3d rear_centre{0.45, 0.6, 0.6};  ///< start of the centre of the last slice
+
+    int actuators() const { return joints.empty() ? 0 : static_cast<int>(joints.size()) - 1; }
+};
+
+/// Brings the initial block to rest before time 0 (thesis 2.3): short updates, velocities zeroed after each.
+struct Settling {
+    int updates = 100;
+    double time_step = 1e-4;  ///< s
+    int substeps = 1;
+};
+
+/// When an evaluation ends before its duration (thesis 2.6).
+struct Stopping {
+    bool plane_contact = true;       ///< a body particle comes within collisionDistance of a plane
+    double no_progress_after = 2.0;  ///< s without gain in mean x; 0 = never
+};
+
+/// Everything that defines an experiment, as read from scene JSON.
+struct Scene {
+    std::string name;
+    std::string description;
+    Scheme scheme = Scheme::flex;
+    double duration = 4.0;         ///< s
+    double time_step = 1.0 / 60;   ///< one frame, s
+    SolverParameters solver;
+    std::vector<Plane> planes;
+    std::optional<FluidBlock> fluid;
+    std::optional<Creature> creature;
+    Settling settling;
+    Stopping stopping;
+};
+
+}  // namespace natator

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "natator/gait.h"
+#include "natator/model.h"
+#include "natator/state.h"
+
+namespace natator {
+
+/// Where a state stopped being finite.
+struct Instability {
+    int particle = 0;   ///< lowest index with a value that is not finite
+    std::string stage;  ///< first stage whose output was not finite
+    double time = 0;    ///< s, start of the substep
+};
+
+/// Sees the particles at fixed points of a substep; used for traces and tests. Positions are in the Model's order.
+template <class Real>
+class StepObserver {
+public:
+    virtual ~StepObserver() = default;
+    virtual void predicted(const std::vector<Vector3<Real>>& positions) = 0;
+    virtual void iterated(const std::vector<Vector3<Real>>& positions) = 0;
+    virtual void substep_ended(const std::vector<Vector3<Real>>& velocities) = 0;
+};
+
+/// Vector instruction set the hot kernels are run with. The same set gives the same bits on any machine.
+enum class InstructionSet { portable, avx2, avx512 };
+
+/// The best set this machine has, unless the environment variable NATATOR_ISA names another one that it has.
+InstructionSet instruction_set();
+const char* to_string(InstructionSet set);
+
+/// Advances States of one Model on the CPU. Not shared between threads: one Solver per thread.
+template <class Real>
+class Solver {
+public:
+    explicit Solver(const Model& model);
+    ~Solver();
+    Solver(Solver&&) noexcept;
+    Solver& operator=(Solver&&) noexcept;
+
+    /// Advances `state` by `time_step` (s) in `substeps` equal substeps, with the rest lengths it holds.
+    /// Returns where the state stopped being finite; `state` then keeps its values from before that substep.
+    std::optional<Instability> update(State<Real>& state, double time_step, int substeps,
+                                      StepObserver<Real>* observer = nullptr);
+
+    /// One frame of the model: sets the muscles for the state's time, then updates by the model's time step.
+    std::optional<Instability> frame(State<Real>& state, const Gait& gait);
+
+    /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids.
+    std::vector<Real> densities() const;
+    /// Number of fluid and contact neighbours of each particle in the last substep.
+    std::vector<int> neighbour_counts() const;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+extern template class Solver<float>;
+extern template class Solver<double>;
+
+}  // namespace natator

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace natator {
+
+struct Model;
+
+template <class Real>
+using Vector3 = Eigen::Matrix<Real, 3, 1>;
+
+/// All that changes while a scene runs, in the order of the Model's particles.
+/// Real is float (default) or double (reference runs).
+template <class Real>
+struct State {
+    std::vector<Vector3<Real>> position;
+    std::vector<Vector3<Real>> velocity;
+    std::vector<Eigen::Quaternion<Real>> cluster_rotation;  ///< kept between iterations, substeps and frames
+    std::vector<Vector3<Real>> cluster_centre;              ///< stored centre with its dead band
+    std::vector<Real> spring_rest_length;                   ///< as driven by the muscles
+    double time = 0;                                        ///< s since the end of settling
+};
+
+/// The State that a Model starts from.
+template <class Real>
+State<Real> initial_state(const Model& model);
+
+}  // namespace natator
