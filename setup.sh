@@ -1,0 +1,128 @@
+#!/usr/bin/env bash
+# Installs what Natator needs to be built and run on Debian or Ubuntu. Does nothing where all of it is there.
+set -euo pipefail
+
+usage() {
+    cat <<'TEXT'
+usage: ./setup.sh [--check]
+  --check   only report what is missing (exit 1 if anything is), install nothing
+TEXT
+}
+
+check_only=false
+for argument in "$@"; do
+    case $argument in
+        --check) check_only=true ;;
+        -h|--help) usage; exit 0 ;;
+        *) printf 'setup.sh: unknown option %s\n' "$argument" >&2; usage >&2; exit 2 ;;
+    esac
+done
+
+fail() {
+    printf 'setup.sh: %s\n' "$1" >&2
+    exit 1
+}
+
+# --- what is needed: tools are probed, so that they may come from anywhere; libraries are Debian packages -------------
+
+readonly libraries=(libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev libhwy-dev)
+readonly minimum_cmake=3.25 minimum_java=17
+
+compiler_works() {
+    echo '#include <concepts>
+          static_assert(__cplusplus >= 202002L);' | "${CXX:-c++}" -std=c++20 -fsyntax-only -x c++ - 2>/dev/null
+}
+
+cmake_works() {
+    local version
+    version=$(cmake --version 2>/dev/null | awk 'NR == 1 { print $3 }') || return 1
+    [[ -n $version ]] && printf '%s\n' "$minimum_cmake" "$version" | sort --check=quiet --version-sort
+}
+
+java_works() {
+    local version
+    version=$(javac -version 2>&1) || return 1
+    [[ $version =~ ([0-9]+) ]] && (( BASH_REMATCH[1] >= minimum_java ))
+}
+
+installed() {
+    [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+# Sets `missing` to the packages that would bring what is not there.
+find_missing() {
+    missing=()
+    compiler_works || missing+=(g++)
+    cmake_works || missing+=(cmake)
+    command -v ninja >/dev/null || missing+=(ninja-build)
+    java_works || missing+=("$(java_package)")
+    command -v mvn >/dev/null || missing+=(maven)
+    local library
+    for library in "${libraries[@]}"; do
+        installed "$library" || missing+=("$library")
+    done
+}
+
+known_to_apt() {
+    [[ -n $(apt-cache --names-only search "^$1\$" 2>/dev/null) ]]
+}
+
+# Later releases no longer have version 17 and call the current one default-jdk-headless.
+java_package() {
+    if known_to_apt default-jdk-headless && ! known_to_apt openjdk-17-jdk-headless; then
+        echo default-jdk-headless
+    else
+        echo openjdk-17-jdk-headless
+    fi
+}
+
+# --- report or install ------------------------------------------------------------------------------------------------
+
+find_missing
+if (( ${#missing[@]} == 0 )); then
+    echo 'setup: everything needed is installed'
+    exit 0
+fi
+if $check_only; then
+    printf 'setup: missing: %s\n' "${missing[*]}"
+    exit 1
+fi
+
+as_root=()
+if (( EUID != 0 )); then
+    as_root=(sudo)
+    [[ -t 0 ]] || as_root+=(--non-interactive)
+fi
+apt() {
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq --yes -o Dpkg::Use-Pty=0 "$@"
+}
+install() {
+    apt install --no-install-recommends "${missing[@]}"
+}
+needed_command() {
+    printf "sudo sh -c 'apt-get update && apt-get install --yes --no-install-recommends %s'" "${missing[*]}"
+}
+
+command -v apt-get >/dev/null ||
+    fail "this is not Debian or Ubuntu: install what these packages hold there: ${missing[*]}"
+if (( EUID != 0 )) && ! { command -v sudo >/dev/null && "${as_root[@]}" true; }; then
+    fail "root is needed to install what is missing; run: $(needed_command)"
+fi
+
+printf 'setup: installing %s\n' "${missing[*]}"
+known=true
+for package in "${missing[@]}"; do
+    known_to_apt "$package" || known=false
+done
+if ! $known; then
+    apt update || fail "apt-get update failed; needed: $(needed_command)"
+    find_missing  # the name of the Java package depends on what apt offers
+fi
+install || { apt update && install; } || fail "could not install; needed: $(needed_command)"
+
+requested=("${missing[@]}")
+find_missing
+if (( ${#missing[@]} > 0 )); then
+    fail "installed ${requested[*]}, but too old or not found: ${missing[*]} (needed: C++20, cmake >= $minimum_cmake, JDK >= $minimum_java)"
+fi
+echo 'setup: done'
