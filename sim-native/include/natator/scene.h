@@ -36,6 +36,7 @@ struct Slice {
 /// A soft body of slices along x (thesis 2.2). Slice 0 is the head; the head faces +x, the top +y, the right side +z.
 struct Creature {
     std::string name;
+    std::string description;
     std::vector<Slice> slices;
     std::vector<int> joints;           ///< indices of the slices shared by neighbouring clusters, ascending
     double spacing = 0.075;            ///< distance of neighbouring particles at rest, length

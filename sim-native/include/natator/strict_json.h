@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace natator {
+
+/// Parses JSON text. Refuses what the format's usual readers let pass in silence: a key given twice, and nesting deeper
+/// than 32. Throws InputError with one line: `source`, line and column, what was wrong.
+nlohmann::json parse_json(const std::string& text, const std::string& source);
+
+/// Reads a JSON file. Throws InputError when it is absent, unreadable, too large (over 16 MiB) or not valid.
+nlohmann::json read_json_file(const std::string& path);
+
+/// A value as it is shown in messages: on one line, shortened to about 60 characters.
+std::string shown(const nlohmann::json& value);
+
+/// Text in quotes as it is shown in messages: on one line, whatever it holds.
+std::string quoted(const std::string& text);
+
+}  // namespace natator

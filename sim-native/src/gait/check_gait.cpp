@@ -1,0 +1,37 @@
+#include <sstream>
+
+#include "natator/actuate.h"
+#include "natator/error.h"
+
+namespace natator {
+namespace {
+
+/// `open`: `low` itself is not allowed. The comparison also fails for a value that is not a number.
+void check_range(const std::string& name, double value, double low, double high, bool open, const char* unit) {
+    if ((open ? value > low : value >= low) && value <= high) return;
+    std::ostringstream text;
+    text << name << " = " << value << ": must be a number in " << (open ? '(' : '[') << low << ", " << high << "]"
+         << unit;
+    throw InputError(text.str());
+}
+
+void check_list(const std::string& name, const std::vector<double>& values, int actuators, double high) {
+    if (values.size() != static_cast<std::size_t>(actuators)) {
+        throw InputError(name + ": has " + std::to_string(values.size()) + " values; must have " +
+                         std::to_string(actuators) + ", one per actuator of the creature");
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        check_range(name + "[" + std::to_string(i) + "]", values[i], 0, high, false, "");
+    }
+}
+
+}  // namespace
+
+void check_gait(const Gait& gait, int actuators) {
+    check_range("gait.frequency", gait.frequency, 0, 60, true, " (1/s)");
+    check_list("gait.amplitude", gait.amplitude, actuators, 2);
+    check_list("gait.phase", gait.phase, actuators, 1);
+    check_range("gait.power", gait.power, 0.5, 4, false, "");
+}
+
+}  // namespace natator

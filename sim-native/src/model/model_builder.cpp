@@ -1,0 +1,81 @@
+#include "natator/model_builder.h"
+
+#include <cstdint>
+#include <sstream>
+
+#include "body.h"
+#include "fluid_block.h"
+#include "muscles.h"
+#include "natator/error.h"
+
+namespace natator {
+namespace {
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& what) {
+    throw InputError("scene \"" + scene.name + "\": " + what);
+}
+
+/// Checked before anything is allocated.
+void check_size(const Scene& scene) {
+    std::int64_t particles = 0;
+    if (scene.creature) {
+        for (const Slice& slice : scene.creature->slices) particles += std::int64_t{slice.height} * slice.width;
+    }
+    if (scene.fluid) {
+        const auto count = scene.fluid->count.cast<std::int64_t>();
+        particles += count.x() * count.y() * count.z();
+    }
+    const std::string found = std::to_string(particles) + " particles (fluid.count and creature.slices together)";
+    if (particles == 0) refuse(scene, "0 particles: needs a creature or fluid");
+    if (particles > max_particles) refuse(scene, found + ": must be at most " + std::to_string(max_particles));
+}
+
+void check_muscles(const Scene& scene, const Model& model) {
+    std::vector<int> count(static_cast<std::size_t>(model.actuators));
+    for (const Muscle& muscle : model.muscles) ++count[muscle.actuator];
+    for (int i = 0; i < model.actuators; ++i) {
+        if (count[i] > 0) continue;
+        std::ostringstream text;
+        text << "creature.joints[" << i << "], [" << i + 1 << "] = " << scene.creature->joints[i] << ", "
+             << scene.creature->joints[i + 1] << ": no muscle fits between these slices (actuator " << i
+             << "); both must be at least 2 wide and the slices between them not thinner";
+        refuse(scene, text.str());
+    }
+}
+
+void check_inside_tank(const Scene& scene, const Model& model) {
+    for (int i = 0; i < model.particles(); ++i) {
+        for (std::size_t k = 0; k < model.planes.size(); ++k) {
+            const double distance = model.planes[k].distance(model.position[i]);
+            if (distance >= 0) continue;
+            const Eigen::Vector3d& p = model.position[i];
+            std::ostringstream text;
+            text << (model.is_fluid(i) ? "fluid.origin" : "creature.rearCentre") << ": particle at (" << p.x() << ", "
+                 << p.y() << ", " << p.z() << ") is outside the tank, " << -distance << " beyond planes[" << k
+                 << "]; must be inside all planes";
+            refuse(scene, text.str());
+        }
+    }
+}
+
+}  // namespace
+
+Model build_model(const Scene& scene) {
+    check_size(scene);
+    Model model;
+    model.scheme = scene.scheme;
+    model.parameters = scene.solver;
+    model.time_step = scene.time_step;
+    model.planes = scene.planes;
+    if (scene.creature) {
+        const BodyLayout layout(*scene.creature);
+        add_body(*scene.creature, layout, model);
+        add_muscles(*scene.creature, layout, model);
+        check_muscles(scene, model);
+    }
+    if (scene.fluid) add_fluid(*scene.fluid, model);
+    check_inside_tank(scene, model);
+    return model;
+}
+
+}  // namespace natator

@@ -1,0 +1,141 @@
+#include "field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "natator/error.h"
+#include "natator/strict_json.h"
+
+namespace natator::fields {
+namespace {
+
+/// Least number of single-character edits that turn `a` into `b` (Levenshtein).
+std::size_t edits(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+        }
+    }
+    return row[b.size()];
+}
+
+std::string lower(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c != '_' && c != '-') result += ('A' <= c && c <= 'Z') ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return result;
+}
+
+/// Names the allowed key that an unknown one most resembles, or else all of them.
+std::string advice(std::string_view unknown, const std::vector<std::string_view>& allowed) {
+    constexpr std::size_t longest_compared = 64;
+    std::string_view best;
+    std::size_t least = 3;  // more edits than 2 are no resemblance
+    if (unknown.size() <= longest_compared) {
+        for (const std::string_view key : allowed) {
+            const std::size_t distance = edits(lower(unknown), lower(key));
+            if (distance < least && distance < key.size()) {
+                least = distance;
+                best = key;
+            }
+        }
+    }
+    if (!best.empty()) return "did you mean " + std::string(best) + "?";
+    std::string list;
+    for (const std::string_view key : allowed) list += (list.empty() ? "" : ", ") + std::string(key);
+    return "allowed: " + list;
+}
+
+template <class Vector>
+void read_vector(const json& value, const Place& place, const Range& range, Vector& out) {
+    if (!value.is_array() || value.size() != 3) refuse(place, value, "an array of 3 numbers, each " + range.text());
+    for (int i = 0; i < 3; ++i)
+        read(value[static_cast<std::size_t>(i)], place.item(static_cast<std::size_t>(i)), range, out[i]);
+}
+
+}  // namespace
+
+Place Place::key(std::string_view name) const {
+    return {document, path + (path.empty() ? "" : ".") + std::string(name)};
+}
+
+Place Place::item(std::size_t index) const {
+    return {document, path + "[" + std::to_string(index) + "]"};
+}
+
+void refuse(const Place& place, const json& value, const std::string& must_be) {
+    const std::string path = place.path.empty() ? "value" : place.path;
+    throw InputError(place.document + ": " + path + " = " + shown(value) + ": must be " + must_be);
+}
+
+void refuse(const Place& place, const std::string& what) {
+    throw InputError(place.document + ": " + (place.path.empty() ? "" : place.path + ": ") + what);
+}
+
+std::string Range::text() const {
+    std::ostringstream text;
+    text << "in " << (low_open ? '(' : '[') << low << ", " << high << ']';
+    if (*unit != '\0') text << " (" << unit << ')';
+    return text.str();
+}
+
+void read(const json& value, const Place& place, const Range& range, double& out) {
+    if (!value.is_number() || !range.contains(value.get<double>())) refuse(place, value, "a number " + range.text());
+    out = value.get<double>();
+}
+
+void read(const json& value, const Place& place, const Range& range, int& out) {
+    const bool whole = value.is_number() && std::trunc(value.get<double>()) == value.get<double>();
+    if (!whole || !range.contains(value.get<double>())) refuse(place, value, "a whole number " + range.text());
+    out = static_cast<int>(value.get<double>());
+}
+
+void read(const json& value, const Place& place, const Range&, bool& out) {
+    if (!value.is_boolean()) refuse(place, value, "true or false");
+    out = value.get<bool>();
+}
+
+void read(const json& value, const Place& place, const Range&, std::string& out) {
+    if (!value.is_string()) refuse(place, value, "a string");
+    out = value.get<std::string>();
+}
+
+void read(const json& value, const Place& place, const Range& range, Eigen::Vector3d& out) {
+    read_vector(value, place, range, out);
+}
+
+void read(const json& value, const Place& place, const Range& range, Eigen::Vector3i& out) {
+    read_vector(value, place, range, out);
+}
+
+void require_zero(const json& value, const Place& place, const std::string& reason) {
+    const auto zero = [](const json& v) { return v.is_number() && v.get<double>() == 0; };
+    const bool zeros = value.is_array() && value.size() == 3 && std::all_of(value.begin(), value.end(), zero);
+    if (!zero(value) && !zeros) refuse(place, value, reason);
+}
+
+void check_keys(const json& object, const Place& place, const std::vector<std::string_view>& allowed) {
+    if (!object.is_object()) refuse(place, object, "an object");
+    for (const auto& [key, value] : object.items()) {
+        if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
+        const std::string name = quoted(key);
+        refuse(place.key(name.substr(1, name.size() - 2)),
+               "unknown key (= " + shown(value) + "); " + advice(key, allowed));
+    }
+}
+
+const json& required(const json& object, const Place& place, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end()) refuse(place.key(key), "missing; must be given");
+    return *found;
+}
+
+}  // namespace natator::fields

@@ -1,0 +1,69 @@
+#include "data_files.h"
+#include "field.h"
+#include "natator/error.h"
+#include "natator/scene_json.h"
+#include "natator/strict_json.h"
+
+namespace natator {
+namespace {
+
+using fields::Place;
+using nlohmann::json;
+
+constexpr int max_bases = 8;
+
+/// A scene file merged onto the scene that its `base` names, and so on.
+json with_bases(const std::string& name, int level) {
+    const Place place{"scene " + quoted(name), ""};
+    json document = read_data_file("scenes", name);
+    if (!document.is_object()) fields::refuse(place, document, "an object");
+    if (!document.contains("base")) return document;
+
+    const json base = document.at("base");
+    document.erase("base");
+    if (!base.is_string()) fields::refuse(place.key("base"), base, "the name of a scene");
+    if (level == max_bases)
+        fields::refuse(place.key("base"), base, "part of a chain of at most 8 scenes without a loop");
+    json merged = with_bases(base.get<std::string>(), level + 1);
+    merged.merge_patch(document);
+    return merged;
+}
+
+/// Merges a scene's `creature` onto the creature file that its `name` names, unless it brings its own `slices`.
+void resolve_creature(json& scene, const Place& place) {
+    if (!scene.contains("creature") || !scene.at("creature").is_object()) return;
+    json& creature = scene.at("creature");
+    if (creature.contains("slices")) return;
+    const json name = fields::required(creature, place, "name");
+    if (!name.is_string()) fields::refuse(place.key("name"), name, "the name of a creature");
+    json merged;
+    try {
+        merged = read_data_file("creatures", name.get<std::string>());
+    } catch (const InputError& error) {
+        fields::refuse(place.key("name"), error.what());
+    }
+    if (!merged.is_object()) fields::refuse(place.key("name"), merged, "the name of a file that holds an object");
+    merged.merge_patch(creature);
+    creature = std::move(merged);
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& name) {
+    return load_scene(name, json::object());
+}
+
+Scene load_scene(const std::string& name, const json& overrides) {
+    const Place place{"scene " + quoted(name), ""};
+    if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
+    json document = with_bases(name, 0);
+    document.merge_patch(overrides);
+    resolve_creature(document, place.key("creature"));
+    return scene_from_json(document, name);
+}
+
+std::vector<std::string> scene_names() {
+    return data_file_names("scenes");
+}
+
+}  // namespace natator

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "field.h"
+#include "natator/scene.h"
+
+/// One reader per part of a scene. Each throws InputError and leaves what is absent at its default.
+namespace natator::fields {
+
+SolverParameters read_solver(const json& value, const Place& place);
+FluidBlock read_fluid(const json& value, const Place& place);
+Creature read_creature(const json& value, const Place& place);
+
+}  // namespace natator::fields

@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <limits>
+
+#include "readers.h"
+
+namespace natator::fields {
+namespace {
+
+constexpr double largest_float = std::numeric_limits<float>::max();
+constexpr double no_limit = 3.5e38;  // values above the largest float mean it; 3.4028235e38 reads as slightly above
+constexpr auto not_yet = Supported::not_yet;
+
+/// Parameters that act on cloth only: there is no cloth, so they must be 0.
+const std::vector<std::string_view> cloth_only = {"wind", "drag", "lift", "plasticThreshold", "plasticCreep"};
+
+const std::vector<Field<SolverParameters>>& solver_fields() {
+    using P = SolverParameters;
+    static const std::vector<Field<P>> fields = {
+        {"substeps", &P::substeps, {1, 1000}},
+        {"numIterations", &P::numIterations, {1, 1000}},
+        {"gravity", &P::gravity, {-1000, 1000, false, "length/s^2"}},
+        {"radius", &P::radius, {0, 1000, true, "length"}},
+        {"solidRestDistance", &P::solidRestDistance, {0, 1000, true, "length"}},
+        {"fluidRestDistance", &P::fluidRestDistance, {0, 1000, true, "length"}},
+        {"dynamicFriction", &P::dynamicFriction, {0, 100}},
+        {"staticFriction", &P::staticFriction, {0, 100}},
+        {"particleFriction", &P::particleFriction, {0, 100}},
+        {"restitution", &P::restitution, {0, 1}, not_yet},
+        {"adhesion", &P::adhesion, {0, 1000}, not_yet},
+        {"sleepThreshold", &P::sleepThreshold, {0, 1000, false, "length/s"}, not_yet},
+        {"maxSpeed", &P::maxSpeed, {0, no_limit, true, "length/s"}},
+        {"maxAcceleration", &P::maxAcceleration, {0, no_limit, true, "length/s^2"}},
+        {"shockPropagation", &P::shockPropagation, {0, 1000}, not_yet},
+        {"dissipation", &P::dissipation, {0, 1000}, not_yet},
+        {"damping", &P::damping, {0, 1000, false, "1/s"}},
+        {"cohesion", &P::cohesion, {0, 1000}, not_yet},
+        {"surfaceTension", &P::surfaceTension, {0, 1000}, not_yet},
+        {"viscosity", &P::viscosity, {0, 10000, false, "1/s"}},
+        {"vorticityConfinement", &P::vorticityConfinement, {0, 1000}, not_yet},
+        {"solidPressure", &P::solidPressure, {0, 100}},
+        {"freeSurfaceDrag", &P::freeSurfaceDrag, {0, 1000}, not_yet},
+        {"buoyancy", &P::buoyancy, {-100, 100}},
+        {"collisionDistance", &P::collisionDistance, {0, 1000, false, "length"}},
+        {"particleCollisionMargin", &P::particleCollisionMargin, {0, 1000, false, "length"}},
+        {"shapeCollisionMargin", &P::shapeCollisionMargin, {0, 1000, false, "length"}},
+        {"relaxationFactor", &P::relaxationFactor, {0, 10, true}},
+        {"maxNeighborsPerParticle", &P::maxNeighborsPerParticle, {1, 4096}},
+    };
+    return fields;
+}
+
+/// Rest distances that the radius can see.
+void check_rest_distances(const SolverParameters& solver, const Place& place) {
+    const json radius = solver.radius;
+    if (solver.solidRestDistance > solver.radius) {
+        refuse(place.key("solidRestDistance"), solver.solidRestDistance, "at most radius = " + radius.dump());
+    }
+    if (solver.fluidRestDistance >= solver.radius) {
+        refuse(place.key("fluidRestDistance"), solver.fluidRestDistance, "less than radius = " + radius.dump());
+    }
+}
+
+}  // namespace
+
+SolverParameters read_solver(const json& value, const Place& place) {
+    std::vector<std::string_view> also = cloth_only;
+    also.emplace_back("relaxationMode");
+
+    SolverParameters solver;
+    read_object(value, place, solver_fields(), also, solver);
+    for (const std::string_view key : cloth_only) {
+        if (value.contains(key)) require_zero(value.at(std::string(key)), place.key(key), "0 (acts on cloth only)");
+    }
+    if (value.contains("relaxationMode")) {
+        solver.relaxationMode =
+            read_choice<RelaxationMode>(value.at("relaxationMode"), place.key("relaxationMode"),
+                                        {{"local", RelaxationMode::local}, {"global", RelaxationMode::global}});
+    }
+    solver.maxSpeed = std::min(solver.maxSpeed, largest_float);
+    solver.maxAcceleration = std::min(solver.maxAcceleration, largest_float);
+    check_rest_distances(solver, place);
+    return solver;
+}
+
+}  // namespace natator::fields
