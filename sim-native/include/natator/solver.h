@@ -5,6 +5,7 @@
 #include <string>
 
 #include "natator/gait.h"
+#include "natator/instruction_set.h"
 #include "natator/model.h"
 #include "natator/state.h"
 
@@ -27,13 +28,6 @@ public:
     virtual void substep_ended(const std::vector<Vector3<Real>>& velocities) = 0;
 };
 
-/// Vector instruction set the hot kernels are run with. The same set gives the same bits on any machine.
-enum class InstructionSet { portable, avx2, avx512 };
-
-/// The best set this machine has, unless the environment variable NATATOR_ISA names another one that it has.
-InstructionSet instruction_set();
-const char* to_string(InstructionSet set);
-
 /// Advances States of one Model on the CPU. Not shared between threads: one Solver per thread.
 template <class Real>
 class Solver {
@@ -52,7 +46,7 @@ public:
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
 
     /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids.
-    std::vector<Real> densities() const;
+    std::vector<Real> densities();
     /// Number of fluid and contact neighbours of each particle in the last substep.
     std::vector<int> neighbour_counts() const;
 

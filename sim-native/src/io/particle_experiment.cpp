@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "model/cluster.h"
 #include "natator/error.h"
 #include "natator/strict_json.h"
 
@@ -13,7 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-[[noreturn]] void refuse(const std::string& where, const std::string& field, const json& value, const std::string& allowed) {
+[[noreturn]] void refuse(const std::string& where, const std::string& field, const json& value,
+                         const std::string& allowed) {
     throw InputError(where + ": " + field + " is " + shown(value) + ", expected " + allowed);
 }
 
@@ -39,9 +41,11 @@ std::vector<T> rows(const json& value, const std::string& where, const std::stri
                     const std::function<T(const json&, const std::string&)>& read) {
     if (!value.is_array()) refuse(where, field, value, "an array");
     if (count >= 0 && value.size() != static_cast<std::size_t>(count))
-        throw InputError(where + ": " + field + " has " + std::to_string(value.size()) + " entries, expected " + std::to_string(count));
+        throw InputError(where + ": " + field + " has " + std::to_string(value.size()) + " entries, expected " +
+                         std::to_string(count));
     std::vector<T> result;
-    for (std::size_t i = 0; i < value.size(); ++i) result.push_back(read(value[i], field + "[" + std::to_string(i) + "]"));
+    for (std::size_t i = 0; i < value.size(); ++i)
+        result.push_back(read(value[i], field + "[" + std::to_string(i) + "]"));
     return result;
 }
 
@@ -57,14 +61,18 @@ struct Reader {
         return result;
     }
     std::vector<Eigen::Vector3d> points(const json& value, const std::string& field, long count) const {
-        return rows<Eigen::Vector3d>(value, where, field, count,
-                                     [&](const json& row, const std::string& name) -> Eigen::Vector3d { return vector(row, name, 3); });
+        return rows<Eigen::Vector3d>(
+            value, where, field, count,
+            [&](const json& row, const std::string& name) -> Eigen::Vector3d { return vector(row, name, 3); });
     }
     std::vector<double> numbers(const json& value, const std::string& field, long count) const {
-        return rows<double>(value, where, field, count, [&](const json& row, const std::string& name) { return number(row, where, name); });
+        return rows<double>(value, where, field, count,
+                            [&](const json& row, const std::string& name) { return number(row, where, name); });
     }
     std::vector<int> indices(const json& value, const std::string& field, long count, long highest) const {
-        return rows<int>(value, where, field, count, [&](const json& row, const std::string& name) { return integer(row, where, name, 0, highest); });
+        return rows<int>(value, where, field, count, [&](const json& row, const std::string& name) {
+            return integer(row, where, name, 0, highest);
+        });
     }
 };
 
@@ -74,8 +82,9 @@ SolverParameters flex_defaults() {
     SolverParameters p;
     p.numIterations = 1;
     p.gravity.setZero();
-    for (double* value : {&p.radius, &p.solidRestDistance, &p.fluidRestDistance, &p.dynamicFriction, &p.staticFriction,
-                          &p.particleFriction, &p.damping, &p.viscosity, &p.solidPressure, &p.buoyancy, &p.collisionDistance})
+    for (double* value :
+         {&p.radius, &p.solidRestDistance, &p.fluidRestDistance, &p.dynamicFriction, &p.staticFriction,
+          &p.particleFriction, &p.damping, &p.viscosity, &p.solidPressure, &p.buoyancy, &p.collisionDistance})
         *value = 0;
     p.maxAcceleration = p.maxSpeed;
     return p;
@@ -84,7 +93,8 @@ SolverParameters flex_defaults() {
 std::vector<Plane> read_planes(const json& value, const Reader& read) {
     return rows<Plane>(value, read.where, "params.planes", -1, [&](const json& row, const std::string& field) {
         const Eigen::VectorXd plane = read.vector(row, field, 4);
-        if (std::abs(plane.head<3>().norm() - 1) > 1e-3) refuse(read.where, field, row, "a normal (first three) of length 1");
+        if (std::abs(plane.head<3>().norm() - 1) > 1e-3)
+            refuse(read.where, field, row, "a normal (first three) of length 1");
         return Plane{plane.head<3>(), plane[3]};
     });
 }
@@ -92,16 +102,31 @@ std::vector<Plane> read_planes(const json& value, const Reader& read) {
 void read_parameters(const json& params, const Reader& read, Model& model) {
     SolverParameters& p = model.parameters;
     p = flex_defaults();
-    const std::map<std::string, double*> scalars{
-        {"radius", &p.radius}, {"solidRestDistance", &p.solidRestDistance}, {"fluidRestDistance", &p.fluidRestDistance},
-        {"dynamicFriction", &p.dynamicFriction}, {"staticFriction", &p.staticFriction}, {"particleFriction", &p.particleFriction},
-        {"restitution", &p.restitution}, {"adhesion", &p.adhesion}, {"sleepThreshold", &p.sleepThreshold},
-        {"maxSpeed", &p.maxSpeed}, {"maxAcceleration", &p.maxAcceleration}, {"shockPropagation", &p.shockPropagation},
-        {"dissipation", &p.dissipation}, {"damping", &p.damping}, {"cohesion", &p.cohesion}, {"surfaceTension", &p.surfaceTension},
-        {"viscosity", &p.viscosity}, {"vorticityConfinement", &p.vorticityConfinement}, {"solidPressure", &p.solidPressure},
-        {"freeSurfaceDrag", &p.freeSurfaceDrag}, {"buoyancy", &p.buoyancy}, {"collisionDistance", &p.collisionDistance},
-        {"particleCollisionMargin", &p.particleCollisionMargin}, {"shapeCollisionMargin", &p.shapeCollisionMargin},
-        {"relaxationFactor", &p.relaxationFactor}};
+    const std::map<std::string, double*> scalars{{"radius", &p.radius},
+                                                 {"solidRestDistance", &p.solidRestDistance},
+                                                 {"fluidRestDistance", &p.fluidRestDistance},
+                                                 {"dynamicFriction", &p.dynamicFriction},
+                                                 {"staticFriction", &p.staticFriction},
+                                                 {"particleFriction", &p.particleFriction},
+                                                 {"restitution", &p.restitution},
+                                                 {"adhesion", &p.adhesion},
+                                                 {"sleepThreshold", &p.sleepThreshold},
+                                                 {"maxSpeed", &p.maxSpeed},
+                                                 {"maxAcceleration", &p.maxAcceleration},
+                                                 {"shockPropagation", &p.shockPropagation},
+                                                 {"dissipation", &p.dissipation},
+                                                 {"damping", &p.damping},
+                                                 {"cohesion", &p.cohesion},
+                                                 {"surfaceTension", &p.surfaceTension},
+                                                 {"viscosity", &p.viscosity},
+                                                 {"vorticityConfinement", &p.vorticityConfinement},
+                                                 {"solidPressure", &p.solidPressure},
+                                                 {"freeSurfaceDrag", &p.freeSurfaceDrag},
+                                                 {"buoyancy", &p.buoyancy},
+                                                 {"collisionDistance", &p.collisionDistance},
+                                                 {"particleCollisionMargin", &p.particleCollisionMargin},
+                                                 {"shapeCollisionMargin", &p.shapeCollisionMargin},
+                                                 {"relaxationFactor", &p.relaxationFactor}};
     if (!params.is_object()) refuse(read.where, "params", params, "an object");
     for (const auto& [key, value] : params.items()) {
         const std::string field = "params." + key;
@@ -122,8 +147,9 @@ void read_parameters(const json& params, const Reader& read, Model& model) {
 }
 
 void read_springs(const json& springs, const Reader& read, Model& model) {
-    const auto pairs = rows<std::vector<int>>(member(springs, "idx", read.where, "pairs of particles"), read.where, "springs.idx", -1,
-                                              [&](const json& row, const std::string& field) { return read.indices(row, field, 2, model.particles() - 1); });
+    const auto pairs = rows<std::vector<int>>(
+        member(springs, "idx", read.where, "pairs of particles"), read.where, "springs.idx", -1,
+        [&](const json& row, const std::string& field) { return read.indices(row, field, 2, model.particles() - 1); });
     const long count = static_cast<long>(pairs.size());
     const auto lengths = read.numbers(member(springs, "l0", read.where, "rest lengths"), "springs.l0", count);
     const auto stiffnesses = read.numbers(member(springs, "k", read.where, "stiffnesses"), "springs.k", count);
@@ -131,20 +157,24 @@ void read_springs(const json& springs, const Reader& read, Model& model) {
 }
 
 void read_clusters(const json& rigids, const Reader& read, Model& model) {
-    const auto members = rows<std::vector<int>>(member(rigids, "clusters", read.where, "lists of particles"), read.where, "rigids.clusters", -1,
-                                                [&](const json& row, const std::string& field) { return read.indices(row, field, -1, model.particles() - 1); });
+    const auto members = rows<std::vector<int>>(
+        member(rigids, "clusters", read.where, "lists of particles"), read.where, "rigids.clusters", -1,
+        [&](const json& row, const std::string& field) { return read.indices(row, field, -1, model.particles() - 1); });
     const long count = static_cast<long>(members.size());
-    const auto rest = read.points(member(rigids, "rest", read.where, "a rest position per particle"), "rigids.rest", model.particles());
+    const auto rest = read.points(member(rigids, "rest", read.where, "a rest position per particle"), "rigids.rest",
+                                  model.particles());
     const json& given = member(rigids, "stiff", read.where, "a stiffness per cluster");
     auto stiffness = read.numbers(given, "rigids.stiff", given.is_array() && given.size() == 1 ? 1 : count);
     stiffness.resize(members.size(), stiffness.empty() ? 0 : stiffness.front());
     for (long c = 0; c < count; ++c) {
-        if (members[c].empty()) refuse(read.where, "rigids.clusters[" + std::to_string(c) + "]", json::array(), "at least one particle");
+        if (members[c].empty())
+            refuse(read.where, "rigids.clusters[" + std::to_string(c) + "]", json::array(), "at least one particle");
         model.clusters.push_back(make_cluster(members[c], rest, stiffness[c]));
     }
     if (rigids.contains("rot")) {
-        const auto rotations = rows<Eigen::VectorXd>(rigids["rot"], read.where, "rigids.rot", count,
-                                                     [&](const json& row, const std::string& field) { return read.vector(row, field, 4); });
+        const auto rotations = rows<Eigen::VectorXd>(
+            rigids["rot"], read.where, "rigids.rot", count,
+            [&](const json& row, const std::string& field) { return read.vector(row, field, 4); });
         for (long c = 0; c < count; ++c) model.clusters[c].rotation.coeffs() = rotations[c];
     }
     if (rigids.contains("trans")) {
@@ -163,7 +193,8 @@ ParticleExperiment read_particle_experiment(const json& source, const std::strin
     if (source.contains("name") && source["name"].is_string()) experiment.name = source["name"];
     experiment.time_step = number(member(source, "dt", where, "the time step in s"), where, "dt");
     if (!(experiment.time_step > 0)) refuse(where, "dt", source["dt"], "a time above 0");
-    experiment.substeps = integer(member(source, "substeps", where, "a number of substeps"), where, "substeps", 1, 1000000);
+    experiment.substeps =
+        integer(member(source, "substeps", where, "a number of substeps"), where, "substeps", 1, 1000000);
     model.time_step = experiment.time_step;
     model.parameters.substeps = experiment.substeps;
 
@@ -172,8 +203,10 @@ ParticleExperiment read_particle_experiment(const json& source, const std::strin
     model.velocity = read.points(member(source, "vel", where, "velocities"), "vel", count);
     model.inverse_mass = read.numbers(member(source, "invm", where, "inverse masses"), "invm", count);
     for (long i = 0; i < count; ++i)
-        if (model.inverse_mass[i] < 0) refuse(where, "invm[" + std::to_string(i) + "]", model.inverse_mass[i], "an inverse mass of 0 or more");
-    for (const int bits : read.indices(member(source, "phase", where, "phases"), "phase", count, std::numeric_limits<int>::max()))
+        if (model.inverse_mass[i] < 0)
+            refuse(where, "invm[" + std::to_string(i) + "]", model.inverse_mass[i], "an inverse mass of 0 or more");
+    for (const int bits :
+         read.indices(member(source, "phase", where, "phases"), "phase", count, std::numeric_limits<int>::max()))
         model.phase.push_back(static_cast<std::uint32_t>(bits));
     if (source.contains("rest")) model.rest_position = read.points(source["rest"], "rest", count);
 

@@ -17,7 +17,8 @@ struct ParticleExperiment {
     int substeps = 1;
 };
 
-/// Reads one experiment. `where` names it in messages. Throws InputError naming the field, its value and what is allowed.
+/// Reads one experiment. `where` names it in messages. Throws InputError naming the field, its value and what is
+/// allowed.
 ParticleExperiment read_particle_experiment(const nlohmann::json& json, const std::string& where);
 
 /// Runs an experiment and returns it with `frames` computed. The frames asked for are those the input lists, each with

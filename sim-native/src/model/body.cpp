@@ -1,5 +1,7 @@
 #include "body.h"
 
+#include "cluster.h"
+
 namespace natator {
 namespace {
 
@@ -26,21 +28,11 @@ void add_slice(const Creature& creature, const BodyLayout& layout, int slice, Mo
 }
 
 /// One cluster of the slices from `front` to `rear`, both included.
-Cluster make_cluster(const Model& model, int front, int rear, double stiffness) {
-    Cluster cluster;
-    cluster.stiffness = stiffness;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (int slice = front; slice <= rear; ++slice) {
-        for (const int particle : model.body.slices[slice]) {
-            cluster.particles.push_back(particle);
-            sum += model.position[particle];
-        }
-    }
-    cluster.centre = sum / static_cast<double>(cluster.particles.size());
-    for (const int particle : cluster.particles) {
-        cluster.rest_offset.push_back(model.position[particle] - cluster.centre);
-    }
-    return cluster;
+Cluster cluster_of_slices(const Model& model, int front, int rear, double stiffness) {
+    std::vector<int> particles;
+    for (int slice = front; slice <= rear; ++slice)
+        particles.insert(particles.end(), model.body.slices[slice].begin(), model.body.slices[slice].end());
+    return make_cluster(std::move(particles), model.position, stiffness);
 }
 
 }  // namespace
@@ -57,10 +49,10 @@ void add_body(const Creature& creature, const BodyLayout& layout, Model& model) 
 
     int front = 0;
     for (const int joint : creature.joints) {
-        model.clusters.push_back(make_cluster(model, front, joint, creature.cluster_stiffness));
+        model.clusters.push_back(cluster_of_slices(model, front, joint, creature.cluster_stiffness));
         front = joint;
     }
-    model.clusters.push_back(make_cluster(model, front, last, creature.cluster_stiffness));
+    model.clusters.push_back(cluster_of_slices(model, front, last, creature.cluster_stiffness));
 }
 
 }  // namespace natator

@@ -1,0 +1,59 @@
+#include <fstream>
+#include <memory>
+
+#include "commands.h"
+#include "io/particle_experiment.h"
+#include "natator/error.h"
+#include "natator/strict_json.h"
+
+namespace natator::cli {
+namespace {
+
+struct Options {
+    std::string file;
+    std::string output;
+    std::string precision = "float";
+};
+
+std::string experiment_name(const std::string& file, const nlohmann::json& experiment, std::size_t index) {
+    std::string where = file + "[" + std::to_string(index) + "]";
+    if (experiment.is_object() && experiment.contains("name")) where += " (" + shown(experiment["name"]) + ")";
+    return where;
+}
+
+void run_particles(const Options& options, int& status) {
+    const nlohmann::json experiments = read_json_file(options.file);
+    if (!experiments.is_array()) throw InputError(options.file + ": is not an array of experiments");
+    const Precision precision =
+        options.precision == "double" ? Precision::double_precision : Precision::single_precision;
+    nlohmann::json results = nlohmann::json::array();
+    for (std::size_t i = 0; i < experiments.size(); ++i) {
+        results.push_back(
+            run_particle_experiment(experiments[i], experiment_name(options.file, experiments[i], i), precision));
+        const auto& frames = results.back()["frames"];
+        if (!frames.empty() && frames.back().contains("unstable")) status = unstable;
+    }
+    if (options.output.empty()) {
+        print(results.dump() + "\n");
+        return;
+    }
+    std::ofstream file(options.output);
+    file << results.dump() << '\n';
+    if (!file.flush()) throw std::runtime_error(options.output + ": can't be written");
+}
+
+}  // namespace
+
+void add_particles(CLI::App& app, int& status) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("particles", "Run experiments on raw particles and write them back with results");
+    command->add_option("file", options->file, "JSON array of experiments; format: tests/conformance/README.md")
+        ->required();
+    command->add_option("--output,-o", options->output, "Write here instead of standard output");
+    command->add_option("--precision", options->precision, "float or double")
+        ->check(CLI::IsMember({"float", "double"}));
+    command->callback([options, &status] { run_particles(*options, status); });
+}
+
+}  // namespace natator::cli

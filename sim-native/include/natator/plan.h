@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "natator/model.h"
+
+namespace natator {
+
+/// What a Model needs, decided once: a stage that is false here does not run and owns no memory.
+struct Plan {
+    bool fluid = false;           ///< density constraint, fluid neighbour lists
+    bool contacts = false;        ///< pairs that are not both fluid
+    bool solid_pressure = false;  ///< solids add to the fluid's density
+    bool uniform_fluid = false;   ///< every fluid particle collides with every other: no test per pair
+    bool springs = false;
+    bool clusters = false;
+    bool planes = false;
+    bool particle_friction = false;
+    bool plane_friction = false;
+    bool viscosity = false;
+    bool damping = false;
+    bool clamp_acceleration = false;
+    bool clamp_speed = false;
+};
+
+Plan make_plan(const Model& model);
+
+/// One line per stage in the order of a substep, as `natator-sim info` prints it.
+std::vector<std::string> describe_plan(const Model& model);
+
+}  // namespace natator

@@ -1,0 +1,121 @@
+#include <charconv>
+#include <string>
+
+#include "natator/error.h"
+#include "particle_experiment.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+
+/// Single precision is written with the digits that read back exactly, not with those of its double.
+json value_of(double value) {
+    return value;
+}
+json value_of(float value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    return std::stod(std::string(text, end));
+}
+
+template <class Vector>
+json row_of(const Vector& vector) {
+    json row = json::array();
+    for (Eigen::Index k = 0; k < vector.size(); ++k) row.push_back(value_of(vector[k]));
+    return row;
+}
+
+template <class Real>
+json rows_of(const std::vector<Vector3<Real>>& vectors) {
+    json rows = json::array();
+    for (const auto& vector : vectors) rows.push_back(row_of(vector));
+    return rows;
+}
+
+/// Records what Flex' callbacks saw: predicted positions, positions after each iteration, velocities at the end.
+template <class Real>
+class TraceRecorder : public StepObserver<Real> {
+public:
+    void predicted(const std::vector<Vector3<Real>>& positions) override {
+        trace.push_back({{"predicted", rows_of(positions)}, {"iterations", json::array()}});
+    }
+    void iterated(const std::vector<Vector3<Real>>& positions) override {
+        trace.back()["iterations"].push_back(rows_of(positions));
+    }
+    void substep_ended(const std::vector<Vector3<Real>>& velocities) override {
+        trace.back()["velocity_raw"] = rows_of(velocities);
+    }
+
+    json trace = json::array();
+};
+
+/// One entry of the result's `frames`, with the fields that `asked` has.
+template <class Real>
+json frame_of(const json& asked, const State<Real>& state, Solver<Real>& solver, json trace) {
+    json frame{{"frame", asked.at("frame")}, {"pos", rows_of(state.position)}, {"vel", rows_of(state.velocity)}};
+    if (asked.contains("density")) {
+        frame["density"] = json::array();
+        for (const Real density : solver.densities()) frame["density"].push_back(value_of(density));
+    }
+    if (asked.contains("neighbors")) frame["neighbors"] = solver.neighbour_counts();
+    if (asked.contains("rot")) {
+        frame["rot"] = json::array();
+        for (const auto& rotation : state.cluster_rotation) frame["rot"].push_back(row_of(rotation.coeffs()));
+    }
+    if (asked.contains("trans")) frame["trans"] = rows_of(state.cluster_centre);
+    if (asked.contains("first_substep")) frame["first_substep"] = trace.at(0);
+    if (asked.contains("substeps_trace")) frame["substeps_trace"] = std::move(trace);
+    return frame;
+}
+
+template <class Real>
+json run_frames(const ParticleExperiment& experiment, const json& asked_frames) {
+    Solver<Real> solver(experiment.model);
+    State<Real> state = initial_state<Real>(experiment.model);
+    json frames = json::array();
+    long updates = 0;
+    for (const json& asked : asked_frames) {
+        TraceRecorder<Real> recorder;
+        const bool traced = asked.contains("substeps_trace") || asked.contains("first_substep");
+        while (updates < asked.at("frame").get<long>()) {
+            ++updates;
+            const bool last = updates == asked.at("frame").get<long>();
+            const auto bad =
+                solver.update(state, experiment.time_step, experiment.substeps, traced && last ? &recorder : nullptr);
+            if (!bad) continue;
+            frames.push_back({{"frame", updates},
+                              {"unstable", {{"particle", bad->particle}, {"stage", bad->stage}, {"time", bad->time}}}});
+            return frames;
+        }
+        frames.push_back(frame_of(asked, state, solver, std::move(recorder.trace)));
+    }
+    return frames;
+}
+
+/// The frames to record: as the input lists them, each number larger than the one before.
+json asked_frames(const json& experiment, const std::string& where) {
+    const json frames = experiment.value("frames", json::array({{{"frame", 1}}}));
+    long last = 0;
+    if (!frames.is_array()) throw InputError(where + ": frames is not an array of objects with a frame number");
+    for (const json& frame : frames) {
+        if (!frame.is_object() || !frame.contains("frame") || !frame["frame"].is_number_integer() ||
+            frame["frame"].get<long>() <= last)
+            throw InputError(where + ": frames must be objects whose frame numbers are 1 or more and increase");
+        last = frame["frame"];
+    }
+    return frames;
+}
+
+}  // namespace
+
+json run_particle_experiment(const json& source, const std::string& where, Precision precision) {
+    const ParticleExperiment experiment = read_particle_experiment(source, where);
+    const json asked = asked_frames(source, where);
+    json result = source;
+    result["frames"] = precision == Precision::double_precision ? run_frames<double>(experiment, asked)
+                                                                : run_frames<float>(experiment, asked);
+    return result;
+}
+
+}  // namespace natator

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace natator::cpu {
+
+/// Allocates on cache-line boundaries, so that a block of 16 lanes never straddles two more lines than it must.
+template <class T>
+struct CacheLineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t alignment{64};
+
+    CacheLineAllocator() = default;
+    template <class U>
+    CacheLineAllocator(const CacheLineAllocator<U>&) {}
+
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
+    bool operator==(const CacheLineAllocator&) const { return true; }
+};
+
+template <class T>
+using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+
+/// Three coordinates, one array each.
+template <class Real>
+struct Vector3Array {
+    AlignedVector<Real> x, y, z;
+
+    void resize(std::size_t n, Real value = 0) {
+        x.resize(n, value);
+        y.resize(n, value);
+        z.resize(n, value);
+    }
+};
+
+}  // namespace natator::cpu

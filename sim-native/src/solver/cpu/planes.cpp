@@ -1,0 +1,34 @@
+#include "stages.h"
+
+namespace natator::cpu {
+
+/// Where the distance d to a plane is below collisionDistance: move out by e = collisionDistance - d, then take
+/// min(dynamicFriction * e, m) off the tangential displacement m since the substep's start (all of it if
+/// m < staticFriction * e). Not pooled with other constraints.
+template <class Real>
+void Stages<Real>::solve_planes() {
+    for (const auto& [slot, plane] : ws_.plane_contacts) {
+        const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
+        const Real offset = static_cast<Real>(model_.planes[plane].offset);
+        Vector3<Real> x = position_of_slot(slot);
+        const Real depth = constants_.collision_distance - (normal.dot(x) + offset);
+        if (!(depth > 0)) continue;
+        x += depth * normal;
+        if (plan_.plane_friction) {
+            const Vector3<Real> moved = x - start_of_slot(slot);
+            const Vector3<Real> tangential = moved - moved.dot(normal) * normal;
+            const Real m = tangential.norm();
+            const Real held =
+                m < constants_.static_friction * depth ? m : std::min(constants_.dynamic_friction * depth, m);
+            if (m > 0) x -= held / m * tangential;
+        }
+        ws_.position.x[slot] = x.x();
+        ws_.position.y[slot] = x.y();
+        ws_.position.z[slot] = x.z();
+    }
+}
+
+template void Stages<float>::solve_planes();
+template void Stages<double>::solve_planes();
+
+}  // namespace natator::cpu

@@ -1,0 +1,132 @@
+#include "stages.h"
+
+#include <cmath>
+
+namespace natator::cpu {
+namespace {
+
+/// S = sum of (1 - r/R)^2 over a rest packing of spacing a: each particle has 10 neighbours at a and 4 at sqrt(1.5) a
+/// (x shifted by a/2 where y + z is odd, rows sqrt(3/4) a apart in y and z). `ratio` = a/R.
+double rest_packing_sum(double ratio) {
+    const int n = static_cast<int>(std::ceil(1 / ratio)) + 1;
+    double sum = 0;
+    for (int z = -n; z <= n; ++z)
+        for (int y = -n; y <= n; ++y)
+            for (int x = -n; x <= n; ++x) {
+                const double shift = (y + z) % 2 != 0 ? 0.5 : 0.0;
+                const double r = ratio * std::hypot(x + shift, y * std::sqrt(0.75), z * std::sqrt(0.75));
+                if (r > 0 && r < 1) sum += (1 - r) * (1 - r);
+            }
+    return sum;
+}
+
+}  // namespace
+
+template <class Real>
+Constants<Real>::Constants(const SolverParameters& p)
+    : radius(Real(p.radius)),
+      inverse_radius(1 / radius),
+      search_distance(Real(p.radius) + Real(p.particleCollisionMargin)),
+      solid_rest_distance(Real(p.solidRestDistance)),
+      density_scale(0),
+      dynamic_friction(Real(p.dynamicFriction)),
+      static_friction(Real(p.staticFriction)),
+      particle_friction(Real(p.particleFriction)),
+      collision_distance(Real(p.collisionDistance)),
+      plane_search_distance(Real(p.collisionDistance) + Real(p.shapeCollisionMargin)),
+      relaxation_factor(Real(p.relaxationFactor)),
+      max_speed(Real(p.maxSpeed)) {
+    const double rest_sum = p.fluidRestDistance > 0 ? rest_packing_sum(p.fluidRestDistance / p.radius) : 0;
+    if (rest_sum > 0) density_scale = static_cast<Real>(1 / rest_sum);
+}
+
+template <class Real>
+Stages<Real>::Stages(const Model& model)
+    : model_(model),
+      plan_(make_plan(model)),
+      constants_(model.parameters),
+      ws_(model),
+      kernels_(&fluid_kernels<Real>(instruction_set())) {
+    for (const double w : model.inverse_mass) inverse_mass_.push_back(static_cast<Real>(w));
+    for (const Spring& spring : model.springs) spring_stiffness_.push_back(static_cast<Real>(spring.stiffness));
+    for (const Cluster& cluster : model.clusters) {
+        cluster_offset_.emplace_back();
+        for (const auto& offset : cluster.rest_offset) cluster_offset_.back().push_back(offset.cast<Real>());
+    }
+}
+
+template <class Real>
+void Stages<Real>::gather_slots() {
+    cluster_rotation_ = state_->cluster_rotation;
+    cluster_centre_ = state_->cluster_centre;
+    const auto put = [](Vector3Array<Real>& array, int slot, const Vector3<Real>& value) {
+        array.x[slot] = value.x();
+        array.y[slot] = value.y();
+        array.z[slot] = value.z();
+    };
+    for (int i = 0; i < ws_.particles; ++i) {
+        const int slot = ws_.slot_of[i];
+        put(ws_.position, slot, ws_.predicted_position[i]);
+        put(ws_.start, slot, state_->position[i]);
+        put(ws_.predicted, slot, ws_.predicted_velocity[i]);
+        ws_.inverse_mass[slot] = inverse_mass_[i];
+    }
+}
+
+/// Does particle i feel particle j? Pairs of different groups always; pairs of one group if i has self_collide, and
+/// not if it has self_collide_filter and the two are closer than the radius at rest.
+template <class Real>
+bool Stages<Real>::collides(int i, int j) const {
+    if ((model_.phase[i] & phase::group_mask) != (model_.phase[j] & phase::group_mask)) return true;
+    if (!(model_.phase[i] & phase::self_collide)) return false;
+    if (!(model_.phase[i] & phase::self_collide_filter) || model_.rest_position.empty()) return true;
+    return (model_.rest_position[i] - model_.rest_position[j]).norm() >= model_.parameters.radius;
+}
+
+template <class Real>
+void Stages<Real>::add_correction(int slot, const Vector3<Real>& correction) {
+    ws_.correction.x[slot] += correction.x();
+    ws_.correction.y[slot] += correction.y();
+    ws_.correction.z[slot] += correction.z();
+    ws_.constraint_count[slot] += 1;
+}
+
+/// The density constraint sets the corrections of the fluid; those of the solids start from 0.
+template <class Real>
+void Stages<Real>::clear_corrections() {
+    for (auto* array : {&ws_.correction.x, &ws_.correction.y, &ws_.correction.z, &ws_.constraint_count})
+        std::fill(array->begin() + ws_.solid_begin, array->begin() + ws_.slots, Real(0));
+}
+
+template <class Real>
+std::vector<Vector3<Real>> Stages<Real>::positions() const {
+    std::vector<Vector3<Real>> positions;
+    for (const int slot : ws_.slot_of) positions.push_back(position_of_slot(slot));
+    return positions;
+}
+
+template <class Real>
+std::vector<Real> Stages<Real>::densities() {
+    std::vector<Real> densities(ws_.particles, Real(0));
+    if (!plan_.fluid) return densities;
+    compute_density();
+    for (const int i : ws_.fluid_ids)
+        if (inverse_mass_[i] > 0) densities[i] = ws_.density[ws_.slot_of[i]];
+    return densities;
+}
+
+template <class Real>
+std::vector<int> Stages<Real>::neighbour_counts() const {
+    std::vector<int> counts(ws_.particles, 0);
+    for (const int i : ws_.fluid_ids) counts[i] = ws_.neighbour_count[ws_.slot_of[i]];
+    for (std::size_t k = 0; k < ws_.touched.size(); ++k)
+        counts[ws_.particle_of[ws_.touched[k]]] += ws_.contact_begin[k + 1] - ws_.contact_begin[k];
+    return counts;
+}
+
+template struct Constants<float>;
+template struct Constants<double>;
+template class Stages<float>;
+template class Stages<double>;
+
+}  // namespace natator::cpu

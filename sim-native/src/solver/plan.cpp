@@ -1,0 +1,90 @@
+#include "natator/plan.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace natator {
+namespace {
+
+bool limits(double value) {
+    return value < static_cast<double>(std::numeric_limits<float>::max());
+}
+
+/// Can a pair that is not fluid-fluid ever collide? Pairs of one group do only with self_collide.
+bool has_contacts(const Model& model) {
+    std::set<std::uint32_t> groups;
+    bool any_solid = false;
+    bool any_self_collide = false;
+    for (int i = 0; i < model.particles(); ++i) {
+        groups.insert(model.phase[i] & phase::group_mask);
+        any_solid |= !model.is_fluid(i);
+        any_self_collide |= (model.phase[i] & phase::self_collide) != 0;
+    }
+    return any_solid && (groups.size() > 1 || any_self_collide);
+}
+
+bool is_uniform_fluid(const Model& model) {
+    std::set<std::uint32_t> fluid_phases;
+    for (int i = 0; i < model.particles(); ++i)
+        if (model.is_fluid(i))
+            fluid_phases.insert(model.phase[i] &
+                                (phase::group_mask | phase::self_collide | phase::self_collide_filter));
+    return fluid_phases.size() == 1 && (*fluid_phases.begin() & phase::self_collide) &&
+           !(*fluid_phases.begin() & phase::self_collide_filter);
+}
+
+}  // namespace
+
+Plan make_plan(const Model& model) {
+    const SolverParameters& p = model.parameters;
+    const auto is_fluid = [](std::uint32_t bits) { return (bits & phase::fluid) != 0; };
+    Plan plan;
+    plan.fluid = std::any_of(model.phase.begin(), model.phase.end(), is_fluid);
+    plan.contacts = has_contacts(model);
+    plan.solid_pressure = plan.fluid && plan.contacts && p.solidPressure != 0;
+    plan.uniform_fluid = plan.fluid && is_uniform_fluid(model);
+    plan.springs = !model.springs.empty();
+    plan.clusters = !model.clusters.empty();
+    plan.planes = !model.planes.empty();
+    plan.particle_friction = plan.contacts && p.dynamicFriction > 0 && (p.particleFriction > 0 || p.staticFriction > 0);
+    plan.plane_friction = plan.planes && p.dynamicFriction > 0;
+    plan.viscosity = plan.fluid && p.viscosity != 0;
+    plan.damping = p.damping != 0;
+    plan.clamp_acceleration = limits(p.maxAcceleration);
+    plan.clamp_speed = limits(p.maxSpeed);
+    return plan;
+}
+
+std::vector<std::string> describe_plan(const Model& model) {
+    const Plan plan = make_plan(model);
+    std::vector<std::string> lines;
+    const auto add = [&lines](bool needed, std::string line) {
+        if (needed) lines.push_back(std::move(line));
+    };
+    const std::string iterations = std::to_string(model.parameters.numIterations);
+    add(!model.muscles.empty(), "per frame: actuate muscles");
+    add(true, "per substep: predict");
+    add(plan.fluid || plan.contacts, "per substep: sort into cells");
+    add(plan.fluid, std::string("per substep: find fluid neighbours") + (plan.uniform_fluid ? "" : " (test per pair)"));
+    add(plan.contacts, "per substep: find contacts");
+    add(plan.planes, "per substep: find plane contacts");
+    const std::string per_iteration = iterations + " x per substep: ";
+    add(plan.fluid, per_iteration + (plan.solid_pressure ? "density with solid pressure" : "density"));
+    add(plan.fluid, per_iteration + "density constraint");
+    add(plan.contacts, per_iteration + (plan.particle_friction ? "contacts with friction" : "contacts"));
+    add(plan.springs, per_iteration + "springs");
+    add(plan.clusters, per_iteration + "shape matching");
+    add(true, per_iteration + (model.parameters.relaxationMode == RelaxationMode::local ? "local relaxation"
+                                                                                        : "global relaxation"));
+    add(plan.planes, per_iteration + (plan.plane_friction ? "planes with friction" : "planes"));
+    std::string velocities = "per substep: velocities";
+    if (plan.viscosity) velocities += ", viscosity";
+    if (plan.damping) velocities += ", damping";
+    if (plan.clamp_acceleration) velocities += ", acceleration clamp";
+    if (plan.clamp_speed) velocities += ", speed clamp";
+    add(true, velocities + ", check finite");
+    return lines;
+}
+
+}  // namespace natator

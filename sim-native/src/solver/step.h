@@ -1,0 +1,57 @@
+#pragma once
+
+#include "natator/plan.h"
+
+namespace natator {
+
+/// One constraint iteration of scheme `flex`: every correction is computed from the same positions and summed
+/// (Jacobi), the sum is relaxed and applied, planes come last and one after the other.
+template <class Stages, class AfterStage>
+void iterate(Stages& stages, const Plan& plan, const AfterStage& after) {
+    stages.clear_corrections();
+    if (plan.fluid) {
+        stages.compute_density();
+        after("density");
+        stages.solve_density_constraint();
+        after("density constraint");
+    }
+    if (plan.contacts) {
+        stages.solve_contacts();
+        after("contacts");
+    }
+    if (plan.springs) {
+        stages.solve_springs();
+        after("springs");
+    }
+    if (plan.clusters) {
+        stages.solve_clusters();
+        after("shape matching");
+    }
+    stages.relax_and_apply();
+    after("relaxation");
+    if (plan.planes) {
+        stages.solve_planes();
+        after("planes");
+    }
+}
+
+/// One substep: this is the order of stages for every backend. `after(name)` is called behind each stage.
+template <class Stages, class AfterStage>
+void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage& after) {
+    stages.predict();
+    after("predict");
+    if (plan.fluid || plan.contacts) stages.sort_into_cells();
+    stages.gather_slots();
+    if (plan.fluid) stages.find_fluid_neighbours();
+    if (plan.contacts) stages.find_contacts();
+    if (plan.planes) stages.find_plane_contacts();
+    after("neighbours");
+    for (int i = 0; i < iterations; ++i) {
+        iterate(stages, plan, after);
+        after("iteration");
+    }
+    stages.update_velocities();
+    after("velocities");
+}
+
+}  // namespace natator
