@@ -1,0 +1,57 @@
+package io.natator.checkpoint;
+
+import io.natator.config.ExecutionSettings;
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.OutputStream;
+import java.io.UncheckedIOException;
+import java.nio.file.Files;
+import java.security.DigestInputStream;
+import java.security.MessageDigest;
+import java.security.NoSuchAlgorithmException;
+import java.time.Instant;
+import java.time.temporal.ChronoUnit;
+import java.util.HexFormat;
+
+/**
+ * Where and how a run was carried out; {@code environment.json}. Nothing in it changes the outcome but the simulator's
+ * build.
+ *
+ * @param natator         version of this program
+ * @param simulator       path of the native program
+ * @param simulatorSha256 digest of that file
+ * @param workers         evaluations at the same time
+ * @param timeoutSeconds  time limit of an attempt at an evaluation
+ * @param java            version of the Java runtime
+ * @param system          operating system and processor architecture
+ * @param processors      processors available
+ * @param started         when this was written
+ */
+public record Environment(String natator, String simulator, String simulatorSha256, int workers, double timeoutSeconds,
+        String java, String system, int processors, String started) {
+
+    /** The present environment. */
+    public static Environment present(ExecutionSettings execution) {
+        String version = Environment.class.getPackage().getImplementationVersion();
+        return new Environment(version == null ? "development" : version, execution.simulator().toString(),
+                sha256(execution), execution.workers(), execution.timeout().toMillis() / 1000.0,
+                Runtime.version().toString(),
+                System.getProperty("os.name") + " " + System.getProperty("os.version") + " "
+                        + System.getProperty("os.arch"),
+                Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString());
+    }
+
+    private static String sha256(ExecutionSettings execution) {
+        try {
+            MessageDigest digest = MessageDigest.getInstance("SHA-256");
+            try (InputStream in = new DigestInputStream(Files.newInputStream(execution.simulator()), digest)) {
+                in.transferTo(OutputStream.nullOutputStream());
+            }
+            return HexFormat.of().formatHex(digest.digest());
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot read " + execution.simulator() + ": " + e.getMessage(), e);
+        } catch (NoSuchAlgorithmException e) {
+            throw new IllegalStateException("every Java runtime has SHA-256", e);
+        }
+    }
+}

@@ -1,0 +1,157 @@
+package io.natator.checkpoint;
+
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.encoding.Encoding;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionState;
+import io.natator.simulator.SimulationResult;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.Map;
+import java.util.stream.Stream;
+
+/**
+ * The folder of one run. Everything that an evolution needs to continue is in it at every moment: {@code config.json}
+ * from the start, {@code checkpoint.json} after each generation, {@code evaluations.jsonl} after each simulation.
+ * {@code generations.csv} and {@code best.json} follow from the checkpoint. All of these are the same for the same
+ * settings and simulator; {@code environment.json} and {@code timings.csv} say where and how fast it ran.
+ */
+public final class RunFolder implements EvolutionListener, AutoCloseable {
+
+    private static final String CONFIG = "config.json";
+    private static final String CHECKPOINT = "checkpoint.json";
+
+    private final Path directory;
+    private final EvolutionSettings settings;
+    private final Encoding encoding;
+    private final EvolutionState checkpoint;
+    private final EvaluationLog log;
+    private final Timings timings;
+
+    private RunFolder(Path directory, EvolutionSettings settings) {
+        this.directory = directory;
+        this.settings = settings;
+        this.encoding = settings.encoding().forActuators(settings.actuators());
+        this.log = new EvaluationLog(directory.resolve("evaluations.jsonl"));
+        this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
+                ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
+        this.timings = new Timings(directory.resolve("timings.csv"));
+    }
+
+    /**
+     * Makes the folder of a new run.
+     *
+     * @throws InvalidInputException if there is something in it already, or it cannot be made
+     */
+    public static RunFolder create(Path directory, EvolutionSettings settings) {
+        try {
+            Files.createDirectories(directory);
+            if (isOccupied(directory)) {
+                throw new InvalidInputException("output folder " + directory + " is not empty; choose another by "
+                        + "--output-dir, or continue the run in it by --resume " + directory);
+            }
+        } catch (IOException e) {
+            throw new InvalidInputException("output folder " + directory + " cannot be made: " + e, e);
+        }
+        AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+        return new RunFolder(directory, settings);
+    }
+
+    /** Whether there is anything at this path but an empty folder. */
+    public static boolean isOccupied(Path directory) throws IOException {
+        if (!Files.isDirectory(directory)) {
+            return Files.exists(directory);
+        }
+        try (Stream<Path> files = Files.list(directory)) {
+            return files.findAny().isPresent();
+        }
+    }
+
+    /**
+     * Opens the folder of an earlier run to continue it.
+     *
+     * @throws InvalidInputException if it is not one, is damaged, or is in use
+     */
+    public static RunFolder open(Path directory) {
+        if (!Files.isRegularFile(directory.resolve(CONFIG))) {
+            throw new InvalidInputException(directory + " is not a run folder: it has no " + CONFIG);
+        }
+        return new RunFolder(directory, Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings"));
+    }
+
+    /** Where it is. */
+    public Path directory() {
+        return directory;
+    }
+
+    /** The settings of the run. */
+    public EvolutionSettings settings() {
+        return settings;
+    }
+
+    /** The state after the last generation that was finished when the folder was opened; null if there was none. */
+    public EvolutionState checkpoint() {
+        return checkpoint;
+    }
+
+    /** Simulations that were finished after that, by id. */
+    public Map<Long, EvaluationRecord> unfinishedGeneration() {
+        return log.from(checkpoint == null ? 0 : checkpoint.evaluations());
+    }
+
+    /** Writes where and how the run is carried out. */
+    public void write(Environment environment) {
+        AtomicFile.write(directory.resolve("environment.json"), Json.document(environment));
+    }
+
+    @Override
+    public void generationStarted(int generation, int simulations) {
+        timings.start();
+    }
+
+    @Override
+    public void evaluated(EvaluationRecord evaluation) {
+        log.append(evaluation);
+    }
+
+    /** Writes the checkpoint first: if the run is killed right after, the rest can be made from it. */
+    @Override
+    public void generationFinished(EvolutionState state) {
+        AtomicFile.write(directory.resolve(CHECKPOINT), Json.document(state));
+        writeResults(state, null);
+        timings.append(state);
+    }
+
+    /**
+     * Writes what follows from a state.
+     *
+     * @param vacuum result of the best gait in vacuum, or null
+     */
+    public void writeResults(EvolutionState state, SimulationResult vacuum) {
+        AtomicFile.write(directory.resolve("generations.csv"), GenerationTable.csv(state.history()));
+        if (state.best() != null) {
+            BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()), vacuum);
+            AtomicFile.write(directory.resolve("best.json"), Json.document(best));
+        }
+    }
+
+    /** The folder for pictures, made if it is not there. */
+    public Path plots() {
+        Path plots = directory.resolve("plots");
+        try {
+            return Files.createDirectories(plots);
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot make " + plots + ": " + e.getMessage(), e);
+        }
+    }
+
+    @Override
+    public void close() {
+        log.close();
+    }
+}

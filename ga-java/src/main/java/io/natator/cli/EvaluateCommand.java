@@ -1,0 +1,97 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.EncodingKind;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.encoding.DenseEncoding;
+import io.natator.encoding.Gait;
+import io.natator.simulator.ProcessSimulator;
+import io.natator.simulator.SceneInfo;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.Simulator;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+/** {@code natator evaluate}: simulates one gait and prints the result as one line of JSON. */
+@Command(name = "evaluate", description = "Simulates one gait and prints the result as JSON.",
+        mixinStandardHelpOptions = true)
+final class EvaluateCommand implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SimulatorOptions simulatorOptions;
+
+    @Option(names = "--scene", required = true, paramLabel = "NAME|FILE", description = "For example thesis/creature-1.")
+    private String scene;
+
+    @Option(names = "--gait", required = true, arity = "1..*", paramLabel = "FILE|GENE",
+            description = "A JSON file with a gait (or a run's best.json), or genes: frequency, amplitudes, phases but "
+                    + "the first (dense); or frequency, first and last amplitude, phase difference (sparse).")
+    private List<String> gait;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        ExecutionSettings execution = simulatorOptions.execution(1);
+        String sceneName = SimulatorOptions.scene(scene);
+        SimulationRequest request = new SimulationRequest(0, sceneName, gait(sceneName, execution),
+                simulatorOptions.duration(), simulatorOptions.scheme(), simulatorOptions.overrides());
+        SimulationResult result;
+        try (Simulator simulator = new ProcessSimulator(execution)) {
+            result = simulator.evaluate(request);
+        }
+        spec.commandLine().getOut().println(Json.line(result));
+        return result.status() == SimulationResult.Status.OK ? ExitCode.OK : ExitCode.SOFTWARE;
+    }
+
+    private Gait gait(String sceneName, ExecutionSettings execution) throws InterruptedException {
+        if (gait.size() == 1 && (gait.get(0).endsWith(".json") || Files.exists(Path.of(gait.get(0))))) {
+            return gaitOf(Path.of(gait.get(0)));
+        }
+        int actuators = SceneInfo.of(sceneName, execution).actuators();
+        List<Double> genes = numbers();
+        // Of two actuators both encodings are the same.
+        boolean dense = genes.size() == new DenseEncoding(Math.max(actuators, 1)).genes().size() || genes.size() != 4;
+        try {
+            return (dense ? EncodingKind.DENSE : EncodingKind.SPARSE).forActuators(actuators).decode(genes);
+        } catch (IllegalArgumentException e) {
+            throw new InvalidInputException("--gait: " + e.getMessage(), e);
+        }
+    }
+
+    private static Gait gaitOf(Path file) {
+        JsonNode content = Json.read(file, JsonNode.class, "--gait");
+        try {
+            return Json.parse((content.has("gait") ? content.get("gait") : content).toString(), Gait.class);
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException("--gait " + file + ": " + Json.reason(e), e);
+        }
+    }
+
+    private List<Double> numbers() {
+        List<Double> genes = new ArrayList<>();
+        for (String gene : gait) {
+            try {
+                genes.add(Double.parseDouble(gene));
+            } catch (NumberFormatException e) {
+                throw new InvalidInputException("--gait: gene " + (genes.size() + 1) + " is '" + gene
+                        + "'; expected a number", e);
+            }
+        }
+        return genes;
+    }
+}

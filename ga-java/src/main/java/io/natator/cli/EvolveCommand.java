@@ -1,0 +1,143 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.OperatorSet;
+import io.natator.config.Preset;
+import io.natator.simulator.SceneInfo;
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Model.OptionSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+
+/** {@code natator evolve}: evolves the gait of a creature, or continues an interrupted run. */
+@Command(name = "evolve", mixinStandardHelpOptions = true,
+        description = {"Evolves the gait of a creature (thesis 2.6).",
+            "Prints the best gait; keeps everything in a run folder."})
+final class EvolveCommand implements Callable<Integer> {
+
+    /** Options that do not change what a run computes, so that they may be given when it is continued. */
+    private static final List<String> WITH_RESUME =
+            List.of("--resume", "--workers", "--timeout", "--simulator-path");
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SimulatorOptions simulatorOptions;
+
+    @Option(names = "--creature", paramLabel = "1..4", description = "Creature of the thesis. Default: 1.")
+    private Integer creature;
+
+    @Option(names = "--scene", paramLabel = "NAME|FILE", description = "Default: thesis/creature-N.")
+    private String scene;
+
+    @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "${sys:natator.preset:-thesis}",
+            description = "Population and generations: quick (24 x 8) or thesis (150 x 100). Default: ${DEFAULT-VALUE}.")
+    private Preset preset;
+
+    @Option(names = "--population", paramLabel = "N", description = "Chromosomes selected in each generation, from 2.")
+    private Integer population;
+
+    @Option(names = "--generations", paramLabel = "N", description = "Generations after the random one, from 0.")
+    private Integer generations;
+
+    @Option(names = "--seed", paramLabel = "N", defaultValue = "1",
+            description = "The same seed gives the same run. Default: ${DEFAULT-VALUE}.")
+    private long seed;
+
+    @Option(names = "--operators", paramLabel = "SET", defaultValue = "corrected",
+            description = "Genetic operators: corrected, or stock (as JGAP ships them). Default: ${DEFAULT-VALUE}.")
+    private OperatorSet operators;
+
+    @Option(names = "--gaussian-deviation", paramLabel = "X", defaultValue = "0.05",
+            description = "Deviation of the Gaussian mutation as a share of a gene's range. Default: ${DEFAULT-VALUE}.")
+    private double gaussianDeviation;
+
+    @Option(names = "--encoding", paramLabel = "KIND",
+            description = "Genes: dense or sparse. Default: the creature's (2 is sparse, the others dense).")
+    private EncodingKind encoding;
+
+    @Option(names = "--workers", paramLabel = "N",
+            description = "Evaluations at the same time; the result does not depend on it. Default: all processors.")
+    private Integer workers;
+
+    @Option(names = "--output-dir", paramLabel = "DIR",
+            description = "Run folder, new or empty. Default: runs/creature-N-seed-S, numbered if there is one.")
+    private Path outputDir;
+
+    @Option(names = "--resume", paramLabel = "DIR", description = "Continue the run in this folder.")
+    private Path resume;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        ExecutionSettings execution = simulatorOptions.execution(
+                workers == null ? Runtime.getRuntime().availableProcessors() : workers);
+        try (RunFolder folder = resume == null ? newFolder(execution) : oldFolder()) {
+            new EvolutionRun(folder, execution, spec.commandLine().getOut(), spec.commandLine().getErr()).run();
+        }
+        return ExitCode.OK;
+    }
+
+    private RunFolder oldFolder() {
+        for (OptionSpec option : spec.commandLine().getParseResult().matchedOptions()) {
+            if (!WITH_RESUME.contains(option.longestName())) {
+                throw new ParameterException(spec.commandLine(), option.longestName()
+                        + " cannot be given with --resume: the run keeps its settings");
+            }
+        }
+        return RunFolder.open(resume);
+    }
+
+    private RunFolder newFolder(ExecutionSettings execution) throws InterruptedException {
+        String sceneName = sceneName();
+        int actuators = SceneInfo.of(sceneName, execution).actuators();
+        EncodingKind kind = encoding != null ? encoding
+                : sceneName.startsWith("thesis/creature-2") ? EncodingKind.SPARSE : EncodingKind.DENSE;
+        try {
+            kind.forActuators(actuators);
+        } catch (IllegalArgumentException e) {
+            throw new InvalidInputException("scene " + sceneName + ": " + e.getMessage(), e);
+        }
+        EvolutionSettings settings = new EvolutionSettings(sceneName, kind, actuators,
+                population != null ? population : preset.population(),
+                generations != null ? generations : preset.generations(), seed, operators, gaussianDeviation,
+                simulatorOptions.scheme(), simulatorOptions.duration(), simulatorOptions.overrides());
+        return RunFolder.create(outputDir != null ? outputDir : freeFolder(sceneName), settings);
+    }
+
+    private String sceneName() {
+        if (creature != null && scene != null) {
+            throw new ParameterException(spec.commandLine(), "--creature and --scene exclude each other");
+        }
+        if (creature != null && (creature < 1 || creature > 4)) {
+            throw new InvalidInputException("--creature is " + creature + "; expected 1, 2, 3 or 4");
+        }
+        return scene != null ? SimulatorOptions.scene(scene) : "thesis/creature-" + (creature != null ? creature : 1);
+    }
+
+    /** runs/creature-1-seed-7, or with -2, -3 … if that is taken. */
+    private Path freeFolder(String sceneName) {
+        String name = Path.of(sceneName).getFileName().toString().replaceFirst("\\.json$", "") + "-seed-" + seed;
+        Path folder = Path.of("runs", name);
+        try {
+            for (int number = 2; RunFolder.isOccupied(folder); number++) {
+                folder = Path.of("runs", name + "-" + number);
+            }
+        } catch (IOException e) {
+            throw new InvalidInputException("output folder " + folder + " cannot be read: " + e, e);
+        }
+        return folder;
+    }
+}

@@ -1,0 +1,83 @@
+package io.natator.config;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.core.StreamReadFeature;
+import com.fasterxml.jackson.databind.DeserializationFeature;
+import com.fasterxml.jackson.databind.ObjectMapper;
+import com.fasterxml.jackson.databind.exc.MismatchedInputException;
+import com.fasterxml.jackson.databind.json.JsonMapper;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.NoSuchFileException;
+import java.nio.file.Path;
+
+/** The one way in which this program reads and writes JSON: strict, doubles with all their digits. */
+public final class Json {
+
+    private static final ObjectMapper MAPPER = JsonMapper.builder()
+            .enable(DeserializationFeature.FAIL_ON_TRAILING_TOKENS)
+            .enable(DeserializationFeature.FAIL_ON_NULL_FOR_PRIMITIVES)
+            .disable(DeserializationFeature.ACCEPT_FLOAT_AS_INT)
+            .enable(StreamReadFeature.STRICT_DUPLICATE_DETECTION)
+            .disable(StreamReadFeature.INCLUDE_SOURCE_IN_LOCATION)
+            .build();
+
+    private Json() {
+    }
+
+    /** The value as one line of JSON. */
+    public static String line(Object value) {
+        try {
+            return MAPPER.writeValueAsString(value);
+        } catch (JsonProcessingException e) {
+            throw new IllegalArgumentException("not expressible as JSON: " + value.getClass(), e);
+        }
+    }
+
+    /** The value as indented JSON that ends with a line feed. */
+    public static String document(Object value) {
+        try {
+            return MAPPER.writerWithDefaultPrettyPrinter().writeValueAsString(value) + "\n";
+        } catch (JsonProcessingException e) {
+            throw new IllegalArgumentException("not expressible as JSON: " + value.getClass(), e);
+        }
+    }
+
+    /**
+     * Reads one value.
+     *
+     * @throws JsonProcessingException if the text is not exactly one such value
+     */
+    public static <T> T parse(String text, Class<T> type) throws JsonProcessingException {
+        T value = MAPPER.readValue(text, type);
+        if (value == null) {
+            throw MismatchedInputException.from(null, type, "no value");
+        }
+        return value;
+    }
+
+    /**
+     * Reads one value that the user gave.
+     *
+     * @param what what it is, for the message: for example {@code gait file}
+     * @throws InvalidInputException if the file is missing or is not such a value
+     */
+    public static <T> T read(Path file, Class<T> type, String what) {
+        try {
+            return parse(Files.readString(file), type);
+        } catch (NoSuchFileException e) {
+            throw new InvalidInputException(what + " " + file + " does not exist", e);
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException(what + " " + file + ": " + reason(e), e);
+        } catch (IOException e) {
+            throw new InvalidInputException(what + " " + file + " cannot be read: " + e.getMessage(), e);
+        }
+    }
+
+    /** Why the text was refused, as one line with the place. */
+    public static String reason(JsonProcessingException e) {
+        String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON");
+        return e.getLocation() == null ? message
+                : message + " (line " + e.getLocation().getLineNr() + ", column " + e.getLocation().getColumnNr() + ")";
+    }
+}

@@ -1,0 +1,37 @@
+package io.natator.encoding;
+
+import java.util.List;
+
+/**
+ * Translates the genes of a chromosome into a gait (thesis 2.6). The order of the genes matters: single-point
+ * crossover swaps a gene and all after it, so neighbouring genes are inherited together.
+ */
+public sealed interface Encoding permits DenseEncoding, SparseEncoding {
+
+    /** Names and ranges of the genes, in chromosome order. */
+    List<GeneRange> genes();
+
+    /**
+     * The gait that these genes stand for.
+     *
+     * @param genes as many as {@link #genes()}, each within its range
+     * @throws IllegalArgumentException if there are too few or too many, or one is outside its range
+     */
+    Gait decode(List<Double> genes);
+
+    /** Fails unless the genes fit {@link #genes()}. */
+    default void check(List<Double> genes) {
+        List<GeneRange> ranges = genes();
+        if (genes.size() != ranges.size()) {
+            throw new IllegalArgumentException(genes.size() + " genes given; expected " + ranges.size() + ": "
+                    + String.join(", ", ranges.stream().map(GeneRange::name).toList()));
+        }
+        for (int i = 0; i < ranges.size(); i++) {
+            GeneRange range = ranges.get(i);
+            if (!range.contains(genes.get(i))) {
+                throw new IllegalArgumentException("gene " + (i + 1) + " (" + range.name() + ") is " + genes.get(i)
+                        + "; expected a number from " + range.lower() + " to " + range.upper());
+            }
+        }
+    }
+}

@@ -1,0 +1,44 @@
+package io.natator.encoding;
+
+import com.fasterxml.jackson.annotation.JsonInclude;
+import java.util.List;
+import java.util.Objects;
+
+/**
+ * How a creature moves its muscles (thesis 2.5, eq. 2.6): u(t) = sin(2π(f t + φ)) for each actuator. The JSON form is
+ * the {@code gait} of {@code sim-native/protocol/request.schema.json}.
+ *
+ * @param frequency f in 1/s, one for all actuators; evolution stays within [0.5, 2]
+ * @param amplitude a per actuator, the head's first, without unit; evolution stays within [0, 1]
+ * @param phase     φ per actuator in the same order, in periods, within [0, 1]
+ * @param power     p of thesis 4.2 within [0.5, 4], or null for the plain sine
+ */
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record Gait(double frequency, List<Double> amplitude, List<Double> phase, Double power) {
+
+    /**
+     * Copies the lists.
+     *
+     * @throws IllegalArgumentException if there are not as many phases as amplitudes
+     */
+    public Gait {
+        Objects.requireNonNull(amplitude, "amplitude");
+        Objects.requireNonNull(phase, "phase");
+        if (amplitude.size() != phase.size()) {
+            throw new IllegalArgumentException("gait has " + amplitude.size() + " amplitudes and " + phase.size()
+                    + " phases; expected as many of both");
+        }
+        amplitude = List.copyOf(amplitude);
+        phase = List.copyOf(phase);
+    }
+
+    /** A gait that follows the plain sine. */
+    public Gait(double frequency, List<Double> amplitude, List<Double> phase) {
+        this(frequency, amplitude, phase, null);
+    }
+
+    /** Number of actuators that this gait drives. */
+    public int actuators() {
+        return amplitude.size();
+    }
+}

@@ -1,0 +1,51 @@
+package io.natator.encoding;
+
+import java.util.ArrayList;
+import java.util.List;
+
+/**
+ * Sparse encoding (thesis 2.6): frequency, first amplitude, last amplitude, phase difference. Amplitudes run evenly
+ * from the first to the last (eq. 2.9), phases advance by the difference from one actuator to the next (eq. 2.10,
+ * counted so that the first phase is 0, as table 2.2 shows). Four genes for any number of actuators.
+ */
+public final class SparseEncoding implements Encoding {
+
+    private static final List<GeneRange> GENES = List.of(GeneRange.frequency(), GeneRange.unit("first amplitude"),
+            GeneRange.unit("last amplitude"), GeneRange.unit("phase difference"));
+
+    private final int actuators;
+
+    /**
+     * Encoding for a creature.
+     *
+     * @param actuators n, at least 2: with one there is no last amplitude
+     * @throws IllegalArgumentException if n is less than 2
+     */
+    public SparseEncoding(int actuators) {
+        if (actuators < 2) {
+            throw new IllegalArgumentException("sparse encoding of " + actuators + " actuators; expected at least 2");
+        }
+        this.actuators = actuators;
+    }
+
+    @Override
+    public List<GeneRange> genes() {
+        return GENES;
+    }
+
+    @Override
+    public Gait decode(List<Double> values) {
+        check(values);
+        double first = values.get(1);
+        double last = values.get(2);
+        double difference = values.get(3);
+        List<Double> amplitude = new ArrayList<>();
+        List<Double> phase = new ArrayList<>();
+        for (int i = 0; i < actuators; i++) {
+            double share = (double) i / (actuators - 1);
+            amplitude.add((1.0 - share) * first + share * last);
+            phase.add(i * difference % 1.0);
+        }
+        return new Gait(values.get(0), amplitude, phase);
+    }
+}

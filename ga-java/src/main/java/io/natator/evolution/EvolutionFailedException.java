@@ -1,0 +1,15 @@
+package io.natator.evolution;
+
+/** An evolution cannot go on; the message says why. */
+public class EvolutionFailedException extends RuntimeException {
+
+    private static final long serialVersionUID = 1L;
+
+    EvolutionFailedException(String message) {
+        super(message);
+    }
+
+    EvolutionFailedException(String message, Throwable cause) {
+        super(message, cause);
+    }
+}

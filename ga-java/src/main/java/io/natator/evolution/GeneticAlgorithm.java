@@ -1,0 +1,153 @@
+package io.natator.evolution;
+
+import io.natator.config.EvolutionSettings;
+import io.natator.encoding.GeneRange;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.atomic.AtomicLong;
+import org.jgap.Chromosome;
+import org.jgap.Configuration;
+import org.jgap.DefaultFitnessEvaluator;
+import org.jgap.FitnessFunction;
+import org.jgap.Gene;
+import org.jgap.GeneticOperator;
+import org.jgap.IChromosome;
+import org.jgap.InvalidConfigurationException;
+import org.jgap.Population;
+import org.jgap.event.EventManager;
+import org.jgap.impl.DoubleGene;
+import org.jgap.impl.StockRandomGenerator;
+
+/**
+ * The genetic algorithm of thesis 2.6 on JGAP. Between generations it keeps nothing: each is bred from the individuals
+ * handed in, with random numbers that depend on the seed and the number of the generation only. So a run can continue
+ * from any generation whose individuals were kept.
+ *
+ * <p>To be used by one thread; JGAP keeps part of a configuration in system properties named after thread and id.
+ */
+final class GeneticAlgorithm implements AutoCloseable {
+
+    private static final AtomicLong RUNS = new AtomicLong();
+    private static final long GOLDEN_RATIO = 0x9E3779B97F4A7C15L;
+
+    private final EvolutionSettings settings;
+    private final List<GeneRange> ranges;
+    private final ThesisBreeder breeder;
+    private final StockRandomGenerator random = new StockRandomGenerator();
+    private final Configuration configuration;
+
+    GeneticAlgorithm(EvolutionSettings settings, List<GeneRange> ranges, BatchEvaluator evaluator) {
+        this.settings = settings;
+        this.ranges = ranges;
+        this.breeder = new ThesisBreeder(settings, evaluator);
+        this.configuration = new Configuration("natator-" + RUNS.incrementAndGet(), null);
+        try {
+            configure();
+        } catch (InvalidConfigurationException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+
+    private void configure() throws InvalidConfigurationException {
+        configuration.setBreeder(breeder);
+        configuration.setRandomGenerator(random);
+        configuration.setEventManager(new EventManager());
+        configuration.setFitnessEvaluator(new DefaultFitnessEvaluator());
+        configuration.setFitnessFunction(new KnownFitness(breeder));
+        configuration.setPopulationSize(settings.population());
+        configuration.setKeepPopulationSizeConstant(false);
+        configuration.setSampleChromosome(chromosome(ranges.stream().map(GeneRange::lower).toList()));
+        configuration.addNaturalSelector(Operators.elite(configuration), true);
+        for (GeneticOperator operator : Operators.alterers(settings, configuration, random)) {
+            configuration.addGeneticOperator(operator);
+        }
+        configuration.lockSettings();
+    }
+
+    /** Generation 0: random chromosomes, evaluated. */
+    List<Individual> first() {
+        random.setSeed(seedOf(0));
+        try {
+            Population population = new Population(configuration, settings.population());
+            for (int i = 0; i < settings.population(); i++) {
+                IChromosome chromosome = Chromosome.randomInitialChromosome(configuration);
+                chromosome.increaseAge();
+                population.addChromosome(chromosome);
+            }
+            breeder.updateChromosomes(population, configuration);
+            return individuals(population);
+        } catch (InvalidConfigurationException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+
+    /**
+     * The next generation, evaluated.
+     *
+     * @param parents    all individuals of the generation before
+     * @param generation its number, at least 1
+     */
+    List<Individual> next(List<Individual> parents, int generation) {
+        random.setSeed(seedOf(generation));
+        breeder.know(parents);
+        try {
+            Population population = new Population(configuration, parents.size());
+            for (Individual parent : parents) {
+                IChromosome chromosome = chromosome(parent.genes());
+                chromosome.setAge(parent.age());
+                chromosome.setFitnessValueDirectly(parent.result().fitness());
+                population.addChromosome(chromosome);
+            }
+            return individuals(breeder.evolve(population, configuration));
+        } catch (InvalidConfigurationException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+
+    /** A seed of its own for each generation, mixed as in SplitMix64 (Steele, Lea, Flood 2014). */
+    private long seedOf(int generation) {
+        long z = settings.seed() + (generation + 1) * GOLDEN_RATIO;
+        z = (z ^ (z >>> 30)) * 0xBF58476D1CE4E5B9L;
+        z = (z ^ (z >>> 27)) * 0x94D049BB133111EBL;
+        return z ^ (z >>> 31);
+    }
+
+    private IChromosome chromosome(List<Double> values) throws InvalidConfigurationException {
+        Gene[] genes = new Gene[ranges.size()];
+        for (int i = 0; i < genes.length; i++) {
+            genes[i] = new DoubleGene(configuration, ranges.get(i).lower(), ranges.get(i).upper());
+            genes[i].setAllele(values.get(i));
+        }
+        return new Chromosome(configuration, genes);
+    }
+
+    private List<Individual> individuals(Population population) {
+        List<Individual> individuals = new ArrayList<>();
+        for (IChromosome chromosome : population.toChromosomes()) {
+            individuals.add(new Individual(ThesisBreeder.genesOf(chromosome), chromosome.getAge(),
+                    breeder.resultOf(chromosome)));
+        }
+        return individuals;
+    }
+
+    @Override
+    public void close() {
+        Configuration.reset(configuration.getId());
+    }
+
+    /** What JGAP asks for a fitness that it does not have: only those of evaluated chromosomes exist. */
+    @SuppressWarnings("serial") // JGAP makes fitness functions serializable; this one never is serialized.
+    private static final class KnownFitness extends FitnessFunction {
+
+        private final transient ThesisBreeder breeder;
+
+        KnownFitness(ThesisBreeder breeder) {
+            this.breeder = breeder;
+        }
+
+        @Override
+        protected double evaluate(IChromosome chromosome) {
+            return breeder.resultOf(chromosome).fitness();
+        }
+    }
+}

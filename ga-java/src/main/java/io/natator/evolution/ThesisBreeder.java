@@ -1,0 +1,135 @@
+package io.natator.evolution;
+
+import io.natator.config.EvolutionSettings;
+import io.natator.simulator.SimulationResult;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.LinkedHashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import org.jgap.Configuration;
+import org.jgap.FitnessFunction;
+import org.jgap.Gene;
+import org.jgap.IChromosome;
+import org.jgap.InvalidConfigurationException;
+import org.jgap.Population;
+import org.jgap.impl.GABreeder;
+
+/**
+ * One generation of the thesis' algorithm (2.6). JGAP's own breeder differs in that it mistakes children for unchanged
+ * parents whenever fewer were selected than the population's size, and evaluates one chromosome after another.
+ */
+@SuppressWarnings("serial") // JGAP makes breeders serializable; checkpoints hold plain data instead.
+final class ThesisBreeder extends GABreeder {
+
+    private final transient EvolutionSettings settings;
+    private final transient BatchEvaluator evaluator;
+    /** Results of the chromosomes of the current population, by their genes. */
+    private final transient Map<List<Double>, SimulationResult> known = new HashMap<>();
+
+    ThesisBreeder(EvolutionSettings settings, BatchEvaluator evaluator) {
+        this.settings = settings;
+        this.evaluator = evaluator;
+    }
+
+    /** From evaluated parents to the next evaluated population. */
+    @Override
+    public Population evolve(Population parents, Configuration configuration) {
+        Population selected = select(parents, configuration);
+        Population children = alter(selected, configuration);
+        Population next = combine(selected, children);
+        updateChromosomes(next, configuration);
+        return next;
+    }
+
+    /** The best (30 of 150), the rest (120) by roulette. */
+    private Population select(Population parents, Configuration configuration) {
+        try {
+            Population selected = new Population(configuration, settings.population());
+            Operators.elite(configuration).select(settings.elites(), parents, selected);
+            Operators.roulette(settings, configuration)
+                    .select(settings.population() - selected.size(), parents, selected);
+            return selected;
+        } catch (InvalidConfigurationException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+
+    /** New chromosomes by crossover, mutation and Gaussian mutation of the selected, which stay as they are. */
+    private Population alter(Population selected, Configuration configuration) {
+        try {
+            Population all = new Population(configuration, selected.toChromosomes());
+            applyGeneticOperators(configuration, all);
+            IChromosome[] chromosomes = all.toChromosomes();
+            Population children = new Population(configuration, chromosomes.length);
+            for (int i = selected.size(); i < chromosomes.length; i++) {
+                children.addChromosome(chromosomes[i]);
+            }
+            return children;
+        } catch (InvalidConfigurationException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+
+    /** All go on: the selected a generation older, the children newborn and without their parents' fitness. */
+    private static Population combine(Population selected, Population children) {
+        for (IChromosome survivor : selected.toChromosomes()) {
+            survivor.increaseAge();
+        }
+        for (IChromosome child : children.toChromosomes()) {
+            child.resetAge();
+            child.setFitnessValueDirectly(FitnessFunction.NO_FITNESS_VALUE);
+        }
+        selected.addChromosomes(children);
+        return selected;
+    }
+
+    /**
+     * Gives every chromosome its fitness. All whose genes are not those of a known chromosome are simulated, as one
+     * batch and each once; a child that crossover or mutation left unchanged is not.
+     */
+    @Override
+    protected void updateChromosomes(Population population, Configuration configuration) {
+        Set<List<Double>> present = new LinkedHashSet<>();
+        for (IChromosome chromosome : population.toChromosomes()) {
+            present.add(genesOf(chromosome));
+        }
+        List<List<Double>> unknown = new ArrayList<>(present);
+        unknown.removeIf(known::containsKey);
+        List<SimulationResult> results = evaluator.evaluate(unknown);
+        for (int i = 0; i < unknown.size(); i++) {
+            known.put(unknown.get(i), results.get(i));
+        }
+        known.keySet().retainAll(present);
+        for (IChromosome chromosome : population.toChromosomes()) {
+            chromosome.setFitnessValueDirectly(resultOf(chromosome).fitness());
+        }
+    }
+
+    /** Declares the results of chromosomes that were evaluated before. */
+    void know(List<Individual> individuals) {
+        individuals.forEach(individual -> known.put(individual.genes(), individual.result()));
+    }
+
+    /**
+     * What came of a chromosome's evaluation.
+     *
+     * @throws IllegalStateException if it was not evaluated
+     */
+    SimulationResult resultOf(IChromosome chromosome) {
+        SimulationResult result = known.get(genesOf(chromosome));
+        if (result == null) {
+            throw new IllegalStateException("chromosome has not been evaluated: " + chromosome);
+        }
+        return result;
+    }
+
+    static List<Double> genesOf(IChromosome chromosome) {
+        List<Double> genes = new ArrayList<>();
+        for (Gene gene : chromosome.getGenes()) {
+            genes.add((Double) gene.getAllele());
+        }
+        return List.copyOf(genes);
+    }
+}

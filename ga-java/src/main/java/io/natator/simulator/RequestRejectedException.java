@@ -1,0 +1,19 @@
+package io.natator.simulator;
+
+/** The simulator says that the request itself cannot be carried out; trying again would not help. */
+public class RequestRejectedException extends RuntimeException {
+
+    private static final long serialVersionUID = 1L;
+
+    private final boolean badInput;
+
+    RequestRejectedException(String message, boolean badInput) {
+        super(message);
+        this.badInput = badInput;
+    }
+
+    /** Whether the fault lies in the request (the simulator's exit status 2), not in the machine it runs on. */
+    public boolean isBadInput() {
+        return badInput;
+    }
+}

@@ -1,0 +1,27 @@
+package io.natator.simulator;
+
+import com.fasterxml.jackson.annotation.JsonInclude;
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Scheme;
+import io.natator.encoding.Gait;
+
+/**
+ * What to simulate; the JSON form is {@code sim-native/protocol/request.schema.json}.
+ *
+ * @param id           repeated in the result, at least 0
+ * @param scene        named scene or path of a scene file
+ * @param gait         how the muscles move, or null for a scene without actuators
+ * @param duration     simulated time in seconds, or null for the scene's own
+ * @param scheme       or null for the scene's own
+ * @param overrides    JSON Merge Patch on the scene, or null
+ * @param perturbation shift of the starting positions, or null for none
+ */
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme,
+        JsonNode overrides, Perturbation perturbation) {
+
+    /** A request that leaves the starting positions as they are. */
+    public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides) {
+        this(id, scene, gait, duration, scheme, overrides, null);
+    }
+}

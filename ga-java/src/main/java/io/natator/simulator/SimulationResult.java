@@ -1,0 +1,75 @@
+package io.natator.simulator;
+
+import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
+import com.fasterxml.jackson.annotation.JsonInclude;
+import com.fasterxml.jackson.annotation.JsonProperty;
+
+/**
+ * What came of an evaluation; the JSON form is {@code sim-native/protocol/result.schema.json}, of which unknown fields
+ * are ignored, with the status {@code failed} in addition.
+ *
+ * @param id        the request's, or null if the simulator could not read it
+ * @param status    how it ended
+ * @param distance  with {@code ok}: change of the mean x of the body particles in scene units, negative is backwards
+ *                  (thesis 2.6); else null
+ * @param stopped   why the simulation ended: completed, touched-plane, no-progress or unstable; null if it failed
+ * @param simulated simulated time until then in seconds, or null if it failed
+ * @param frames    frames until then, or null if it failed
+ * @param scheme    the scheme used, or null if it failed
+ * @param precision the floating-point type used, or null if it failed
+ * @param hash      hash of the final state, 16 hexadecimal digits, or null
+ * @param unstable  with {@code unstable}: where; else null
+ * @param error     with {@code error} and {@code failed}: why, in one line; else null
+ */
+@JsonIgnoreProperties(ignoreUnknown = true)
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
+        Integer frames, String scheme, String precision, String hash, Instability unstable, String error) {
+
+    /** How an evaluation ended. */
+    public enum Status {
+        /** Simulated to the end or to an early stop. */
+        @JsonProperty("ok")
+        OK,
+        /** A particle's state became infinite or undefined. */
+        @JsonProperty("unstable")
+        UNSTABLE,
+        /** The simulator refused the request. */
+        @JsonProperty("error")
+        ERROR,
+        /** No valid answer came, also not at the second attempt. Never said by the simulator itself. */
+        @JsonProperty("failed")
+        FAILED
+    }
+
+    /**
+     * The first bad value of an unstable simulation.
+     *
+     * @param particle index of the particle
+     * @param stage    stage of the step
+     * @param time     simulated time in seconds
+     */
+    @JsonIgnoreProperties(ignoreUnknown = true)
+    public record Instability(int particle, String stage, double time) {
+    }
+
+    /** The record of an evaluation that got no valid answer. */
+    public static SimulationResult failed(long id, String reason) {
+        return new SimulationResult(id, Status.FAILED, null, null, null, null, null, null, null, null, reason);
+    }
+
+    /** The signed distance swum, or 0 where there is none because the evaluation was unstable or failed. */
+    public double distanceOrZero() {
+        return status == Status.OK ? distance : 0.0;
+    }
+
+    /** The fitness that selection works with: the distance swum forwards, never negative nor NaN. */
+    public double fitness() {
+        return Math.max(distanceOrZero(), 0.0);
+    }
+
+    /** Mean speed over the simulated time in scene units per second, or 0 where there is no distance. */
+    public double speed() {
+        return status == Status.OK && simulated > 0 ? distance / simulated : 0.0;
+    }
+}
