@@ -1,9 +1,16 @@
 # Sources of the native library and of natator-sim, relative to this directory.
 set(NATATOR_SCENE_SOURCES
+    src/evaluate/evaluate.cpp
+    src/evaluate/perturb.cpp
     src/gait/activation.cpp
     src/gait/actuate.cpp
     src/gait/check_gait.cpp
+    src/io/request.cpp
+    src/io/result.cpp
     src/io/strict_json.cpp
+    src/io/trajectory_csv.cpp
+    src/measure/measure.cpp
+    src/measure/state_hash.cpp
     src/model/body.cpp
     src/model/fluid_block.cpp
     src/model/model_builder.cpp
@@ -16,4 +23,8 @@ set(NATATOR_SCENE_SOURCES
     src/scene/scene_reader.cpp
     src/scene/solver_reader.cpp)
 
-set(NATATOR_CLI_SOURCES)
+set(NATATOR_CLI_SOURCES
+    cli/evaluate.cpp
+    cli/info.cpp
+    cli/main.cpp
+    cli/run.cpp)

@@ -1,0 +1,93 @@
+#include <memory>
+#include <sstream>
+
+#include "commands.h"
+#include "natator/error.h"
+#include "natator/instruction_set.h"
+#include "natator/model_builder.h"
+#include "natator/plan.h"
+#include "natator/scene_json.h"
+#include "natator/strict_json.h"
+
+namespace natator::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+    std::string scene, overrides;
+    bool json = false;
+};
+
+ordered_json describe_program() {
+    return {{"version", NATATOR_VERSION}, {"instructionSet", to_string(instruction_set())}, {"scenes", scene_names()}};
+}
+
+ordered_json describe_scene(const Scene& scene) {
+    const Model model = build_model(scene);
+    const auto body = model.body.particles.size();
+    ordered_json info;
+    info["scene"] = scene.name;
+    info["description"] = scene.description;
+    info["creature"] = scene.creature ? ordered_json(scene.creature->name) : ordered_json();
+    info["actuators"] = model.actuators;
+    info["particles"] = model.particles();
+    info["fluidParticles"] = static_cast<std::size_t>(model.particles()) - body;
+    info["bodyParticles"] = body;
+    info["springs"] = model.springs.size();
+    info["clusters"] = model.clusters.size();
+    info["planes"] = model.planes.size();
+    info["duration"] = scene.duration;
+    info["timeStep"] = scene.time_step;
+    info["substeps"] = scene.solver.substeps;
+    info["iterations"] = scene.solver.numIterations;
+    info["plan"] = describe_plan(model);
+    return info;
+}
+
+/// One "key  value" line per entry; lists one item per line.
+std::string as_text(const ordered_json& info) {
+    constexpr std::size_t column = 16;
+    std::ostringstream text;
+    for (const auto& [key, value] : info.items()) {
+        const std::string label = key + std::string(key.size() < column ? column - key.size() : 1, ' ');
+        if (value.is_array()) {
+            for (std::size_t i = 0; i < value.size(); ++i) {
+                text << (i == 0 ? label : std::string(column, ' ')) << value[i].get<std::string>() << '\n';
+            }
+        } else {
+            text << label
+                 << (value.is_string() ? value.get<std::string>()
+                     : value.is_null() ? "none"
+                                       : value.dump())
+                 << '\n';
+        }
+    }
+    return text.str();
+}
+
+void run_info(const Options& options) {
+    if (options.scene.empty() && !options.overrides.empty()) throw InputError("--overrides: needs a scene");
+    const auto overrides =
+        options.overrides.empty() ? nlohmann::json::object() : parse_json(options.overrides, "--overrides");
+    const ordered_json info =
+        options.scene.empty() ? describe_program() : describe_scene(load_scene(options.scene, overrides));
+    print(options.json ? info.dump() + "\n" : as_text(info));
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, int& status) {
+    CLI::App* command = app.add_subcommand(
+        "info", "Describe a scene: particles, constraints, the plan of a step. Without one: version and named scenes.");
+    const auto options = std::make_shared<Options>();
+    command->add_option("scene", options->scene, "Name or path of the scene.");
+    command->add_flag("--json", options->json, "Write one JSON object.");
+    command->add_option("--overrides", options->overrides, "JSON text merged into the scene (RFC 7386).");
+    command->callback([options, &status] {
+        run_info(*options);
+        status = ok;
+    });
+}
+
+}  // namespace natator::cli

@@ -1,0 +1,122 @@
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "commands.h"
+#include "natator/evaluate.h"
+#include "natator/protocol.h"
+#include "natator/scene_json.h"
+#include "natator/strict_json.h"
+#include "natator/trajectory.h"
+
+namespace natator::cli {
+namespace {
+
+using nlohmann::json;
+
+struct Options {
+    std::string scene, gait, overrides, trajectory, scheme;
+    std::string precision = "float";
+    std::optional<double> duration;
+    bool particles = false;
+};
+
+/// JSON given on the command line, or in a file if it does not begin with '{'.
+json read_argument(const std::string& argument, const std::string& name) {
+    const auto first = argument.find_first_not_of(" \t\r\n");
+    const bool text = first != std::string::npos && argument[first] == '{';
+    return text ? parse_json(argument, name) : read_json_file(argument);
+}
+
+Scene load(const Options& options) {
+    json overrides = json::object();
+    if (!options.overrides.empty()) overrides = read_argument(options.overrides, "--overrides");
+    if (options.duration) overrides["duration"] = *options.duration;
+    if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
+    return load_scene(options.scene, overrides);
+}
+
+/// The gait asked for; without one the muscles rest.
+Gait load_gait(const Options& options, int actuators) {
+    if (!options.gait.empty()) return parse_gait(read_argument(options.gait, "--gait"), "--gait");
+    Gait rest;
+    rest.amplitude.assign(static_cast<std::size_t>(actuators), 0);
+    rest.phase = rest.amplitude;
+    return rest;
+}
+
+std::string summary(const Options& options, const Scene& scene, const Evaluation& result, double wall_seconds) {
+    std::ostringstream text;
+    text << "scene      " << scene.name << "\n";
+    if (scene.creature) {
+        text << "creature   " << scene.creature->name << ", " << scene.creature->actuators() << " actuators"
+             << (options.gait.empty() ? ", muscles at rest (no --gait)" : "") << "\n";
+    }
+    text << "simulated  " << result.simulated << " s in " << result.frames << " frames, " << to_string(result.stopped)
+         << "\n";
+    if (result.instability) {
+        text << "unstable   particle " << result.instability->particle << " is not finite after stage "
+             << result.instability->stage << " at " << result.instability->time << " s\n";
+    } else if (scene.creature) {
+        const double length = scene.creature->spacing * (static_cast<double>(scene.creature->slices.size()) - 1);
+        const double speed = result.simulated > 0 ? result.distance / result.simulated : 0;
+        text << "distance   " << result.distance << "\n";
+        text << "speed      " << speed << " 1/s";
+        if (length > 0) text << ", " << speed / length << " body lengths/s";
+        text << "\n";
+    }
+    text << "hash       " << hash_text(result.hash) << "\n";
+    text << "wall time  " << wall_seconds << " s\n";
+    return text.str();
+}
+
+int run_scene(const Options& options) {
+    const Scene scene = load(options);
+    const Gait gait = load_gait(options, scene.creature ? scene.creature->actuators() : 0);
+    const Precision precision =
+        options.precision == "double" ? Precision::double_precision : Precision::single_precision;
+
+    std::optional<TrajectoryCsv> trajectory;
+    FrameObserver on_frame;
+    if (!options.trajectory.empty()) {
+        using Rows = TrajectoryCsv::Rows;
+        trajectory.emplace(options.trajectory, scene.creature ? scene.creature->slices : std::vector<Slice>{},
+                           options.particles ? Rows::particles : Rows::slices);
+        on_frame = [&trajectory](double time, const auto& positions) { trajectory->add_frame(time, positions); };
+    }
+
+    const auto start = std::chrono::steady_clock::now();
+    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame);
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    if (trajectory) trajectory->finish();
+    print(summary(options, scene, result, wall.count()));
+    return result.instability ? unstable : ok;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& status) {
+    CLI::App* command = app.add_subcommand("run", "Run a scene once and print a summary.");
+    const auto options = std::make_shared<Options>();
+    command->add_option("scene", options->scene, "Name or path of the scene.")->required();
+    command->add_option("--gait", options->gait,
+                        R"(File or JSON text: {"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]}. )"
+                        "Default: muscles at rest.");
+    command->add_option("--duration", options->duration, "Simulated time, s. Default: the scene's.");
+    command->add_option("--scheme", options->scheme, "Update rule: flex. Default: the scene's.");
+    command->add_option("--precision", options->precision, "float or double.")
+        ->check(CLI::IsMember({"float", "double"}))
+        ->capture_default_str();
+    command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
+    auto* trajectory =
+        command->add_option("--trajectory", options->trajectory,
+                            "CSV file for the centre of every slice in every frame: frame,time,slice,x,y,z.");
+    command
+        ->add_flag("--particles", options->particles,
+                   "In the trajectory, every body particle instead of slice centres.")
+        ->needs(trajectory);
+    command->callback([options, &status] { status = run_scene(*options); });
+}
+
+}  // namespace natator::cli

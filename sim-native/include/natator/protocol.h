@@ -1,0 +1,43 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "natator/evaluate.h"
+
+/// The pipe protocol: one request in, one result out, both JSON objects on one line (sim-native/protocol).
+namespace natator {
+
+/// What `natator-sim evaluate` is asked to do.
+struct Request {
+    nlohmann::json id;  ///< whole number >= 0, repeated in the result
+    std::string scene;
+    std::optional<Gait> gait;
+    nlohmann::json overrides = nlohmann::json::object();  ///< with the request's own `duration` and `scheme` merged in
+    Precision precision = Precision::single_precision;
+    Perturbation perturbation;
+};
+
+/// Reads a request. Throws InputError naming the field, its value and what is allowed; NoDevice for a backend that
+/// this program does not have. The scene and the ranges of the gait are checked when they are used.
+Request parse_request(const nlohmann::json& value);
+
+/// The request's id, or null if it has no usable one.
+nlohmann::json request_id(const nlohmann::json& value);
+
+/// Reads a gait: `frequency`, `amplitude`, `phase` and, if wanted, `power`. Checks types, not ranges (check_gait).
+Gait parse_gait(const nlohmann::json& value, const std::string& document);
+
+/// The result of an evaluation; unstable ones have fitness 0 and tell where they broke.
+nlohmann::ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation, Scheme scheme,
+                                   Precision precision);
+
+/// The result for a request that could not be carried out.
+nlohmann::ordered_json error_json(const nlohmann::json& id, const std::string& message);
+
+const char* to_string(Scheme scheme);
+const char* to_string(Precision precision);
+const char* to_string(Stopped stopped);
+std::string hash_text(std::uint64_t hash);  ///< 16 hexadecimal digits
+
+}  // namespace natator

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "natator/scene.h"
+
+namespace natator {
+
+/// Writes the body's path as CSV while it is computed: one line per slice (or particle) and frame, frame 0 being the
+/// settled start. Columns: frame, time (s), slice (0 = head) or particle (by slice from the head, y, z), x, y, z
+/// (length).
+class TrajectoryCsv {
+public:
+    enum class Rows { slices, particles };
+
+    /// Throws std::runtime_error when the file can't be written; so do the other members.
+    TrajectoryCsv(const std::string& path, const std::vector<Slice>& slices, Rows rows);
+
+    void add_frame(double time, const std::vector<Eigen::Vector3d>& body_positions);
+    void finish();
+
+private:
+    void add_row(double time, std::size_t index, const Eigen::Vector3d& place);
+    void check() const;
+
+    std::string path_;
+    std::vector<Slice> slices_;
+    Rows rows_;
+    std::ofstream file_;
+    int frame_ = 0;
+};
+
+}  // namespace natator

@@ -1,0 +1,83 @@
+#include "natator/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "natator/actuate.h"
+#include "natator/measure.h"
+#include "natator/model_builder.h"
+#include "perturb.h"
+
+namespace natator {
+namespace {
+
+/// Brings the start to rest (thesis 2.3). Muscles are at rest; time stays 0.
+template <class Real>
+std::optional<Instability> settle(const Settling& settling, Solver<Real>& solver, State<Real>& state) {
+    for (int i = 0; i < settling.updates; ++i) {
+        if (auto instability = solver.update(state, settling.time_step, settling.substeps)) return instability;
+        std::fill(state.velocity.begin(), state.velocity.end(), Vector3<Real>::Zero());
+        state.time = 0;
+    }
+    return std::nullopt;
+}
+
+/// Whether the last `window` frames brought no gain in mean x (thesis 2.6). `mean_x` has one entry per frame from the
+/// start on; a window of 0 frames never ends a run.
+bool without_progress(const std::vector<double>& mean_x, std::size_t window) {
+    return window > 0 && mean_x.size() > window && mean_x.back() - mean_x[mean_x.size() - 1 - window] <= 0;
+}
+
+template <class Real>
+void observe(const Body& body, const State<Real>& state, const FrameObserver& on_frame) {
+    if (!on_frame) return;
+    std::vector<Eigen::Vector3d> positions;
+    for (const int particle : body.particles) positions.push_back(state.position[particle].template cast<double>());
+    on_frame(state.time, positions);
+}
+
+/// Runs frame by frame to the duration or an early stop.
+template <class Real>
+Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const FrameObserver& on_frame) {
+    const bool swims = !model.body.particles.empty();
+    const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
+    const double window = swims ? std::round(scene.stopping.no_progress_after / scene.time_step) : 0;
+
+    Solver<Real> solver(model);
+    State<Real> state = initial_state<Real>(model);
+    Evaluation result;
+    result.instability = settle(scene.settling, solver, state);
+    observe(model.body, state, on_frame);
+
+    std::vector<double> path{mean_x(model.body, state)};
+    while (!result.instability && result.stopped == Stopped::completed && result.frames < frames) {
+        result.instability = solver.frame(state, gait);
+        if (result.instability) break;
+        state.time = ++result.frames * scene.time_step;  // free of summed rounding
+        path.push_back(mean_x(model.body, state));
+        observe(model.body, state, on_frame);
+        if (scene.stopping.plane_contact && touches_plane(model, state)) {
+            result.stopped = Stopped::touched_plane;
+        } else if (without_progress(path, static_cast<std::size_t>(window))) {
+            result.stopped = Stopped::no_progress;
+        }
+    }
+    if (result.instability) result.stopped = Stopped::unstable;
+    result.distance = path.back() - path.front();
+    result.simulated = result.frames * scene.time_step;
+    result.hash = state_hash(state);
+    return result;
+}
+
+}  // namespace
+
+Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision, const Perturbation& perturbation,
+                    const FrameObserver& on_frame) {
+    check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
+    Model model = build_model(scene);
+    perturb(perturbation, model);
+    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame)
+                                                    : evaluate_as<float>(scene, model, gait, on_frame);
+}
+
+}  // namespace natator

@@ -1,0 +1,97 @@
+#include "scene/field.h"
+#include "natator/error.h"
+#include "natator/protocol.h"
+
+namespace natator {
+namespace {
+
+using fields::Place;
+using nlohmann::json;
+
+enum class Backend { cpu, cuda };
+
+std::vector<double> read_numbers(const json& value, const Place& place) {
+    if (!value.is_array()) fields::refuse(place, value, "an array of numbers, one per actuator");
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        if (!value[i].is_number()) fields::refuse(place.item(i), value[i], "a number");
+        numbers.push_back(value[i].get<double>());
+    }
+    return numbers;
+}
+
+double read_number(const json& value, const Place& place) {
+    if (!value.is_number()) fields::refuse(place, value, "a number");
+    return value.get<double>();
+}
+
+Perturbation read_perturbation(const json& value, const Place& place) {
+    fields::check_keys(value, place, {"amplitude", "seed"});
+    Perturbation perturbation;
+    fields::read(fields::required(value, place, "amplitude"), place.key("amplitude"), {0, 1, false, "length"},
+                 perturbation.amplitude);
+    const json& seed = fields::required(value, place, "seed");
+    if (!seed.is_number_unsigned()) fields::refuse(place.key("seed"), seed, "a whole number in [0, 2^64)");
+    perturbation.seed = seed.get<std::uint64_t>();
+    return perturbation;
+}
+
+Gait read_gait(const json& value, const Place& place) {
+    fields::check_keys(value, place, {"frequency", "amplitude", "phase", "power"});
+    Gait gait;
+    gait.frequency = read_number(fields::required(value, place, "frequency"), place.key("frequency"));
+    gait.amplitude = read_numbers(fields::required(value, place, "amplitude"), place.key("amplitude"));
+    gait.phase = read_numbers(fields::required(value, place, "phase"), place.key("phase"));
+    if (value.contains("power")) gait.power = read_number(value.at("power"), place.key("power"));
+    return gait;
+}
+
+void read_backend(const json& value, const Place& place) {
+    const auto backend = fields::read_choice<Backend>(
+        value, place, {{"cpu", Backend::cpu}, {"auto", Backend::cpu}, {"cuda", Backend::cuda}});
+    if (backend == Backend::cuda) {
+        throw NoDevice(place.document + ": backend = \"cuda\": no such device here; must be \"cpu\" or \"auto\"");
+    }
+}
+
+}  // namespace
+
+json request_id(const json& value) {
+    if (value.is_object() && value.contains("id") && value.at("id").is_number_unsigned()) return value.at("id");
+    return nullptr;
+}
+
+Gait parse_gait(const json& value, const std::string& document) {
+    return read_gait(value, {document, ""});
+}
+
+Request parse_request(const json& value) {
+    const Place place{"request", ""};
+    fields::check_keys(
+        value, place,
+        {"id", "scene", "gait", "duration", "scheme", "backend", "precision", "perturbation", "overrides"});
+    Request request;
+    request.id = fields::required(value, place, "id");
+    if (!request.id.is_number_unsigned()) fields::refuse(place.key("id"), request.id, "a whole number >= 0");
+    fields::read(fields::required(value, place, "scene"), place.key("scene"), {}, request.scene);
+    if (value.contains("gait")) request.gait = read_gait(value.at("gait"), place.key("gait"));
+    if (value.contains("precision")) {
+        request.precision = fields::read_choice<Precision>(
+            value.at("precision"), place.key("precision"),
+            {{"float", Precision::single_precision}, {"double", Precision::double_precision}});
+    }
+    if (value.contains("perturbation")) {
+        request.perturbation = read_perturbation(value.at("perturbation"), place.key("perturbation"));
+    }
+    if (value.contains("overrides")) {
+        request.overrides = value.at("overrides");
+        if (!request.overrides.is_object()) fields::refuse(place.key("overrides"), request.overrides, "an object");
+    }
+    for (const char* key : {"duration", "scheme"}) {
+        if (value.contains(key)) request.overrides[key] = value.at(key);
+    }
+    if (value.contains("backend")) read_backend(value.at("backend"), place.key("backend"));
+    return request;
+}
+
+}  // namespace natator

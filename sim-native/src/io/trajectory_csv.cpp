@@ -1,0 +1,44 @@
+#include <stdexcept>
+
+#include "natator/strict_json.h"
+#include "natator/trajectory.h"
+
+namespace natator {
+
+TrajectoryCsv::TrajectoryCsv(const std::string& path, const std::vector<Slice>& slices, Rows rows)
+    : path_(path), slices_(slices), rows_(rows), file_(path) {
+    file_.precision(9);
+    file_ << "frame,time," << (rows == Rows::slices ? "slice" : "particle") << ",x,y,z\n";
+    check();
+}
+
+void TrajectoryCsv::add_frame(double time, const std::vector<Eigen::Vector3d>& body_positions) {
+    if (rows_ == Rows::particles) {
+        for (std::size_t i = 0; i < body_positions.size(); ++i) add_row(time, i, body_positions[i]);
+    } else {
+        auto particle = body_positions.begin();
+        for (std::size_t i = 0; i < slices_.size(); ++i) {
+            const int count = slices_[i].height * slices_[i].width;
+            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+            for (int k = 0; k < count; ++k) sum += *particle++;
+            add_row(time, i, sum / count);
+        }
+    }
+    ++frame_;
+    check();
+}
+
+void TrajectoryCsv::finish() {
+    file_.close();
+    check();
+}
+
+void TrajectoryCsv::add_row(double time, std::size_t index, const Eigen::Vector3d& place) {
+    file_ << frame_ << ',' << time << ',' << index << ',' << place.x() << ',' << place.y() << ',' << place.z() << '\n';
+}
+
+void TrajectoryCsv::check() const {
+    if (!file_) throw std::runtime_error("file " + quoted(path_) + ": cannot be written");
+}
+
+}  // namespace natator

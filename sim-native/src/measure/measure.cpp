@@ -1,0 +1,31 @@
+#include "natator/measure.h"
+
+#include <algorithm>
+
+namespace natator {
+
+template <class Real>
+double mean_x(const Body& body, const State<Real>& state) {
+    if (body.particles.empty()) return 0;
+    double sum = 0;
+    for (const int particle : body.particles) sum += static_cast<double>(state.position[particle].x());
+    return sum / static_cast<double>(body.particles.size());
+}
+
+template <class Real>
+bool touches_plane(const Model& model, const State<Real>& state) {
+    return std::any_of(model.planes.begin(), model.planes.end(), [&](const Plane& plane) {
+        const double rounding = 1e-6 * (std::abs(plane.offset) + 1);
+        const double limit = model.parameters.collisionDistance + rounding;
+        return std::any_of(model.body.particles.begin(), model.body.particles.end(), [&](int particle) {
+            return plane.distance(state.position[particle].template cast<double>()) <= limit;
+        });
+    });
+}
+
+template double mean_x(const Body&, const State<float>&);
+template double mean_x(const Body&, const State<double>&);
+template bool touches_plane(const Model&, const State<float>&);
+template bool touches_plane(const Model&, const State<double>&);
+
+}  // namespace natator
