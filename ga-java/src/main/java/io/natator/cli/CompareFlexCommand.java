@@ -47,7 +47,9 @@ final class CompareFlexCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        ExecutionSettings execution = new ExecutionSettings(SimulatorLocator.locate(simulatorPath), workers, TIMEOUT);
+        // The results name the program as it is seen from here, not where on this machine it lies.
+        Path simulator = Path.of("").toAbsolutePath().relativize(SimulatorLocator.locate(simulatorPath));
+        ExecutionSettings execution = new ExecutionSettings(simulator, workers, TIMEOUT);
         Path page = new FlexStudy(variants, directory, runs).run(execution, only);
         spec.commandLine().getOut().println(page);
         return ExitCode.OK;
