@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "cpu/stages.h"
+#include "cpu/flex/flex_stages.h"
 #include "natator/actuate.h"
 #include "step.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 /// Runs the substep once more from the unchanged state and looks behind each stage for the first bad particle.
 template <class Real>
-Instability locate_instability(cpu::Stages<Real>& stages, const Model& model, double time) {
+Instability locate_instability(cpu::FlexStages<Real>& stages, const Model& model, double time) {
     Instability found;
     bool located = false;
     const auto look = [&](const char* stage) {
@@ -78,7 +78,7 @@ private:
     /// Passes the stages that an observer sees on to it.
     struct Tell {
         StepObserver<Real>& observer;
-        const cpu::Stages<Real>& stages;
+        const cpu::FlexStages<Real>& stages;
         void operator()(std::string_view stage) const {
             if (stage == "predict") observer.predicted(stages.workspace().predicted_position);
             if (stage != "iteration") return;
@@ -87,7 +87,7 @@ private:
     };
 
     const Model& model_;
-    cpu::Stages<Real> stages_;
+    cpu::FlexStages<Real> stages_;
 };
 
 template <class Real>

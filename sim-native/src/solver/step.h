@@ -7,7 +7,7 @@ namespace natator {
 /// One constraint iteration of scheme `flex`: every correction is computed from the same positions and summed
 /// (Jacobi), the sum is relaxed and applied, planes come last and one after the other.
 template <class Stages, class AfterStage>
-void iterate(Stages& stages, const Plan& plan, const AfterStage& after) {
+void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
     stages.clear_corrections();
     if (plan.fluid) {
         stages.compute_density();
@@ -47,7 +47,7 @@ void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage&
     if (plan.planes) stages.find_plane_contacts();
     after("neighbours");
     for (int i = 0; i < iterations; ++i) {
-        iterate(stages, plan, after);
+        iterate_summed(stages, plan, after);
         after("iteration");
     }
     stages.update_velocities();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <new>
 #include <vector>
@@ -33,6 +34,17 @@ struct Vector3Array {
         x.resize(n, value);
         y.resize(n, value);
         z.resize(n, value);
+    }
+    Eigen::Matrix<Real, 3, 1> at(int i) const { return {x[i], y[i], z[i]}; }
+    void set(int i, const Eigen::Matrix<Real, 3, 1>& value) {
+        x[i] = value.x();
+        y[i] = value.y();
+        z[i] = value.z();
+    }
+    void add(int i, const Eigen::Matrix<Real, 3, 1>& value) {
+        x[i] += value.x();
+        y[i] += value.y();
+        z[i] += value.z();
     }
 };
 

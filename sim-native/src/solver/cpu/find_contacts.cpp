@@ -1,13 +1,13 @@
 #include <algorithm>
 
-#include "stages.h"
+#include "substep.h"
 
 namespace natator::cpu {
 
 /// Lists the pairs that are not both fluid and closer than the radius plus margin at the predicted positions, in both
 /// directions that collide (a pair of one group may be felt by one side only). Pairs at distance 0 are left out.
 template <class Real>
-void Stages<Real>::find_contacts() {
+void Substep<Real>::find_contacts() {
     const Real distance_squared = constants_.search_distance * constants_.search_distance;
     std::vector<std::pair<int, int>>& pairs = pairs_;
     pairs.clear();
@@ -45,7 +45,7 @@ void Stages<Real>::find_contacts() {
 
 /// Lists the planes that each particle is within collisionDistance plus margin of, last plane first.
 template <class Real>
-void Stages<Real>::find_plane_contacts() {
+void Substep<Real>::find_plane_contacts() {
     ws_.plane_contacts.clear();
     for (int plane = static_cast<int>(model_.planes.size()) - 1; plane >= 0; --plane) {
         const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
@@ -61,9 +61,9 @@ void Stages<Real>::find_plane_contacts() {
     }
 }
 
-template void Stages<float>::find_contacts();
-template void Stages<double>::find_contacts();
-template void Stages<float>::find_plane_contacts();
-template void Stages<double>::find_plane_contacts();
+template void Substep<float>::find_contacts();
+template void Substep<double>::find_contacts();
+template void Substep<float>::find_plane_contacts();
+template void Substep<double>::find_plane_contacts();
 
 }  // namespace natator::cpu

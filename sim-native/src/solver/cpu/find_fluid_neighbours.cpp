@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "stages.h"
+#include "substep.h"
 
 namespace natator::cpu {
 
 template <class Real>
-FluidView<Real> Stages<Real>::fluid_view() {
+FluidView<Real> Substep<Real>::fluid_view() {
     const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
     const auto position = pointers(ws_.position);
     const auto correction = pointers(ws_.correction);
@@ -30,7 +30,7 @@ FluidView<Real> Stages<Real>::fluid_view() {
 /// Lists for each fluid particle the fluid particles closer than the radius plus margin at the predicted positions,
 /// in the order of their slots per run of cells, at most maxNeighborsPerParticle. Pairs at distance 0 are left out.
 template <class Real>
-void Stages<Real>::find_fluid_neighbours() {
+void Substep<Real>::find_fluid_neighbours() {
     const FluidView<Real> view = fluid_view();
     const Real distance_squared = constants_.search_distance * constants_.search_distance;
     const int most = model_.parameters.maxNeighborsPerParticle;
@@ -76,9 +76,9 @@ void Stages<Real>::find_fluid_neighbours() {
     ws_.row_begin[ws_.blocks()] = static_cast<int>(ws_.neighbour.size() / lanes);
 }
 
-template FluidView<float> Stages<float>::fluid_view();
-template FluidView<double> Stages<double>::fluid_view();
-template void Stages<float>::find_fluid_neighbours();
-template void Stages<double>::find_fluid_neighbours();
+template FluidView<float> Substep<float>::fluid_view();
+template FluidView<double> Substep<double>::fluid_view();
+template void Substep<float>::find_fluid_neighbours();
+template void Substep<double>::find_fluid_neighbours();
 
 }  // namespace natator::cpu

@@ -1,11 +1,11 @@
-#include "stages.h"
+#include "substep.h"
 
 namespace natator::cpu {
 
 /// v* = v + h g (g times buoyancy for fluid; no gravity on particles of infinite mass), |v*| <= maxSpeed,
 /// x* = x + h v*. A particle of infinite mass moves within the substep and is put back at its end.
 template <class Real>
-void Stages<Real>::predict() {
+void Substep<Real>::predict() {
     const Vector3<Real> gravity = model_.parameters.gravity.template cast<Real>();
     const Vector3<Real> fluid_gravity = gravity * Real(model_.parameters.buoyancy);
     for (int i = 0; i < ws_.particles; ++i) {
@@ -17,7 +17,7 @@ void Stages<Real>::predict() {
     }
 }
 
-template void Stages<float>::predict();
-template void Stages<double>::predict();
+template void Substep<float>::predict();
+template void Substep<double>::predict();
 
 }  // namespace natator::cpu

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "stages.h"
+#include "substep.h"
 
 namespace natator::cpu {
 namespace {
@@ -29,7 +29,7 @@ void sort_by_cell(Workspace<Real>& ws, const std::vector<int>& ids, int first_sl
 }  // namespace
 
 template <class Real>
-void Stages<Real>::sort_into_cells() {
+void Substep<Real>::sort_into_cells() {
     std::array<Real, 3> low, high;
     const auto& position = ws_.predicted_position;
     for (int axis = 0; axis < 3; ++axis) low[axis] = high[axis] = position[0][axis];
@@ -45,7 +45,7 @@ void Stages<Real>::sort_into_cells() {
     sort_by_cell(ws_, ws_.solid_ids, ws_.solid_begin, ws_.solid_cell_begin);
 }
 
-template void Stages<float>::sort_into_cells();
-template void Stages<double>::sort_into_cells();
+template void Substep<float>::sort_into_cells();
+template void Substep<double>::sort_into_cells();
 
 }  // namespace natator::cpu

@@ -1,10 +1,10 @@
-#include "stages.h"
+#include "flex_stages.h"
 
 namespace natator::cpu {
 
 /// Distance constraint: Dx_i = k w_i / (w_i + w_j) (l0 - l) n. The stiffness is used as it is in every iteration.
 template <class Real>
-void Stages<Real>::solve_springs() {
+void FlexStages<Real>::solve_springs() {
     for (std::size_t s = 0; s < model_.springs.size(); ++s) {
         const int a = ws_.slot_of[model_.springs[s].a];
         const int b = ws_.slot_of[model_.springs[s].b];
@@ -21,7 +21,7 @@ void Stages<Real>::solve_springs() {
     }
 }
 
-template void Stages<float>::solve_springs();
-template void Stages<double>::solve_springs();
+template void FlexStages<float>::solve_springs();
+template void FlexStages<double>::solve_springs();
 
 }  // namespace natator::cpu

@@ -1,5 +1,5 @@
-#include "rotation_fit.h"
-#include "stages.h"
+#include "../rotation_fit.h"
+#include "flex_stages.h"
 
 namespace natator::cpu {
 namespace {
@@ -14,7 +14,7 @@ constexpr double centre_dead_band = 1e-5;
 /// Shape matching: Dx_j = k (c + R r_j - x_j), r_j = rest position minus mean of the rest positions. Plain mean and
 /// covariance, without masses; R starts from the last fit; the centre c has a dead band.
 template <class Real>
-void Stages<Real>::solve_clusters() {
+void FlexStages<Real>::solve_clusters() {
     for (std::size_t k = 0; k < model_.clusters.size(); ++k) {
         const std::vector<int>& members = model_.clusters[k].particles;
         const std::vector<Vector3<Real>>& offsets = cluster_offset_[k];
@@ -45,7 +45,7 @@ void Stages<Real>::solve_clusters() {
     }
 }
 
-template void Stages<float>::solve_clusters();
-template void Stages<double>::solve_clusters();
+template void FlexStages<float>::solve_clusters();
+template void FlexStages<double>::solve_clusters();
 
 }  // namespace natator::cpu

@@ -1,4 +1,4 @@
-#include "stages.h"
+#include "flex_stages.h"
 
 namespace natator::cpu {
 
@@ -7,7 +7,7 @@ namespace natator::cpu {
 /// t = direction of the tangential relative displacement since the substep's start, m = its length,
 /// f = m if m < staticFriction * e, else min(particleFriction * e, m). Friction acts only if dynamicFriction > 0.
 template <class Real>
-void Stages<Real>::solve_contacts() {
+void FlexStages<Real>::solve_contacts() {
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
         const int i = ws_.touched[k];
         const Vector3<Real> xi = position_of_slot(i);
@@ -35,7 +35,7 @@ void Stages<Real>::solve_contacts() {
     }
 }
 
-template void Stages<float>::solve_contacts();
-template void Stages<double>::solve_contacts();
+template void FlexStages<float>::solve_contacts();
+template void FlexStages<double>::solve_contacts();
 
 }  // namespace natator::cpu

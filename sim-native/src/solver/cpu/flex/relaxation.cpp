@@ -1,11 +1,11 @@
-#include "stages.h"
+#include "flex_stages.h"
 
 namespace natator::cpu {
 
 /// Local relaxation: x_i += min(1, (1 + omega) / n_i) * sum of corrections, n_i = constraints of particle i (contacts
 /// with depth > 0, fluid neighbours with r < R, springs, clusters). Global relaxation: x_i += omega * sum.
 template <class Real>
-void Stages<Real>::relax_and_apply() {
+void FlexStages<Real>::relax_and_apply() {
     const bool local = model_.parameters.relaxationMode == RelaxationMode::local;
     const Real omega = constants_.relaxation_factor;
     const auto apply = [&](int begin, int end) {
@@ -21,7 +21,16 @@ void Stages<Real>::relax_and_apply() {
     apply(ws_.solid_begin, ws_.slots);
 }
 
-template void Stages<float>::relax_and_apply();
-template void Stages<double>::relax_and_apply();
+/// The density constraint sets the corrections of the fluid; those of the solids start from 0.
+template <class Real>
+void FlexStages<Real>::clear_corrections() {
+    for (auto* array : {&ws_.correction.x, &ws_.correction.y, &ws_.correction.z, &ws_.constraint_count})
+        std::fill(array->begin() + ws_.solid_begin, array->begin() + ws_.slots, Real(0));
+}
+
+template void FlexStages<float>::clear_corrections();
+template void FlexStages<double>::clear_corrections();
+template void FlexStages<float>::relax_and_apply();
+template void FlexStages<double>::relax_and_apply();
 
 }  // namespace natator::cpu

@@ -33,12 +33,12 @@ Vector3<Real> clamped(const Vector3<Real>& vector, Real longest) {
     return length > longest ? Vector3<Real>(vector * (longest / length)) : vector;
 }
 
-/// The stages of one substep of scheme `flex` on the CPU, one source file each; step.h gives their order.
-/// The equations are those measured on NVIDIA Flex 1.2.0 (tests/conformance/README.md).
+/// What both schemes do in a substep on the CPU, one source file per stage, and what they share to do it.
+/// step.h gives the order of the stages.
 template <class Real>
-class Stages {
+class Substep {
 public:
-    explicit Stages(const Model& model);
+    explicit Substep(const Model& model);
 
     const Plan& plan() const { return plan_; }
     const Workspace<Real>& workspace() const { return ws_; }
@@ -56,17 +56,6 @@ public:
     void find_contacts();
     void find_plane_contacts();
 
-    void clear_corrections();
-    void compute_density();
-    void solve_density_constraint();
-    void solve_contacts();
-    void solve_springs();
-    void solve_clusters();
-    void relax_and_apply();
-    void solve_planes();
-
-    void update_velocities();
-
     /// False if the last substep's outcome is not finite.
     bool finite() const;
     /// Lowest particle whose position, correction or velocity is not finite at this point of the substep.
@@ -76,25 +65,22 @@ public:
 
     /// Positions by particle at this point of the substep.
     std::vector<Vector3<Real>> positions() const;
-    /// Density at the present positions by particle, in units of rest density; 0 for solids and infinite masses.
-    std::vector<Real> densities();
     /// Fluid neighbours and contacts by particle.
     std::vector<int> neighbour_counts() const;
 
-private:
+protected:
+    /// Does particle i feel particle j?
     bool collides(int i, int j) const;
     FluidView<Real> fluid_view();
-    void add_correction(int slot, const Vector3<Real>& correction);
-    Vector3<Real> position_of_slot(int slot) const {
-        return {ws_.position.x[slot], ws_.position.y[slot], ws_.position.z[slot]};
-    }
-    Vector3<Real> start_of_slot(int slot) const { return {ws_.start.x[slot], ws_.start.y[slot], ws_.start.z[slot]}; }
+    /// Densities of the fluid by particle as the last density stage left them; 0 for solids and infinite masses.
+    std::vector<Real> densities_by_particle() const;
+    Vector3<Real> position_of_slot(int slot) const { return ws_.position.at(slot); }
+    Vector3<Real> start_of_slot(int slot) const { return ws_.start.at(slot); }
 
     const Model& model_;
     Plan plan_;
     Constants<Real> constants_;
     Workspace<Real> ws_;
-    const FluidKernels<Real>* kernels_;
     State<Real>* state_ = nullptr;
     Real h_ = 0;
 
@@ -103,7 +89,9 @@ private:
     std::vector<std::vector<Vector3<Real>>> cluster_offset_;
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep
     std::vector<Vector3<Real>> cluster_centre_;
+    const FluidKernels<Real>* kernels_;
 
+private:
     std::array<std::vector<std::int32_t>, lanes> found_;  ///< room for the neighbours of one block
     std::vector<std::pair<int, int>> pairs_;              ///< room for the contacts of one substep
 };

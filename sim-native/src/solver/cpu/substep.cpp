@@ -1,4 +1,4 @@
-#include "stages.h"
+#include "substep.h"
 
 #include <cmath>
 
@@ -41,7 +41,7 @@ Constants<Real>::Constants(const SolverParameters& p)
 }
 
 template <class Real>
-Stages<Real>::Stages(const Model& model)
+Substep<Real>::Stages(const Model& model)
     : model_(model),
       plan_(make_plan(model)),
       constants_(model.parameters),
@@ -56,19 +56,14 @@ Stages<Real>::Stages(const Model& model)
 }
 
 template <class Real>
-void Stages<Real>::gather_slots() {
+void Substep<Real>::gather_slots() {
     cluster_rotation_ = state_->cluster_rotation;
     cluster_centre_ = state_->cluster_centre;
-    const auto put = [](Vector3Array<Real>& array, int slot, const Vector3<Real>& value) {
-        array.x[slot] = value.x();
-        array.y[slot] = value.y();
-        array.z[slot] = value.z();
-    };
     for (int i = 0; i < ws_.particles; ++i) {
         const int slot = ws_.slot_of[i];
-        put(ws_.position, slot, ws_.predicted_position[i]);
-        put(ws_.start, slot, state_->position[i]);
-        put(ws_.predicted, slot, ws_.predicted_velocity[i]);
+        ws_.position.set(slot, ws_.predicted_position[i]);
+        ws_.start.set(slot, state_->position[i]);
+        ws_.predicted.set(slot, ws_.predicted_velocity[i]);
         ws_.inverse_mass[slot] = inverse_mass_[i];
     }
 }
@@ -76,7 +71,7 @@ void Stages<Real>::gather_slots() {
 /// Does particle i feel particle j? Pairs of different groups always; pairs of one group if i has self_collide, and
 /// not if it has self_collide_filter and the two are closer than the radius at rest.
 template <class Real>
-bool Stages<Real>::collides(int i, int j) const {
+bool Substep<Real>::collides(int i, int j) const {
     if ((model_.phase[i] & phase::group_mask) != (model_.phase[j] & phase::group_mask)) return true;
     if (!(model_.phase[i] & phase::self_collide)) return false;
     if (!(model_.phase[i] & phase::self_collide_filter) || model_.rest_position.empty()) return true;
@@ -84,39 +79,23 @@ bool Stages<Real>::collides(int i, int j) const {
 }
 
 template <class Real>
-void Stages<Real>::add_correction(int slot, const Vector3<Real>& correction) {
-    ws_.correction.x[slot] += correction.x();
-    ws_.correction.y[slot] += correction.y();
-    ws_.correction.z[slot] += correction.z();
-    ws_.constraint_count[slot] += 1;
-}
-
-/// The density constraint sets the corrections of the fluid; those of the solids start from 0.
-template <class Real>
-void Stages<Real>::clear_corrections() {
-    for (auto* array : {&ws_.correction.x, &ws_.correction.y, &ws_.correction.z, &ws_.constraint_count})
-        std::fill(array->begin() + ws_.solid_begin, array->begin() + ws_.slots, Real(0));
-}
-
-template <class Real>
-std::vector<Vector3<Real>> Stages<Real>::positions() const {
+std::vector<Vector3<Real>> Substep<Real>::positions() const {
     std::vector<Vector3<Real>> positions;
     for (const int slot : ws_.slot_of) positions.push_back(position_of_slot(slot));
     return positions;
 }
 
 template <class Real>
-std::vector<Real> Stages<Real>::densities() {
+std::vector<Real> Substep<Real>::densities_by_particle() const {
     std::vector<Real> densities(ws_.particles, Real(0));
     if (!plan_.fluid) return densities;
-    compute_density();
     for (const int i : ws_.fluid_ids)
         if (inverse_mass_[i] > 0) densities[i] = ws_.density[ws_.slot_of[i]];
     return densities;
 }
 
 template <class Real>
-std::vector<int> Stages<Real>::neighbour_counts() const {
+std::vector<int> Substep<Real>::neighbour_counts() const {
     std::vector<int> counts(ws_.particles, 0);
     for (const int i : ws_.fluid_ids) counts[i] = ws_.neighbour_count[ws_.slot_of[i]];
     for (std::size_t k = 0; k < ws_.touched.size(); ++k)
@@ -126,7 +105,7 @@ std::vector<int> Stages<Real>::neighbour_counts() const {
 
 template struct Constants<float>;
 template struct Constants<double>;
-template class Stages<float>;
-template class Stages<double>;
+template class Substep<float>;
+template class Substep<double>;
 
 }  // namespace natator::cpu

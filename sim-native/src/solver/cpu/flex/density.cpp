@@ -1,11 +1,11 @@
-#include "stages.h"
+#include "flex_stages.h"
 
 namespace natator::cpu {
 
 /// rho_i = sum over fluid j of W_ij + solidPressure * sum over solid j of W_ij, W = (1 - r/R)^2 / S, without the
 /// particle itself and without masses; C_i = max(rho_i - 1, 0). Solids have no density.
 template <class Real>
-void Stages<Real>::compute_density() {
+void FlexStages<Real>::compute_density() {
     if (plan_.solid_pressure) {
         std::fill(ws_.solid_density.begin(), ws_.solid_density.end(), Real(0));
         const Real weight = static_cast<Real>(model_.parameters.solidPressure);
@@ -25,13 +25,13 @@ void Stages<Real>::compute_density() {
 
 /// Dx_i = w_i R sum over fluid j of 1/2 (C_i + C_j) (1 - r/R) n, n from j to i. The weight is w_i itself, not a share.
 template <class Real>
-void Stages<Real>::solve_density_constraint() {
+void FlexStages<Real>::solve_density_constraint() {
     kernels_->solve_density_constraint(fluid_view());
 }
 
-template void Stages<float>::compute_density();
-template void Stages<double>::compute_density();
-template void Stages<float>::solve_density_constraint();
-template void Stages<double>::solve_density_constraint();
+template void FlexStages<float>::compute_density();
+template void FlexStages<double>::compute_density();
+template void FlexStages<float>::solve_density_constraint();
+template void FlexStages<double>::solve_density_constraint();
 
 }  // namespace natator::cpu

@@ -1,4 +1,4 @@
-#include "stages.h"
+#include "flex_stages.h"
 
 namespace natator::cpu {
 
@@ -6,7 +6,7 @@ namespace natator::cpu {
 /// min(dynamicFriction * e, m) off the tangential displacement m since the substep's start (all of it if
 /// m < staticFriction * e). Not pooled with other constraints.
 template <class Real>
-void Stages<Real>::solve_planes() {
+void FlexStages<Real>::solve_planes() {
     for (const auto& [slot, plane] : ws_.plane_contacts) {
         const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
         const Real offset = static_cast<Real>(model_.planes[plane].offset);
@@ -22,13 +22,11 @@ void Stages<Real>::solve_planes() {
                 m < constants_.static_friction * depth ? m : std::min(constants_.dynamic_friction * depth, m);
             if (m > 0) x -= held / m * tangential;
         }
-        ws_.position.x[slot] = x.x();
-        ws_.position.y[slot] = x.y();
-        ws_.position.z[slot] = x.z();
+        ws_.position.set(slot, x);
     }
 }
 
-template void Stages<float>::solve_planes();
-template void Stages<double>::solve_planes();
+template void FlexStages<float>::solve_planes();
+template void FlexStages<double>::solve_planes();
 
 }  // namespace natator::cpu

@@ -1,0 +1,46 @@
+#include "substep.h"
+
+namespace natator::cpu {
+
+/// The new velocities depend on every other value of the substep, and a sum of differences of a value with itself is
+/// not 0 as soon as one is not finite.
+template <class Real>
+bool Substep<Real>::finite() const {
+    Real difference = 0;
+    for (int i = 0; i < ws_.particles; ++i) {
+        const Vector3<Real> x = position_of_slot(ws_.slot_of[i]);
+        difference += (ws_.predicted_velocity[i] - ws_.predicted_velocity[i]).sum() + (x - x).sum();
+    }
+    return difference == 0;
+}
+
+template <class Real>
+std::optional<int> Substep<Real>::first_not_finite() const {
+    for (int i = 0; i < ws_.particles; ++i) {
+        const int slot = ws_.slot_of[i];
+        if (!ws_.predicted_velocity[i].allFinite() || !ws_.predicted_position[i].allFinite() ||
+            !position_of_slot(slot).allFinite() || !ws_.correction.at(slot).allFinite())
+            return i;
+    }
+    return std::nullopt;
+}
+
+template <class Real>
+void Substep<Real>::commit() {
+    for (int i = 0; i < ws_.particles; ++i) {
+        if (inverse_mass_[i] == 0) continue;
+        state_->position[i] = position_of_slot(ws_.slot_of[i]);
+        state_->velocity[i] = ws_.predicted_velocity[i];
+    }
+    state_->cluster_rotation = cluster_rotation_;
+    state_->cluster_centre = cluster_centre_;
+}
+
+template bool Substep<float>::finite() const;
+template bool Substep<double>::finite() const;
+template std::optional<int> Substep<float>::first_not_finite() const;
+template std::optional<int> Substep<double>::first_not_finite() const;
+template void Substep<float>::commit();
+template void Substep<double>::commit();
+
+}  // namespace natator::cpu
