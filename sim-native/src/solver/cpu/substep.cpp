@@ -41,7 +41,7 @@ Constants<Real>::Constants(const SolverParameters& p)
 }
 
 template <class Real>
-Substep<Real>::Stages(const Model& model)
+Substep<Real>::Substep(const Model& model)
     : model_(model),
       plan_(make_plan(model)),
       constants_(model.parameters),
