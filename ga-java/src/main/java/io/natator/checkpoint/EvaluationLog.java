@@ -85,6 +85,20 @@ final class EvaluationLog implements AutoCloseable {
         return later;
     }
 
+    /** How many simulations are in the log. */
+    long size() {
+        return nextId;
+    }
+
+    /** Forces all that was appended to the disk, so that no checkpoint can be there without it after a power cut. */
+    void force() {
+        try {
+            channel.force(false);
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + file + ": " + e.getMessage(), e);
+        }
+    }
+
     /** Appends a simulation, unless it is already there. */
     void append(EvaluationRecord evaluation) {
         if (evaluation.result().id() < nextId) {

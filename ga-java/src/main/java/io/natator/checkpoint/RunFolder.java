@@ -25,6 +25,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     private static final String CONFIG = "config.json";
     private static final String CHECKPOINT = "checkpoint.json";
+    private static final String EVALUATIONS = "evaluations.jsonl";
 
     private final Path directory;
     private final EvolutionSettings settings;
@@ -37,7 +38,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         this.directory = directory;
         this.settings = settings;
         this.encoding = settings.encoding().forActuators(settings.actuators());
-        this.log = new EvaluationLog(directory.resolve("evaluations.jsonl"));
+        this.log = new EvaluationLog(directory.resolve(EVALUATIONS));
         this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
                 ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
         this.timings = new Timings(directory.resolve("timings.csv"));
@@ -81,7 +82,14 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         if (!Files.isRegularFile(directory.resolve(CONFIG))) {
             throw new InvalidInputException(directory + " is not a run folder: it has no " + CONFIG);
         }
-        return new RunFolder(directory, Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings"));
+        RunFolder folder = new RunFolder(directory,
+                Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings"));
+        if (folder.checkpoint != null && folder.log.size() < folder.checkpoint.evaluations()) {
+            folder.close();
+            throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + folder.log.size()
+                    + " whole lines; expected at least the " + folder.checkpoint.evaluations() + " of " + CHECKPOINT);
+        }
+        return folder;
     }
 
     /** Where it is. */
@@ -119,9 +127,10 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         log.append(evaluation);
     }
 
-    /** Writes the checkpoint first: if the run is killed right after, the rest can be made from it. */
+    /** Writes the checkpoint before what follows from it: if the run is killed right after, the rest can be made from it. */
     @Override
     public void generationFinished(EvolutionState state) {
+        log.force();
         AtomicFile.write(directory.resolve(CHECKPOINT), Json.document(state));
         writeResults(state, null);
         timings.append(state);

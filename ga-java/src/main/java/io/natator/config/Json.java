@@ -3,6 +3,7 @@ package io.natator.config;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.core.StreamReadFeature;
 import com.fasterxml.jackson.databind.DeserializationFeature;
+import com.fasterxml.jackson.databind.JsonMappingException;
 import com.fasterxml.jackson.databind.ObjectMapper;
 import com.fasterxml.jackson.databind.exc.MismatchedInputException;
 import com.fasterxml.jackson.databind.json.JsonMapper;
@@ -10,6 +11,8 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
+import java.util.Objects;
+import java.util.stream.Collectors;
 
 /** The one way in which this program reads and writes JSON: strict, doubles with all their digits. */
 public final class Json {
@@ -74,10 +77,13 @@ public final class Json {
         }
     }
 
-    /** Why the text was refused, as one line with the place. */
+    /** Why the text was refused, as one line with the field and the place. */
     public static String reason(JsonProcessingException e) {
-        String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON");
-        return e.getLocation() == null ? message
-                : message + " (line " + e.getLocation().getLineNr() + ", column " + e.getLocation().getColumnNr() + ")";
+        String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON").replaceFirst(" \\(set .*", "");
+        String field = e instanceof JsonMappingException mapping ? mapping.getPath().stream()
+                .map(JsonMappingException.Reference::getFieldName).filter(Objects::nonNull)
+                .collect(Collectors.joining(".")) : "";
+        return (field.isEmpty() ? "" : field + ": ") + message + (e.getLocation() == null ? ""
+                : " (line " + e.getLocation().getLineNr() + ", column " + e.getLocation().getColumnNr() + ")");
     }
 }

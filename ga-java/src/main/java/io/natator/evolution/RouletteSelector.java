@@ -29,7 +29,6 @@ final class RouletteSelector extends NaturalSelectorExt {
 
     @Override
     protected void add(IChromosome chromosome) {
-        chromosome.setIsSelectedForNextGeneration(false);
         candidates.add(chromosome);
     }
 
@@ -65,7 +64,7 @@ final class RouletteSelector extends NaturalSelectorExt {
         return slot;
     }
 
-    /** The chromosome itself the first time, later a copy: the selected must not share their ages. */
+    /** The chromosome itself if nobody selected it yet, else a copy: the selected must not share their ages. */
     private static IChromosome take(IChromosome chromosome) {
         if (!chromosome.isSelectedForNextGeneration()) {
             chromosome.setIsSelectedForNextGeneration(true);

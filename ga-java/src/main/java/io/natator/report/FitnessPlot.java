@@ -1,6 +1,7 @@
 package io.natator.report;
 
 import io.natator.analysis.GenerationSummary;
+import java.awt.BasicStroke;
 import java.awt.Color;
 import java.io.IOException;
 import java.nio.file.Path;
@@ -32,7 +33,9 @@ public final class FitnessPlot {
     public static void draw(String title, List<GenerationSummary> history, Path folder) throws IOException {
         XYChart chart = new XYChartBuilder().width(WIDTH).height(HEIGHT).title(title).xAxisTitle("generation")
                 .yAxisTitle("distance (scene units)").build();
-        chart.getStyler().setLegendPosition(Styler.LegendPosition.InsideNW).setChartBackgroundColor(Color.WHITE);
+        chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
+        // Dashed lines make an SVG of half a megabyte, since each dash becomes a path.
+        chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
         add(chart, "best", history, GenerationSummary::best);
         add(chart, "mean", history, GenerationSummary::mean);
         add(chart, "median", history, GenerationSummary::median);

@@ -133,10 +133,14 @@ final class NativeProgram implements AutoCloseable {
         }
     }
 
+    /**
+     * Kills the program with all its descendants. Not by {@link Process#destroyForcibly()}, which also closes the pipes:
+     * that waits for a thread that is writing, and so for a descendant that holds the pipe open but does not read it.
+     */
     private static void kill(Process process) {
         if (process.isAlive()) {
             List<ProcessHandle> descendants = process.descendants().toList();
-            process.destroyForcibly();
+            process.toHandle().destroyForcibly();
             descendants.forEach(ProcessHandle::destroyForcibly);
         }
     }

@@ -1,0 +1,216 @@
+package io.natator.checkpoint;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.config.OperatorSet;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.Evolution;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionState;
+import io.natator.evolution.ToySimulator;
+import io.natator.simulator.WorkerPool;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.TreeMap;
+import java.util.stream.Stream;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.EnumSource;
+
+class RunFolderTest {
+
+    @TempDir
+    private Path temporary;
+    private Path run;
+
+    @BeforeEach
+    void choose() {
+        run = temporary.resolve("run");
+    }
+
+    private static EvolutionSettings settings(OperatorSet operators) {
+        return new EvolutionSettings("thesis/creature-3", EncodingKind.DENSE, 5, 12, 4, 99, operators, 0.05, null, null,
+                null);
+    }
+
+    /** Runs, or continues, what is in the folder. */
+    private static ToySimulator evolve(RunFolder folder, EvolutionListener... more) {
+        List<EvolutionListener> listeners = new ArrayList<>(List.of(folder));
+        listeners.addAll(List.of(more));
+        ToySimulator simulator = new ToySimulator();
+        try (folder; WorkerPool pool = new WorkerPool(simulator, 3)) {
+            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.unfinishedGeneration())
+                    .run(folder.checkpoint());
+            folder.writeResults(end, null);
+        }
+        return simulator;
+    }
+
+    /** The files that must not depend on anything but the settings. */
+    private static Map<String, String> lastingFiles(Path folder) throws IOException {
+        Map<String, String> files = new TreeMap<>();
+        try (Stream<Path> paths = Files.list(folder)) {
+            for (Path path : paths.filter(file -> !file.endsWith("timings.csv")).toList()) {
+                files.put(path.getFileName().toString(), Files.readString(path));
+            }
+        }
+        return files;
+    }
+
+    @Test
+    void holdsAllThatARunIsMadeOf() throws IOException {
+        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+
+        assertThat(lastingFiles(run)).containsOnlyKeys("best.json", "checkpoint.json", "config.json",
+                "evaluations.jsonl", "generations.csv");
+        List<String> rows = Files.readAllLines(run.resolve("generations.csv"));
+        assertThat(rows).hasSize(6);
+        assertThat(rows.get(0))
+                .isEqualTo("generation,best,mean,median,worst,population,evaluations,unstable,failed");
+        JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class);
+        assertThat(rows.get(5)).startsWith("4," + best.get("distance").asText() + ",");
+        assertThat(best.get("gait").get("amplitude")).hasSize(5);
+        assertThat(Files.readAllLines(run.resolve("timings.csv"))).hasSize(6);
+    }
+
+    /** At every moment at which a run can be killed: copies its folder, and continues the copy. */
+    @ParameterizedTest
+    @EnumSource(OperatorSet.class)
+    void aKilledRunContinuesAsIfNothingHadHappened(OperatorSet operators) throws IOException {
+        List<Path> snapshots = new ArrayList<>();
+        Random random = new Random(5);
+        evolve(RunFolder.create(run, settings(operators)), new EvolutionListener() {
+            @Override
+            public void evaluated(EvaluationRecord evaluation) {
+                if (random.nextInt(8) == 0) {
+                    snapshot(snapshots);
+                }
+            }
+
+            @Override
+            public void generationFinished(EvolutionState state) {
+                snapshot(snapshots);
+            }
+        });
+        Map<String, String> whole = lastingFiles(run);
+
+        assertThat(snapshots).hasSizeGreaterThan(10);
+        for (Path snapshot : snapshots) {
+            tear(snapshot, random);
+            evolve(RunFolder.open(snapshot));
+
+            assertThat(lastingFiles(snapshot)).isEqualTo(whole);
+        }
+    }
+
+    /** Cuts the log anywhere after what belongs to the checkpoint. */
+    private static void tear(Path folder, Random random) throws IOException {
+        Path log = folder.resolve("evaluations.jsonl");
+        String content = Files.readString(log);
+        Path checkpoint = folder.resolve("checkpoint.json");
+        long safe = !Files.exists(checkpoint) ? 0
+                : Json.parse(Files.readString(checkpoint), EvolutionState.class).evaluations();
+        int end = 0;
+        for (long line = 0; line < safe; line++) {
+            end = content.indexOf('\n', end) + 1;
+        }
+        Files.writeString(log, content.substring(0, end + random.nextInt(content.length() - end + 1)));
+    }
+
+    private void snapshot(List<Path> snapshots) {
+        try {
+            Path copy = Files.createDirectories(temporary.resolve("killed-" + snapshots.size()));
+            try (Stream<Path> files = Files.list(run)) {
+                for (Path file : files.toList()) {
+                    Files.copy(file, copy.resolve(file.getFileName()));
+                }
+            }
+            snapshots.add(copy);
+        } catch (IOException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    @Test
+    void finishedEvaluationsAreNotRepeated() throws IOException {
+        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        long all = Files.readAllLines(run.resolve("evaluations.jsonl")).size();
+        Files.delete(run.resolve("checkpoint.json"));
+
+        ToySimulator second = evolve(RunFolder.open(run));
+
+        assertThat(second.calls()).isZero();
+        assertThat(Files.readAllLines(run.resolve("evaluations.jsonl"))).hasSize((int) all);
+    }
+
+    @Test
+    void aFinishedRunStaysAsItIs() throws IOException {
+        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        Map<String, String> before = lastingFiles(run);
+
+        assertThat(evolve(RunFolder.open(run)).calls()).isZero();
+        assertThat(lastingFiles(run)).isEqualTo(before);
+    }
+
+    @Test
+    void nothingIsOverwritten() throws IOException {
+        Files.createDirectories(run);
+        Files.writeString(run.resolve("thesis.tex"), "years of work");
+
+        assertThatThrownBy(() -> RunFolder.create(run, settings(OperatorSet.CORRECTED)))
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("is not empty");
+        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("is not a run folder");
+        try (Stream<Path> files = Files.list(run)) {
+            assertThat(files).hasSize(1);
+        }
+    }
+
+    @Test
+    void aFileIsNoFolder() throws IOException {
+        Files.writeString(run, "a file");
+
+        assertThatThrownBy(() -> RunFolder.create(run, settings(OperatorSet.CORRECTED)))
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("cannot be made");
+    }
+
+    @Test
+    void twoRunsCannotShareAFolder() {
+        try (RunFolder first = RunFolder.create(run, settings(OperatorSet.CORRECTED))) {
+            assertThat(first.checkpoint()).isNull();
+            assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+                    .hasMessageContaining("is in use");
+        }
+    }
+
+    @Test
+    void damageIsToldOf() throws IOException {
+        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        Files.writeString(run.resolve("checkpoint.json"), "{\"generation\":1");
+
+        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("checkpoint").hasMessageContaining("line 1");
+    }
+
+    @Test
+    void lostEvaluationsAreToldOf() throws IOException {
+        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        Files.writeString(run.resolve("evaluations.jsonl"), "");
+
+        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("evaluations.jsonl has 0 whole lines");
+    }
+}

@@ -1,0 +1,230 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import io.natator.simulator.FakeSimulator;
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import picocli.CommandLine;
+
+class CommandLineTest {
+
+    @TempDir
+    private Path folder;
+    private Path simulator;
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    @BeforeEach
+    void fake() {
+        simulator = FakeSimulator.in(folder);
+    }
+
+    private int natator(String... arguments) {
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
+        List<String> all = new ArrayList<>(List.of(arguments));
+        all.addAll(1, List.of("--simulator-path", simulator.toString()));
+        return command.execute(all.toArray(String[]::new));
+    }
+
+    private int evolve(String runName, String... more) {
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "8", "--generations", "3", "--seed",
+                "5", "--output-dir", folder.resolve(runName).toString()));
+        arguments.addAll(List.of(more));
+        return natator(arguments.toArray(String[]::new));
+    }
+
+    private String file(String runName, String name) throws IOException {
+        return Files.readString(folder.resolve(runName).resolve(name));
+    }
+
+    @Test
+    void evolvesAndReports() throws IOException {
+        assertThat(evolve("run")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).startsWith("best gait of thesis/creature-1 after 3 generations")
+                .contains("frequency", "amplitude", "phase", "distance", "speed", "in vacuum",
+                        "run folder  " + folder.resolve("run"));
+        assertThat(err.toString().lines()).hasSize(4).allSatisfy(line -> assertThat(line)
+                .matches("generation \\d/3  best -?\\d\\.\\d{4}  mean -?\\d\\.\\d{4}  evaluations \\d+  .*/s  left .*"));
+        JsonNode best = Json.parse(file("run", "best.json"), JsonNode.class);
+        assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
+        JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
+        assertThat(environment.get("simulatorSha256").asText()).matches("[0-9a-f]{64}");
+        assertThat(folder.resolve("run/plots/fitness.png")).isNotEmptyFile();
+        assertThat(folder.resolve("run/plots/fitness.svg")).isNotEmptyFile();
+    }
+
+    @ParameterizedTest
+    @CsvSource({"corrected", "stock"})
+    void theWorkersDoNotChangeAByte(String operators) throws IOException {
+        assertThat(evolve("one", "--workers", "1", "--operators", operators)).isZero();
+        assertThat(evolve("four", "--workers", "4", "--operators", operators)).isZero();
+
+        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
+                "evaluations.jsonl")) {
+            assertThat(file("four", name)).as(name).isEqualTo(file("one", name));
+        }
+    }
+
+    @Test
+    void creature2IsSparseUnlessToldOtherwise() throws IOException {
+        assertThat(evolve("sparse", "--creature", "2")).isZero();
+        assertThat(evolve("dense", "--creature", "2", "--encoding", "dense")).isZero();
+
+        assertThat(Json.parse(file("sparse", "best.json"), JsonNode.class).get("genes")).hasSize(4);
+        assertThat(Json.parse(file("dense", "best.json"), JsonNode.class).get("genes")).hasSize(16);
+        assertThat(Json.parse(file("sparse", "best.json"), JsonNode.class).get("gait").get("phase")).hasSize(8);
+    }
+
+    @Test
+    void faultsCostOnlyTheirOwnEvaluation() throws IOException {
+        assertThat(evolve("faults", "--scene", "fault/mixed")).as(err.toString()).isZero();
+
+        assertThat(file("faults", "evaluations.jsonl").lines().filter(line -> line.contains("\"failed\"")))
+                .isNotEmpty().allSatisfy(line -> assertThat(line).contains("\"error\":\"no valid result"));
+        assertThat(file("faults", "generations.csv").lines()).hasSize(5);
+    }
+
+    @Test
+    void aRunInWhichAllFailsEndsWithOneLine() {
+        assertThat(evolve("broken", "--scene", "fault/exit")).isEqualTo(1);
+
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).startsWith("natator evolve: generation 0: 8 of 8 simulations failed, the first: ")
+                .contains("out of luck");
+    }
+
+    @Test
+    void refusesAFolderThatIsNotEmpty() {
+        assertThat(evolve("run")).isZero();
+        err.getBuffer().setLength(0);
+
+        assertThat(evolve("run")).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).contains("is not empty");
+    }
+
+    @Test
+    void resumingAFinishedRunChangesNothing() throws IOException {
+        assertThat(evolve("run")).isZero();
+        String before = file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl");
+
+        assertThat(natator("evolve", "--resume", folder.resolve("run").toString(), "--workers", "3")).isZero();
+        assertThat(file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl"))
+                .isEqualTo(before);
+    }
+
+    @Test
+    void resumingKeepsTheSettings() {
+        assertThat(evolve("run")).isZero();
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("evolve", "--resume", folder.resolve("run").toString(), "--seed", "6")).isEqualTo(2);
+        assertThat(err.toString()).startsWith("natator evolve: --seed cannot be given with --resume");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "--population 1|population is 1",
+        "--generations -1|generations is -1",
+        "--generations many|'many' is not an int",
+        "--creature 5|--creature is 5; expected 1, 2, 3 or 4",
+        "--creature 1 --scene thesis/creature-2|exclude each other",
+        "--workers 0|workers is 0",
+        "--timeout 0|--timeout is 0.0",
+        "--timeout NaN|--timeout is NaN",
+        "--duration -1|duration is -1.0",
+        "--gaussian-deviation 0|gaussian-deviation is 0.0",
+        "--operators magic|expected one of",
+        "--encoding magic|expected one of",
+        "--scene no/such|expected a named scene or a file",
+        "--scene no/such.json|expected a named scene or an existing file",
+        "--overrides no-such.json|no-such.json does not exist",
+        "--overrides {\"solver\":|--overrides: ",
+        "--seed|Missing required parameter for option '--seed'",
+        "--sed 3|Unknown options: '--sed'",
+        "--resume no/such/folder|no/such/folder is not a run folder"})
+    void badUsageIsOneLineAndStatus2(String arguments, String message) {
+        List<String> all = new ArrayList<>(List.of("evolve"));
+        all.addAll(List.of(arguments.split(" ")));
+        if (!arguments.startsWith("--resume")) {
+            all.addAll(1, List.of("--output-dir", folder.resolve("never").toString()));
+        }
+
+        assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).startsWith("natator evolve: ").contains(message);
+        assertThat(out.toString()).isEmpty();
+        assertThat(folder.resolve("never")).doesNotExist();
+    }
+
+    @Test
+    void aMissingSimulatorIsNamed() {
+        CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute("evolve", "--simulator-path", "no/such/program")).isEqualTo(2);
+        assertThat(err.toString().strip())
+                .isEqualTo("natator evolve: --simulator-path is no/such/program; expected an executable file");
+    }
+
+    @Test
+    void evaluatesGenes() throws IOException {
+        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait", "1.5", "0.1", "0.2", "0.3")).isZero();
+
+        assertThat(Json.parse(out.toString(), JsonNode.class).get("distance").asDouble()).isEqualTo(-1.3925);
+    }
+
+    @Test
+    void evaluatesAGaitFileAndTheBestOfARun() throws IOException {
+        Path gait = Files.writeString(folder.resolve("gait.json"),
+                "{\"frequency\":1.5,\"amplitude\":[0.1,0.2],\"phase\":[0,0.3]}");
+        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait", gait.toString())).isZero();
+        assertThat(Json.parse(out.toString(), JsonNode.class).get("distance").asDouble()).isEqualTo(-1.3925);
+
+        assertThat(evolve("run")).isZero();
+        JsonNode best = Json.parse(file("run", "best.json"), JsonNode.class);
+        out.getBuffer().setLength(0);
+        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait",
+                folder.resolve("run/best.json").toString())).isZero();
+        assertThat(Json.parse(out.toString(), JsonNode.class).get("distance")).isEqualTo(best.get("distance"));
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "thesis/creature-1|1.5 0.1 0.2|3 genes given; expected 4",
+        "thesis/creature-1|1.5 0.1 zero 0.3|gene 3 is 'zero'; expected a number",
+        "thesis/creature-1|2.5 0.1 0.2 0.3|gene 1 (frequency) is 2.5; expected a number from 0.5 to 2.0",
+        "thesis/creature-1|NaN 0.1 0.2 0.3|gene 1 (frequency) is NaN",
+        "thesis/creature-1|no-such.json|no-such.json does not exist",
+        "fault/rejected|1.5 0.1 0.2 0.3|simulator: gait.frequency is 70"})
+    void badGaitsAreNamed(String scene, String gait, String message) {
+        List<String> all = new ArrayList<>(List.of("evaluate", "--scene", scene, "--gait"));
+        all.addAll(List.of(gait.split(" ")));
+
+        assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).startsWith("natator evaluate: ").contains(message);
+    }
+
+    @Test
+    void anEvaluationThatFailsSaysWhyAndEndsWithStatus1() throws IOException {
+        assertThat(natator("evaluate", "--scene", "fault/exit", "--gait", "1.5", "0.1", "0.2", "0.3")).isEqualTo(1);
+
+        JsonNode result = Json.parse(out.toString(), JsonNode.class);
+        assertThat(result.get("status").asText()).isEqualTo("failed");
+        assertThat(result.get("error").asText()).contains("out of luck");
+    }
+}

@@ -1,0 +1,44 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicLong;
+import org.junit.jupiter.api.Test;
+
+class PaceTest {
+
+    private final AtomicLong clock = new AtomicLong();
+    private final Pace pace = new Pace(2, 10, clock::get);
+
+    private void evaluate(int count, long seconds) {
+        for (int i = 0; i < count; i++) {
+            pace.evaluated();
+        }
+        clock.addAndGet(TimeUnit.SECONDS.toNanos(seconds));
+    }
+
+    @Test
+    void expectsWhatTheLastGenerationTook() {
+        pace.generationStarted(0, 10);
+        assertThat(pace.left()).isEqualTo("?");
+        assertThat(pace.expected()).isEqualTo(10 + 2 * 15);
+
+        evaluate(10, 5);
+        pace.generationStarted(1, 20);
+        assertThat(pace.rate()).isEqualTo(2.0);
+        assertThat(pace.expected()).isEqualTo(10 + 20 + 20);
+        assertThat(pace.left()).isEqualTo("20s");
+    }
+
+    @Test
+    void longTimesAreReadable() {
+        pace.generationStarted(0, 10);
+        evaluate(1, 130);
+        assertThat(pace.left()).isEqualTo("1h24m");
+        evaluate(29, 0);
+        assertThat(pace.left()).isEqualTo("43s");
+        clock.addAndGet(TimeUnit.SECONDS.toNanos(70));
+        assertThat(pace.left()).isEqualTo("1m07s");
+    }
+}

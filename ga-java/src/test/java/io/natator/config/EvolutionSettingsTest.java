@@ -1,0 +1,49 @@
+package io.natator.config;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+class EvolutionSettingsTest {
+
+    private static EvolutionSettings settings(int population, int generations, double deviation, Double duration) {
+        return new EvolutionSettings("thesis/creature-1", EncodingKind.DENSE, 2, population, generations, 1,
+                OperatorSet.CORRECTED, deviation, Scheme.FLEX, duration, null);
+    }
+
+    @ParameterizedTest
+    @CsvSource({"150, 30", "24, 5", "6, 1", "2, 0"})
+    void elitesAreAFifthOfThePopulation(int population, int elites) {
+        assertThat(settings(population, 1, 0.05, null).elites()).isEqualTo(elites);
+    }
+
+    @Test
+    void surviveTheFile() throws JsonProcessingException {
+        EvolutionSettings settings = settings(24, 8, 0.1, 0.25);
+
+        assertThat(Json.parse(Json.document(settings), EvolutionSettings.class)).isEqualTo(settings);
+    }
+
+    @Test
+    void whatIsOutOfRangeIsNamed() {
+        assertThatThrownBy(() -> settings(1, 1, 0.05, null)).isInstanceOf(InvalidInputException.class)
+                .hasMessage("population is 1; expected a whole number from 2");
+        assertThatThrownBy(() -> settings(2, -1, 0.05, null)).hasMessageStartingWith("generations is -1");
+        assertThatThrownBy(() -> settings(2, 1, Double.NaN, null)).hasMessageStartingWith("gaussian-deviation is NaN");
+        assertThatThrownBy(() -> settings(2, 1, 0.05, 0.0)).hasMessageStartingWith("duration is 0.0");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {"{\"scene\":\"a\"}|actuators",
+        "{\"actuators\":2,\"population\":9,\"generations\":1,\"seed\":1,\"gaussianDeviation\":0.1,\"sed\":2}|sed",
+        "{\"scene\":\"a\",\"scene\":\"b\"}|scene", "{\"scene\":\"a\"|end-of-input", "{\"population\":2.5}|2.5"})
+    void damagedFilesSayWhereAndWhat(String json, String what) {
+        assertThatThrownBy(() -> Json.parse(json, EvolutionSettings.class))
+                .isInstanceOfSatisfying(JsonProcessingException.class,
+                        e -> assertThat(Json.reason(e)).contains(what).doesNotContain("\n"));
+    }
+}

@@ -1,0 +1,43 @@
+package io.natator.evolution;
+
+import io.natator.encoding.Gait;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.Simulator;
+import java.util.concurrent.atomic.AtomicInteger;
+
+/** Swims by a formula, in this process; takes an uneven time so that workers finish out of order. */
+public final class ToySimulator implements Simulator {
+
+    private final AtomicInteger calls = new AtomicInteger();
+
+    @Override
+    public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+        calls.incrementAndGet();
+        if (request.id() % 5 == 0) {
+            Thread.sleep(1);
+        }
+        double distance = distance(request.gait());
+        return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex",
+                "float", "0123456789abcdef", null, null);
+    }
+
+    /** Best at f = 1.2, a = 0.6, φ = 0.3; negative far from there. */
+    static double distance(Gait gait) {
+        double distance = 0.5 - Math.pow(gait.frequency() - 1.2, 2);
+        for (int i = 0; i < gait.actuators(); i++) {
+            distance -= Math.pow(gait.amplitude().get(i) - 0.6, 2) + (i == 0 ? 0 : Math.pow(gait.phase().get(i) - 0.3, 2));
+        }
+        return distance;
+    }
+
+    /** How many evaluations were asked for. */
+    public int calls() {
+        return calls.get();
+    }
+
+    @Override
+    public void close() {
+        // Nothing is held.
+    }
+}

@@ -1,0 +1,173 @@
+package io.natator.simulator;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.ExecutionSettings;
+import io.natator.simulator.SimulationResult.Status;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.concurrent.TimeUnit;
+import java.util.stream.Stream;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+@Timeout(value = 60, unit = TimeUnit.SECONDS)
+class ProcessSimulatorTest {
+
+    @TempDir
+    private Path folder;
+
+    private SimulationResult evaluate(String scene, double timeoutSeconds) throws InterruptedException {
+        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, timeoutSeconds))) {
+            return simulator.evaluate(FakeSimulator.request(7, scene));
+        }
+    }
+
+    @Test
+    void readsAResultAndIgnoresUnknownFields() throws InterruptedException {
+        SimulationResult result = evaluate("thesis/creature-1", 20);
+
+        assertThat(result).isEqualTo(new SimulationResult(7L, Status.OK, -1.3925, "completed", 4.0, 240, "flex",
+                "float", "0000000000000007", null, null));
+        assertThat(result.fitness()).isZero();
+        assertThat(result.speed()).isEqualTo(-1.3925 / 4);
+    }
+
+    @Test
+    void readsAnUnstableResult() throws InterruptedException {
+        SimulationResult result = evaluate("fault/unstable", 20);
+
+        assertThat(result.status()).isEqualTo(Status.UNSTABLE);
+        assertThat(result.distance()).isNull();
+        assertThat(result.fitness()).isZero();
+        assertThat(result.unstable()).isEqualTo(new SimulationResult.Instability(17, "predict", 0.5));
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "fault/crash|exit status 139", "fault/exit|out of luck", "fault/silent|no valid result",
+        "fault/garbage|buffer overflow", "fault/half|no valid result", "fault/loud|more than 1048576 bytes",
+        "fault/wrong-id|id is 8, not 7", "fault/wrong-exit|status ok with exit status 3", "fault/nan|NaN",
+        "fault/infinite|no finite distance", "fault/two-lines|no valid result",
+        "fault/held-open|output still open"})
+    void aFaultyAnswerIsAFailedResultWithTheReason(String scene, String reason) throws InterruptedException {
+        SimulationResult result = evaluate(scene, 20);
+
+        assertThat(result.status()).isEqualTo(Status.FAILED);
+        assertThat(result.error()).contains(reason).doesNotContain("\n");
+        assertThat(result.fitness()).isZero();
+        assertThat(result.id()).isEqualTo(7);
+    }
+
+    @Test
+    void aHangingProcessIsKilledWithItsChildren() throws InterruptedException {
+        long before = System.nanoTime();
+
+        SimulationResult result = evaluate("fault/hang", 0.4);
+
+        assertThat(result.status()).isEqualTo(Status.FAILED);
+        assertThat(result.error()).isEqualTo("no answer within 0.4 s");
+        assertThat(Duration.ofNanos(System.nanoTime() - before)).isLessThan(Duration.ofSeconds(10));
+        assertThatNoChildIsLeft();
+    }
+
+    /** A request larger than a pipe holds, to a program that does not read it. */
+    @Test
+    void aProgramThatDoesNotReadCannotBlockTheCaller() throws InterruptedException, IOException {
+        Path deaf = Files.writeString(folder.resolve("deaf.sh"), "#!/bin/sh\nsleep 60\n");
+        assertThat(deaf.toFile().setExecutable(true)).isTrue();
+        ObjectNode large = JsonNodeFactory.instance.objectNode().put("note", "x".repeat(1 << 20));
+        SimulationRequest request = new SimulationRequest(1, "a", null, null, null, large);
+
+        try (Simulator simulator = new ProcessSimulator(new ExecutionSettings(deaf, 1, Duration.ofMillis(300)))) {
+            assertThat(simulator.evaluate(request).error()).isEqualTo("no answer within 0.3 s");
+        }
+        assertThatNoChildIsLeft();
+    }
+
+    @Test
+    void triesOnceMore() throws InterruptedException {
+        assertThat(evaluate("fault/once", 20).status()).isEqualTo(Status.OK);
+        assertThat(folder.resolve("seen-7")).exists();
+    }
+
+    @Test
+    void drainsWhatTheProgramLogs() throws InterruptedException {
+        assertThat(evaluate("fault/loud-errors", 20).distance()).isEqualTo(0.5);
+    }
+
+    @Test
+    void aRejectedRequestIsNotTriedAgainButToldOf() {
+        assertThatThrownBy(() -> evaluate("fault/rejected", 20))
+                .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isTrue())
+                .hasMessage("gait.frequency is 70; expected a number up to 60");
+    }
+
+    @Test
+    void aMissingDeviceIsNoBadInput() {
+        assertThatThrownBy(() -> evaluate("fault/no-device", 20))
+                .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse());
+    }
+
+    @Test
+    void aProgramThatCannotStartIsAFailedResult() throws InterruptedException, IOException {
+        Path program = Files.writeString(folder.resolve("program"), "not a program");
+        try (Simulator simulator = new ProcessSimulator(new ExecutionSettings(program, 1, Duration.ofSeconds(5)))) {
+            assertThat(simulator.evaluate(FakeSimulator.request(1, "a")).error()).startsWith("cannot start " + program);
+        }
+    }
+
+    @Test
+    void interruptionKillsTheProcess() throws InterruptedException {
+        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, 60))) {
+            Thread caller = new Thread(() -> {
+                try {
+                    simulator.evaluate(FakeSimulator.request(1, "fault/hang"));
+                } catch (InterruptedException e) {
+                    Thread.currentThread().interrupt();
+                }
+            });
+            caller.start();
+            Thread.sleep(300);
+            caller.interrupt();
+            caller.join(5000);
+
+            assertThat(caller.isAlive()).isFalse();
+        }
+        assertThatNoChildIsLeft();
+    }
+
+    @Test
+    void manyCallsLeakNeitherProcessesNorFileHandles() throws InterruptedException, IOException {
+        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, 20))) {
+            simulator.evaluate(FakeSimulator.request(0, "fault/half"));
+            long before = openFiles();
+            for (int i = 1; i <= 20; i++) {
+                simulator.evaluate(FakeSimulator.request(i, i % 2 == 0 ? "fault/half" : "thesis/creature-1"));
+            }
+            assertThat(openFiles()).isLessThanOrEqualTo(before + 3);
+        }
+        assertThatNoChildIsLeft();
+    }
+
+    private static long openFiles() throws IOException {
+        try (Stream<Path> files = Files.list(Path.of("/proc/self/fd"))) {
+            return files.count();
+        }
+    }
+
+    private static void assertThatNoChildIsLeft() throws InterruptedException {
+        for (int i = 0; i < 100 && ProcessHandle.current().descendants().findAny().isPresent(); i++) {
+            Thread.sleep(20);
+        }
+        assertThat(ProcessHandle.current().descendants().map(child -> child.info().toString())).isEmpty();
+    }
+}

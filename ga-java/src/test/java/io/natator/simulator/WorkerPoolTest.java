@@ -1,0 +1,84 @@
+package io.natator.simulator;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.BrokenBarrierException;
+import java.util.concurrent.CyclicBarrier;
+import java.util.concurrent.TimeUnit;
+import java.util.stream.LongStream;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+
+@Timeout(value = 20, unit = TimeUnit.SECONDS)
+class WorkerPoolTest {
+
+    private static List<SimulationRequest> requests(int count) {
+        return LongStream.range(0, count).mapToObj(id -> FakeSimulator.request(id, "any")).toList();
+    }
+
+    @Test
+    void resultsComeInTheOrderOfTheRequests() throws InterruptedException {
+        Simulator slowFirst = simulator(request -> {
+            Thread.sleep(request.id() == 0 ? 100 : 1);
+            return SimulationResult.failed(request.id(), "");
+        });
+        List<Long> ids = new ArrayList<>();
+        try (WorkerPool pool = new WorkerPool(slowFirst, 4)) {
+            pool.evaluateAll(requests(50), result -> ids.add(result.id()));
+        }
+
+        assertThat(ids).containsExactlyElementsOf(LongStream.range(0, 50).boxed().toList());
+    }
+
+    /** Three evaluations wait for each other, which only ends if all three run at once. */
+    @Test
+    void workersWorkAtTheSameTime() throws InterruptedException {
+        CyclicBarrier barrier = new CyclicBarrier(3);
+        Simulator meeting = simulator(request -> {
+            try {
+                barrier.await();
+            } catch (BrokenBarrierException e) {
+                throw new IllegalStateException(e);
+            }
+            return SimulationResult.failed(request.id(), "");
+        });
+        List<SimulationResult> results = new ArrayList<>();
+        try (WorkerPool pool = new WorkerPool(meeting, 3)) {
+            pool.evaluateAll(requests(9), results::add);
+        }
+
+        assertThat(results).hasSize(9);
+    }
+
+    @Test
+    void aRejectedRequestEndsTheBatch() {
+        Simulator rejecting = simulator(request -> {
+            throw new RequestRejectedException("unknown scene", true);
+        });
+        try (WorkerPool pool = new WorkerPool(rejecting, 2)) {
+            assertThatThrownBy(() -> pool.evaluateAll(requests(5), result -> { }))
+                    .isInstanceOf(RequestRejectedException.class).hasMessage("unknown scene");
+        }
+    }
+
+    private interface Answer {
+        SimulationResult to(SimulationRequest request) throws InterruptedException;
+    }
+
+    private static Simulator simulator(Answer answer) {
+        return new Simulator() {
+            @Override
+            public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+                return answer.to(request);
+            }
+
+            @Override
+            public void close() {
+                // Nothing is held.
+            }
+        };
+    }
+}
