@@ -93,8 +93,8 @@ if (( EUID != 0 )); then
     as_root=(sudo)
     [[ -t 0 ]] || as_root+=(--non-interactive)
 fi
-apt() {
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq --yes -o Dpkg::Use-Pty=0 "$@"
+apt() {  # errors go to standard error
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq --yes -o Dpkg::Use-Pty=0 "$@" >/dev/null
 }
 install() {
     apt install --no-install-recommends "${missing[@]}"
