@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -11,16 +12,6 @@ namespace natator::cli {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t max_request = 16 << 20;  // bytes
-
-std::string read_standard_input() {
-    std::string text(max_request + 1, '\0');
-    std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(std::cin.gcount()));
-    if (text.size() > max_request) throw InputError("request: larger than 16 MiB");
-    return text;
-}
 
 /// The request's gait; without one, of a scene that needs none, an empty gait.
 Gait gait_for(const Request& request, const Scene& scene) {
@@ -50,7 +41,7 @@ int evaluate_request(const std::string& text, bool plain, json& id) {
 int run_evaluate(bool plain) {
     json id;
     try {
-        return evaluate_request(read_standard_input(), plain, id);
+        return evaluate_request(read_all(stdin, "request"), plain, id);
     } catch (const std::exception& error) {
         // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code.
         if (!plain) print(error_json(id, error.what()).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");

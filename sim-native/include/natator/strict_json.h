@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -9,13 +10,16 @@ namespace natator {
 /// than 32. Throws InputError with one line: `source`, line and column, what was wrong.
 nlohmann::json parse_json(const std::string& text, const std::string& source);
 
+/// Reads a stream to its end. Throws InputError when it cannot be read or holds more than 16 MiB.
+std::string read_all(std::FILE* file, const std::string& source);
+
 /// Reads a JSON file. Throws InputError when it is absent, unreadable, too large (over 16 MiB) or not valid.
 nlohmann::json read_json_file(const std::string& path);
 
 /// A value as it is shown in messages: on one line, shortened to about 60 characters.
 std::string shown(const nlohmann::json& value);
 
-/// Text in quotes as it is shown in messages: on one line, whatever it holds.
+/// Text in quotes as it is shown in messages: on one line, shortened to about 400 characters.
 std::string quoted(const std::string& text);
 
 }  // namespace natator

@@ -1,5 +1,6 @@
 #include "natator/actuate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace natator {
@@ -8,12 +9,19 @@ namespace {
 /// Largest relative change of a muscle's length at amplitude 1 (thesis 2.8).
 constexpr double epsilon = 0.5;
 
+/// Scheme `conserving` starts its muscles softly: 0 to 1 over the first quarter of a second, with no kink (smoothstep).
+double start_ramp(double time) {
+    const double s = std::clamp(time / 0.25, 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+}
+
 }  // namespace
 
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state) {
     std::vector<double> drive(static_cast<std::size_t>(model.actuators));  // a u per actuator
-    for (int i = 0; i < model.actuators; ++i) drive[i] = gait.amplitude[i] * activation(gait, i, time);
+    const double ramp = model.scheme == Scheme::conserving ? start_ramp(time) : 1.0;
+    for (int i = 0; i < model.actuators; ++i) drive[i] = ramp * gait.amplitude[i] * activation(gait, i, time);
 
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;

@@ -1,7 +1,7 @@
 #include "natator/strict_json.h"
 
-#include <fstream>
-#include <iterator>
+#include <array>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -13,8 +13,9 @@ namespace {
 using nlohmann::json;
 
 constexpr int max_depth = 32;
-constexpr std::streamsize max_bytes = 16 << 20;
+constexpr std::size_t max_bytes = 16 << 20;
 constexpr std::size_t max_shown = 60;
+constexpr std::size_t max_quoted = 400;  // paths and names are worth more room than values
 
 /// Keys seen so far in each object that is open.
 class OpenObjects {
@@ -59,7 +60,24 @@ std::string plain_message(const json::exception& error) {
     return text;
 }
 
+std::string on_one_line(const json& value, std::size_t longest) {
+    std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+    if (text.size() > longest) text = text.substr(0, longest) + "...";
+    return text;
+}
+
 }  // namespace
+
+std::string read_all(std::FILE* file, const std::string& source) {
+    std::string text;
+    std::array<char, 65536> buffer;
+    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file)) {
+        text.append(buffer.data(), count);
+        if (text.size() > max_bytes) throw InputError(source + ": larger than 16 MiB");
+    }
+    if (std::ferror(file) != 0) throw InputError(source + ": cannot be read");
+    return text;
+}
 
 json parse_json(const std::string& text, const std::string& source) {
     OpenObjects open(source);
@@ -74,24 +92,18 @@ json parse_json(const std::string& text, const std::string& source) {
 }
 
 json read_json_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw InputError("file " + quoted(path) + ": cannot be read");
-    std::string text(static_cast<std::size_t>(max_bytes) + 1, '\0');
-    file.read(text.data(), max_bytes + 1);
-    if (file.bad()) throw InputError("file " + quoted(path) + ": cannot be read");
-    if (file.gcount() > max_bytes) throw InputError("file " + quoted(path) + ": larger than 16 MiB");
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    return parse_json(text, "file " + quoted(path));
+    const std::string source = "file " + quoted(path);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    if (!file) throw InputError(source + ": cannot be read");
+    return parse_json(read_all(file.get(), source), source);
 }
 
 std::string shown(const json& value) {
-    std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-    if (text.size() > max_shown) text = text.substr(0, max_shown) + "...";
-    return text;
+    return on_one_line(value, max_shown);
 }
 
 std::string quoted(const std::string& text) {
-    return shown(json(text));
+    return on_one_line(text, max_quoted);
 }
 
 }  // namespace natator

@@ -53,8 +53,9 @@ nlohmann::json read_data_file(const std::string& kind, const std::string& name) 
             if (fs::is_regular_file(path, failed)) return read_json_file(path.string());
         }
     }
-    throw InputError("unknown name " + quoted(name) + " among " + kind + ": must be one of " +
-                     joined(data_file_names(kind)) + ", or a path ending in .json");
+    const std::string one = kind.substr(0, kind.size() - 1);  // "scenes" -> "scene"
+    throw InputError("unknown " + one + " " + quoted(name) + ": must be one of " + joined(data_file_names(kind)) +
+                     ", or a path ending in .json");
 }
 
 std::vector<std::string> data_file_names(const std::string& kind) {
