@@ -1,0 +1,94 @@
+// The activation (thesis 2.6 and 4.2) and the muscle lengths it gives (2.7, 2.8), against numbers worked out by hand.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "natator/actuate.h"
+#include "natator/error.h"
+#include "natator/model_builder.h"
+#include "natator/scene_json.h"
+
+namespace natator {
+namespace {
+
+TEST(GaitTest, ActivationIsASineOfTimeAndPhase) {
+    const Gait gait{0.5, {1, 1}, {0, 0.25}, 1};
+    EXPECT_NEAR(activation(gait, 0, 0), 0, 1e-15);
+    EXPECT_NEAR(activation(gait, 0, 0.5), 1, 1e-15);  // a quarter of the period of 2 s
+    EXPECT_NEAR(activation(gait, 0, 1.5), -1, 1e-15);
+    EXPECT_NEAR(activation(gait, 0, 1.0 / 6), 0.5, 1e-15);  // sin 30 degrees
+    EXPECT_NEAR(activation(gait, 1, 0), 1, 1e-15);
+    EXPECT_NEAR(activation(gait, 1, 1.0 / 3), 0.5, 1e-15);  // sin 150 degrees
+}
+
+TEST(GaitTest, PowerRaisesTheActivationShiftedToZeroToOne) {
+    const Gait gait{1, {1}, {0}, 4};
+    EXPECT_NEAR(activation(gait, 0, 0), 2.0 / 16 - 1, 1e-15);  // (1/2)^4 * 2 - 1
+    EXPECT_NEAR(activation(gait, 0, 0.25), 1, 1e-15);
+    EXPECT_NEAR(activation(gait, 0, 0.75), -1, 1e-15);
+    const Gait root{1, {1}, {0}, 0.5};
+    EXPECT_NEAR(activation(root, 0, 0), 0.414213562373095, 1e-14);  // sqrt(1/2) * 2 - 1
+}
+
+/// Numbers recorded with NVIDIA Flex for creature 1 at time 0: actuator 1 has phase 0.648 and amplitude 0.69.
+TEST(GaitTest, MuscleLengthsOfCreatureOneAreTheRecordedOnes) {
+    const Model model = build_model(load_scene("thesis/creature-1"));
+    State<float> state = initial_state<float>(model);
+    actuate(model, Gait{1.861, {0.973, 0.69}, {0, 0.648}, 1}, 0, state);
+    for (const Muscle& muscle : model.muscles) {
+        const float length = state.spring_rest_length[muscle.spring];
+        if (muscle.actuator == 0) {
+            EXPECT_FLOAT_EQ(length, 0.3f);
+        } else {
+            EXPECT_NEAR(length, muscle.lateral < 0 ? 0.3829622 : 0.21703781, 2e-7);
+        }
+    }
+}
+
+/// At u > 0 right muscles stretch and left ones shorten: by half the amplitude at the edges.
+TEST(GaitTest, RightMusclesStretchWhenTheActivationIsPositive) {
+    const Model model = build_model(load_scene("thesis/creature-1"));
+    State<double> state = initial_state<double>(model);
+    actuate(model, Gait{1, {0.4, 0}, {0.25, 0}, 1}, 0, state);
+    for (const Muscle& muscle : model.muscles) {
+        const double expected = muscle.actuator == 1 ? 0.3 : muscle.lateral > 0 ? 0.36 : 0.24;
+        EXPECT_NEAR(state.spring_rest_length[muscle.spring], expected, 1e-12);
+    }
+}
+
+TEST(GaitTest, GaitsOutOfRangeAreRefusedByName) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    const struct {
+        Gait gait;
+        const char* field;
+    } cases[] = {
+        {{0, {1, 1}, {0, 0}, 1}, "gait.frequency = 0"},
+        {{60.1, {1, 1}, {0, 0}, 1}, "gait.frequency = 60.1"},
+        {{nan, {1, 1}, {0, 0}, 1}, "gait.frequency = nan"},
+        {{infinity, {1, 1}, {0, 0}, 1}, "gait.frequency = inf"},
+        {{1, {1}, {0, 0}, 1}, "gait.amplitude has length 1"},
+        {{1, {1, 1, 1}, {0, 0}, 1}, "gait.amplitude has length 3"},
+        {{1, {1, 2.1}, {0, 0}, 1}, "gait.amplitude[1] = 2.1"},
+        {{1, {-0.1, 1}, {0, 0}, 1}, "gait.amplitude[0] = -0.1"},
+        {{1, {1, nan}, {0, 0}, 1}, "gait.amplitude[1] = nan"},
+        {{1, {1, 1}, {}, 1}, "gait.phase has length 0"},
+        {{1, {1, 1}, {0, 1.01}, 1}, "gait.phase[1] = 1.01"},
+        {{1, {1, 1}, {-1, 0}, 1}, "gait.phase[0] = -1"},
+        {{1, {1, 1}, {0, 0}, 0.4}, "gait.power = 0.4"},
+        {{1, {1, 1}, {0, 0}, 4.5}, "gait.power = 4.5"},
+    };
+    for (const auto& bad : cases) {
+        try {
+            check_gait(bad.gait, 2);
+            ADD_FAILURE() << "accepted " << bad.field;
+        } catch (const InputError& error) {
+            EXPECT_EQ(std::string(error.what()).find(bad.field), 0u) << error.what();
+        }
+    }
+    EXPECT_NO_THROW(check_gait(Gait{60, {0, 2}, {0, 1}, 4}, 2));
+    EXPECT_NO_THROW(check_gait(Gait{}, 0));
+}
+
+}  // namespace
+}  // namespace natator

@@ -1,0 +1,136 @@
+// Every kind of unusable scene is refused with one line that names the field and says what is allowed.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "natator/error.h"
+#include "natator/model_builder.h"
+#include "natator/scene_json.h"
+#include "test_name.h"
+
+namespace natator {
+namespace {
+
+struct BadScene {
+    const char* overrides;  ///< merged into thesis/creature-1
+    const char* field;      ///< must be in the message
+    const char* allowed;    ///< must be in the message
+};
+
+void PrintTo(const BadScene& bad, std::ostream* out) {
+    test::print_name(bad.overrides, out);
+}
+
+const BadScene bad_scenes[] = {
+    // Unknown keys name the nearest one, or all.
+    {R"({"solver":{"raduis":0.15}})", "solver.raduis", "did you mean radius?"},
+    {R"({"solver":{"num_iterations":4}})", "solver.num_iterations", "did you mean numIterations?"},
+    {R"({"solver":{"zzzzzz":0}})", "solver.zzzzzz", "allowed: wind, drag"},
+    {R"({"durations":4})", "durations", "did you mean duration?"},
+    {R"({"base":"thesis/tank"})", "base", "allowed: "},
+    {R"({"fluid":{"sapcing":1}})", "fluid.sapcing", "did you mean spacing?"},
+    {R"({"fluid":{"mass":{"botom":1}}})", "fluid.mass.botom", "did you mean bottom?"},
+    {R"({"creature":{"joint":[4,8]}})", "creature.joint", "did you mean joints?"},
+    {R"({"creature":{"slices":[{"height":5,"width":3,"cuont":2}]}})", "creature.slices[0].cuont", "count"},
+    {R"({"settling":{"steps":1}})", "settling.steps", "allowed: updates, timeStep, substeps"},
+    {R"({"stopping":{"planecontact":true}})", "stopping.planecontact", "did you mean planeContact?"},
+    // Wrong types.
+    {R"({"duration":"4"})", "duration = \"4\"", "a number"},
+    {R"({"description":4})", "description = 4", "a string"},
+    {R"({"solver":[]})", "solver = []", "an object"},
+    {R"({"solver":{"radius":true}})", "solver.radius = true", "a number"},
+    {R"({"solver":{"substeps":4.5}})", "solver.substeps = 4.5", "a whole number in [1, 1000]"},
+    {R"({"solver":{"substeps":99999999999999}})", "solver.substeps = 99999999999999", "[1, 1000]"},
+    {R"({"solver":{"gravity":-10}})", "solver.gravity = -10", "an array of 3 numbers"},
+    {R"({"solver":{"gravity":[0,-10]}})", "solver.gravity = [0,-10]", "an array of 3 numbers"},
+    {R"({"solver":{"gravity":[0,"x",0]}})", "solver.gravity[1] = \"x\"", "a number"},
+    {R"({"solver":{"relaxationMode":"Local"}})", "solver.relaxationMode = \"Local\"", R"("local" or "global")"},
+    {R"({"solver":{"relaxationMode":1}})", "solver.relaxationMode = 1", R"("local" or "global")"},
+    {R"({"planes":{}})", "planes = {}", "an array"},
+    {R"({"planes":[[0,1,0]]})", "planes[0] = [0,1,0]", "4 numbers"},
+    {R"({"fluid":5})", "fluid = 5", "an object"},
+    {R"({"creature":"creature-1"})", "creature = \"creature-1\"", "an object"},
+    {R"({"stopping":{"planeContact":1}})", "stopping.planeContact = 1", "true or false"},
+    // Out of range.
+    {R"({"duration":0})", "duration = 0", "(0, 1e+06] (s)"},
+    {R"({"duration":0.001})", "duration = 0.001", "at least one timeStep"},
+    {R"({"duration":1000000,"timeStep":0.000001})", "duration = 1000000", "10 million time steps"},
+    {R"({"timeStep":-0.1})", "timeStep = -0.1", "[1e-06, 1] (s)"},
+    {R"({"solver":{"radius":0}})", "solver.radius = 0", "(0, 1000]"},
+    {R"({"solver":{"radius":1e300}})", "solver.radius = 1e+300", "(0, 1000]"},
+    {R"({"solver":{"numIterations":0}})", "solver.numIterations = 0", "[1, 1000]"},
+    {R"({"solver":{"dynamicFriction":-0.2}})", "solver.dynamicFriction = -0.2", "[0, 100]"},
+    {R"({"solver":{"maxNeighborsPerParticle":0}})", "solver.maxNeighborsPerParticle = 0", "[1, 4096]"},
+    {R"({"solver":{"solidRestDistance":0.16}})", "solver.solidRestDistance = 0.16", "at most radius = 0.15"},
+    {R"({"solver":{"fluidRestDistance":0.15}})", "solver.fluidRestDistance = 0.15", "less than radius = 0.15"},
+    {R"({"planes":[[0,2,0,0]]})", "planes[0][1] = 2", "[-1, 1]"},
+    {R"({"planes":[[0.5,0.5,0,0]]})", "planes[0] = [0.5,0.5,0,0]", "of length 1"},
+    {R"({"fluid":{"count":[50,0,17]}})", "fluid.count[1] = 0", "[1, 10000]"},
+    {R"({"fluid":{"mass":{"bottom":-2}}})", "fluid.mass.bottom = -2", "[1e-06, 1e+06]"},
+    {R"({"fluid":{"mass":{"top":0}}})", "fluid.mass.top = 0", "[1e-06, 1e+06]"},
+    {R"({"fluid":{"mass":{"gradient":"linear"}}})", "fluid.mass.gradient", "\"mass-linear\" or"},
+    {R"({"creature":{"particleMass":-1}})", "creature.particleMass = -1", "[1e-06, 1e+06]"},
+    {R"({"creature":{"clusterStiffness":1.5}})", "creature.clusterStiffness = 1.5", "[0, 1]"},
+    {R"({"creature":{"springsPerParticle":0}})", "creature.springsPerParticle = 0", "[1, 64]"},
+    {R"({"creature":{"slices":[]}})", "creature.slices = []", "at least one slice"},
+    {R"({"creature":{"slices":[{"height":5}],"joints":[]}})", "creature.slices[0].width", "missing"},
+    {R"({"creature":{"slices":[{"height":5,"width":3}]}})", "creature.joints", "missing"},
+    {R"({"settling":{"updates":-1}})", "settling.updates = -1", "[0, 1e+06]"},
+    {R"({"stopping":{"noProgressAfter":-1}})", "stopping.noProgressAfter = -1", "[0, 1e+06] (s)"},
+    // Joints.
+    {R"({"creature":{"joints":[8,4,12]}})", "creature.joints[1] = 4", "[9, 15]"},
+    {R"({"creature":{"joints":[4,4,12]}})", "creature.joints[1] = 4", "[5, 15]"},
+    {R"({"creature":{"joints":[0,8]}})", "creature.joints[0] = 0", "[1, 15]"},
+    {R"({"creature":{"joints":[4,16]}})", "creature.joints[1] = 16", "[5, 15]"},
+    {R"({"creature":{"joints":[15,15]}})", "creature.joints[1] = 15", "left out"},
+    // What the solver does not do.
+    {R"({"scheme":"conserving"})", "scheme = \"conserving\"", "\"flex\""},
+    {R"({"solver":{"restitution":0.5}})", "solver.restitution = 0.5", "not supported yet"},
+    {R"({"solver":{"cohesion":0.025}})", "solver.cohesion = 0.025", "not supported yet"},
+    {R"({"solver":{"wind":[0,0,1]}})", "solver.wind = [0,0,1]", "cloth only"},
+    {R"({"solver":{"plasticCreep":0.1}})", "solver.plasticCreep = 0.1", "cloth only"},
+    // Scenes whose parts do not fit together.
+    {R"({"creature":{"rearCentre":[0.45,0.1,0.6]}})", "creature.rearCentre", "outside the tank"},
+    {R"({"creature":{"rearCentre":[3.5,0.6,0.6]}})", "beyond planes[3]", "inside all planes"},
+    {R"({"fluid":{"origin":[0.05,-0.05,0.05]}})", "fluid.origin", "outside the tank"},
+    {R"({"fluid":{"count":[200,200,200]},"planes":[]})", "fluid.count", "at most 4000000"},
+    {R"({"fluid":null,"creature":null})", "0 particles", "a creature or fluid"},
+    {R"({"creature":{"slices":[{"height":5,"width":1,"count":17}],"joints":[4,8,12]}})", "creature.joints[0]",
+     "actuator 0"},
+    {R"({"creature":{"name":"creature-9"}})", "creature.name", "creature-1, creature-2"},
+};
+
+class BadSceneTest : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadSceneTest, IsRefusedWithOneLineThatNamesTheField) {
+    const BadScene& bad = GetParam();
+    try {
+        build_model(load_scene("thesis/creature-1", nlohmann::json::parse(bad.overrides)));
+        FAIL() << "accepted " << bad.overrides;
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find("scene \"thesis/creature-1\": "), 0u) << message;
+        EXPECT_NE(message.find(bad.field), std::string::npos) << message;
+        EXPECT_NE(message.find(bad.allowed), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadSceneTest, testing::ValuesIn(bad_scenes));
+
+/// The parameters that the thesis leaves at 0 may be written out as 0.
+TEST(SceneTest, UnsupportedParametersMayBeZero) {
+    for (const char* key :
+         {"wind", "drag", "lift", "plasticThreshold", "plasticCreep", "restitution", "adhesion", "sleepThreshold",
+          "shockPropagation", "dissipation", "cohesion", "surfaceTension", "vorticityConfinement", "freeSurfaceDrag"}) {
+        nlohmann::json overrides;
+        overrides["solver"][key] = 0;
+        EXPECT_NO_THROW(load_scene("thesis/creature-1", overrides)) << key;
+        overrides["solver"][key] = 0.5;
+        EXPECT_THROW(load_scene("thesis/creature-1", overrides), InputError) << key;
+    }
+    EXPECT_NO_THROW(load_scene("thesis/tank", nlohmann::json::parse(R"({"solver":{"wind":[0,0,0]}})")));
+}
+
+}  // namespace
+}  // namespace natator

@@ -1,0 +1,184 @@
+// Named scenes, their defaults, bases and overrides.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "natator/error.h"
+#include "natator/scene_json.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+
+/// A folder for files of one test, removed afterwards.
+class SceneFiles : public testing::Test {
+protected:
+    SceneFiles() {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        directory_ = std::filesystem::temp_directory_path() / ("natator-" + std::to_string(::getpid()) + test->name());
+        std::filesystem::create_directories(directory_);
+    }
+    ~SceneFiles() override { std::filesystem::remove_all(directory_); }
+
+    std::string write(const std::string& name, const std::string& text) {
+        const auto path = directory_ / name;
+        std::filesystem::create_directories(path.parent_path());
+        std::ofstream(path) << text;
+        return path.string();
+    }
+
+    std::filesystem::path directory_;
+};
+
+std::string message_of(const std::string& scene) {
+    try {
+        load_scene(scene);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(SceneTest, AllThesisScenesAreThere) {
+    const std::vector<std::string> expected = {
+        "thesis/creature-1",        "thesis/creature-1-vacuum", "thesis/creature-2",
+        "thesis/creature-2-vacuum", "thesis/creature-3",        "thesis/creature-3-vacuum",
+        "thesis/creature-4",        "thesis/creature-4-vacuum", "thesis/tank"};
+    EXPECT_EQ(scene_names(), expected);
+}
+
+/// Appendix A and section 2.3 of the thesis.
+TEST(SceneTest, ThesisSceneHasTheValuesOfTheThesis) {
+    const Scene scene = load_scene("thesis/creature-1");
+    EXPECT_EQ(scene.solver.substeps, 4);
+    EXPECT_EQ(scene.solver.numIterations, 4);
+    EXPECT_EQ(scene.solver.gravity, Eigen::Vector3d(0, -10, 0));
+    EXPECT_EQ(scene.solver.radius, 0.15);
+    EXPECT_EQ(scene.solver.solidRestDistance, 0.15);
+    EXPECT_EQ(scene.solver.fluidRestDistance, 0.10);
+    EXPECT_EQ(scene.solver.dynamicFriction, 0.2);
+    EXPECT_EQ(scene.solver.particleFriction, 0.2);
+    EXPECT_EQ(scene.solver.maxAcceleration, 100);
+    EXPECT_EQ(scene.solver.damping, 1);
+    EXPECT_EQ(scene.solver.viscosity, 8);
+    EXPECT_EQ(scene.solver.solidPressure, 0.1);
+    EXPECT_EQ(scene.solver.collisionDistance, 0.05);
+    EXPECT_EQ(scene.solver.relaxationMode, RelaxationMode::local);
+    EXPECT_EQ(scene.duration, 4);
+    EXPECT_EQ(scene.time_step, 1.0 / 60);
+    ASSERT_EQ(scene.planes.size(), 5u);
+    EXPECT_EQ(scene.planes[3].normal, Eigen::Vector3d(-1, 0, 0));
+    EXPECT_EQ(scene.planes[3].offset, 4.51);
+    EXPECT_EQ(scene.planes[4].offset, 1.54);
+    EXPECT_EQ(scene.fluid->count, Eigen::Vector3i(50, 7, 17));
+    EXPECT_EQ(scene.fluid->top_mass, 1.0 / 14);
+    EXPECT_EQ(scene.settling.updates, 100);
+    EXPECT_EQ(scene.settling.time_step, 1e-4);
+    EXPECT_EQ(scene.stopping.no_progress_after, 2);
+    EXPECT_EQ(scene.creature->rear_centre, Eigen::Vector3d(0.45, 0.6, 0.6));
+}
+
+TEST(SceneTest, AnEmptySolverHasTheDefaultsOfAppendixA) {
+    const Scene scene = scene_from_json(json::parse(R"({"solver":{}})"), "x");
+    const Scene thesis = load_scene("thesis/tank");
+    EXPECT_EQ(scene.solver.viscosity, thesis.solver.viscosity);
+    EXPECT_EQ(scene.solver.particleFriction, thesis.solver.particleFriction);
+    EXPECT_EQ(scene.solver.maxAcceleration, thesis.solver.maxAcceleration);
+    EXPECT_FALSE(scene.fluid);
+    EXPECT_TRUE(scene.planes.empty());
+}
+
+TEST(SceneTest, VacuumHasNoFluidNoGravityNoPlanesAndNoEarlyStop) {
+    for (const std::string creature : {"1", "2", "3", "4"}) {
+        const Scene scene = load_scene("thesis/creature-" + creature + "-vacuum");
+        EXPECT_FALSE(scene.fluid);
+        EXPECT_TRUE(scene.planes.empty());
+        EXPECT_EQ(scene.solver.gravity, Eigen::Vector3d(0, 0, 0));
+        EXPECT_EQ(scene.solver.damping, 1);
+        EXPECT_FALSE(scene.stopping.plane_contact);
+        EXPECT_EQ(scene.stopping.no_progress_after, 0);
+        EXPECT_EQ(scene.creature->name, "creature-" + creature);
+    }
+}
+
+TEST(SceneTest, OverridesChangeOnlyWhatTheyName) {
+    const Scene scene = load_scene("thesis/creature-1", json::parse(R"({
+        "solver": {"particleFriction": 0, "maxAcceleration": 3.4028235e38, "relaxationMode": "global"},
+        "fluid": {"mass": {"gradient": "inverse-mass-linear"}},
+        "creature": {"rearCentre": [0.45, 0.3, 0.77], "springsPerParticle": 1}})"));
+    EXPECT_EQ(scene.solver.particleFriction, 0);
+    EXPECT_EQ(scene.solver.dynamicFriction, 0.2);
+    EXPECT_EQ(static_cast<float>(scene.solver.maxAcceleration), std::numeric_limits<float>::max());
+    EXPECT_EQ(scene.solver.relaxationMode, RelaxationMode::global);
+    EXPECT_EQ(scene.fluid->gradient, MassGradient::inverse_mass_linear);
+    EXPECT_EQ(scene.fluid->bottom_mass, 2);
+    EXPECT_EQ(scene.creature->rear_centre, Eigen::Vector3d(0.45, 0.3, 0.77));
+    EXPECT_EQ(scene.creature->springs_per_particle, 1);
+    EXPECT_EQ(scene.creature->joints, (std::vector<int>{4, 8, 12}));
+}
+
+TEST(SceneTest, ACreatureCanBeSwappedAndOneCanBeGivenInPlace) {
+    const Scene swapped = load_scene("thesis/creature-1", json::parse(R"({"creature":{"name":"creature-2"}})"));
+    EXPECT_EQ(swapped.creature->slices.size(), 19u);
+    EXPECT_EQ(swapped.creature->actuators(), 8);
+    const Scene own = load_scene(
+        "thesis/tank",
+        json::parse(
+            R"({"creature":{"name":"mine","slices":[{"height":2,"width":2,"count":3},{"height":1,"width":2}],"joints":[]}})"));
+    EXPECT_EQ(own.creature->slices.size(), 4u);
+    EXPECT_EQ(own.creature->slices[3].height, 1);
+    EXPECT_EQ(own.creature->actuators(), 0);
+}
+
+TEST(SceneTest, NamesCannotLeaveTheDataDirectory) {
+    for (const char* name : {"", "/", "../scenes/thesis/tank", "thesis//tank", "thesis/tank/", "thesis/ta nk", "."}) {
+        EXPECT_NE(message_of(name).find("unknown scene"), std::string::npos) << name;
+    }
+}
+
+TEST_F(SceneFiles, AFileCanBuildOnANamedScene) {
+    const std::string path = write("mine.json", R"({"base":"thesis/creature-2","duration":1.5,"fluid":null})");
+    const Scene scene = load_scene(path);
+    EXPECT_EQ(scene.duration, 1.5);
+    EXPECT_FALSE(scene.fluid);
+    EXPECT_EQ(scene.planes.size(), 5u);
+    EXPECT_EQ(scene.creature->name, "creature-2");
+}
+
+TEST_F(SceneFiles, ALoopOfBasesIsRefused) {
+    const std::string path = (directory_ / "loop.json").string();
+    write("loop.json", json{{"base", path}}.dump());
+    EXPECT_NE(message_of(path).find("without a loop"), std::string::npos) << message_of(path);
+}
+
+TEST_F(SceneFiles, UnreadableAndDamagedFilesAreNamed) {
+    EXPECT_NE(message_of((directory_ / "none.json").string()).find("cannot be read"), std::string::npos);
+    EXPECT_NE(message_of(directory_.string() + "/../" + directory_.filename().string() + "/x.json").find("x.json"),
+              std::string::npos);
+    const std::string damaged = write("damaged.json", "{\"duration\": 4,\n \"solver\": {]}");
+    EXPECT_NE(message_of(damaged).find("line 2"), std::string::npos) << message_of(damaged);
+    const std::string list = write("list.json", "[1]");
+    EXPECT_NE(message_of(list).find("must be an object"), std::string::npos) << message_of(list);
+    std::filesystem::create_directory(directory_ / "folder.json");
+    EXPECT_FALSE(message_of((directory_ / "folder.json").string()).empty());
+}
+
+TEST_F(SceneFiles, TheDataDirectoryCanBeChosen) {
+    write("scenes/own.json", R"({"duration": 2, "fluid": {}})");
+    ::setenv("NATATOR_DATA", directory_.c_str(), 1);
+    const std::vector<std::string> names = scene_names();
+    const double duration = load_scene("own").duration;
+    const std::string other = message_of("thesis/tank");
+    ::unsetenv("NATATOR_DATA");
+    EXPECT_EQ(names, (std::vector<std::string>{"own"}));
+    EXPECT_EQ(duration, 2);
+    EXPECT_NE(other.find("must be one of own"), std::string::npos) << other;
+}
+
+}  // namespace
+}  // namespace natator

@@ -1,0 +1,51 @@
+// JSON that a lenient reader would misunderstand in silence.
+#include <gtest/gtest.h>
+
+#include "natator/error.h"
+#include "natator/strict_json.h"
+
+namespace natator {
+namespace {
+
+std::string refusal(const std::string& text) {
+    try {
+        parse_json(text, "here");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(StrictJsonTest, ReadsWhatIsValid) {
+    EXPECT_EQ(parse_json(R"({"a":[1,2,{"a":3}],"b":{"a":null}})", "x").dump(), R"({"a":[1,2,{"a":3}],"b":{"a":null}})");
+}
+
+TEST(StrictJsonTest, RefusesAKeyGivenTwice) {
+    EXPECT_EQ(refusal(R"({"a":1,"b":{"a":2},"a":3})"), "here: key \"a\" is given twice; must be given once");
+}
+
+TEST(StrictJsonTest, RefusesWhatIsNotJson) {
+    for (const char* text : {"", "{", "nan", "[NaN]", "[1e999]", "[1,]", "{} {}", "'a'", "[\"\xff\"]", "// x\n1"}) {
+        const std::string message = refusal(text);
+        EXPECT_EQ(message.find("here: not valid JSON: "), 0u) << text << ": " << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
+    }
+}
+
+TEST(StrictJsonTest, RefusesDeepNesting) {
+    EXPECT_EQ(refusal(std::string(32, '[') + std::string(32, ']')), "");
+    EXPECT_NE(refusal(std::string(33, '[') + std::string(33, ']')).find("nested deeper than 32"), std::string::npos);
+    EXPECT_NE(refusal(std::string(1'000'000, '[')).find("nested deeper than 32"), std::string::npos);
+}
+
+TEST(StrictJsonTest, ShowsValuesOnOneShortLine) {
+    EXPECT_EQ(shown("a\nb"), R"("a\nb")");
+    EXPECT_EQ(shown(nlohmann::json::array({1, 2.5})), "[1,2.5]");
+    EXPECT_LE(shown(std::string(1000, 'x')).size(), 70u);
+    EXPECT_GE(quoted(std::string(300, 'x')).size(), 302u);
+    EXPECT_EQ(quoted("\xff"), "\"\\ufffd\"");
+}
+
+}  // namespace
+}  // namespace natator

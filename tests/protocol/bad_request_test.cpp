@@ -1,0 +1,129 @@
+// natator-sim evaluate with unusable requests: one line on standard error, an error result, exit code 2; never a crash.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../native/test_name.h"
+#include "child_process.h"
+
+namespace natator::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
+
+/// A good request with one key set to something else, or removed if `value` is empty.
+std::string request_with(const std::string& key, const std::string& value) {
+    json request = {{"id", 7}, {"scene", "thesis/creature-1-vacuum"}, {"gait", json::parse(gait)}, {"duration", 0.05}};
+    request.erase(key);
+    std::string text = request.dump();
+    if (value.empty()) return text;
+    text.pop_back();  // the closing brace
+    text.append(",").append(json(key).dump()).append(":").append(value).append("}");
+    return text;
+}
+
+struct BadRequest {
+    std::string text;
+    const char* expected;  ///< must be in the message
+    bool id_known = true;
+};
+
+void PrintTo(const BadRequest& bad, std::ostream* out) {
+    print_name(bad.text, out);
+    *out << "_";
+    print_name(bad.expected, out);
+}
+
+const BadRequest bad_requests[] = {
+    {"", "not valid JSON", false},
+    {"{\"id\":7", "not valid JSON", false},
+    {"[1]", "must be an object", false},
+    {"null", "must be an object", false},
+    {std::string("\0\0", 2), "not valid JSON", false},
+    {std::string(200'000, '['), "nested deeper than 32", false},
+    {R"({"id":7,"id":8})", "\"id\" is given twice", false},
+    {request_with("id", ""), "id: missing", false},
+    {request_with("id", "-1"), "id = -1", false},
+    {request_with("id", "\"x\""), "id = \"x\"", false},
+    {request_with("scene", ""), "scene: missing"},
+    {request_with("scene", "5"), "scene = 5: must be a string"},
+    {request_with("scene", "\"thesis/creature-7\""), "must be one of thesis/creature-1, "},
+    {request_with("scene", "\"no\\nsuch.json\""), "cannot be read"},
+    {request_with("gaits", "1"), "gaits: unknown key (= 1); did you mean gait?"},
+    {request_with("gait", ""), "gait: missing"},
+    {request_with("gait", "3"), "gait = 3: must be an object"},
+    {request_with("gait", R"({"amplitude":[1,1],"phase":[0,0]})"), "gait.frequency: missing"},
+    {request_with("gait", R"({"frequency":1,"phase":[0,0]})"), "gait.amplitude: missing"},
+    {request_with("gait", R"({"frequency":1,"amplitude":[1,1]})"), "gait.phase: missing"},
+    {request_with("gait", R"({"frequency":"1","amplitude":[1,1],"phase":[0,0]})"), "gait.frequency = \"1\""},
+    {request_with("gait", R"({"frequency":0,"amplitude":[1,1],"phase":[0,0]})"),
+     "gait.frequency = 0: must be a number in (0, 60]"},
+    {request_with("gait", R"({"frequency":NaN,"amplitude":[1,1],"phase":[0,0]})"), "invalid literal", false},
+    {request_with("gait", R"({"frequency":1e999,"amplitude":[1,1],"phase":[0,0]})"), "not valid JSON", false},
+    {request_with("gait", R"({"frequency":1,"amplitude":[1],"phase":[0,0]})"),
+     "gait.amplitude has length 1: must have length 2"},
+    {request_with("gait", R"({"frequency":1,"amplitude":[1,2.5],"phase":[0,0]})"), "gait.amplitude[1] = 2.5"},
+    {request_with("gait", R"({"frequency":1,"amplitude":[1,null],"phase":[0,0]})"), "gait.amplitude[1] = null"},
+    {request_with("gait", R"({"frequency":1,"amplitude":1,"phase":[0,0]})"), "gait.amplitude = 1: must be an array"},
+    {request_with("gait", R"({"frequency":1,"amplitude":[1,1],"phase":[0,1.5]})"), "gait.phase[1] = 1.5"},
+    {request_with("gait", R"({"frequency":1,"amplitude":[1,1],"phase":[0,0],"power":9})"), "gait.power = 9"},
+    {request_with("duration", "-1"), "duration = -1: must be a number in (0, "},
+    {request_with("duration", "\"4\""), "duration = \"4\""},
+    {request_with("scheme", "\"newton\""), "scheme = \"newton\""},
+    {request_with("backend", "\"gpu\""), "backend = \"gpu\": must be \"cpu\" or \"auto\" or \"cuda\""},
+    {request_with("precision", "\"half\""), "precision = \"half\": must be \"float\" or \"double\""},
+    {request_with("perturbation", "{\"amplitude\":1e-6}"), "perturbation.seed: missing"},
+    {request_with("perturbation", "{\"amplitude\":-1,\"seed\":1}"), "perturbation.amplitude = -1"},
+    {request_with("perturbation", "{\"amplitude\":0,\"seed\":-1}"), "perturbation.seed = -1"},
+    {request_with("overrides", "[]"), "overrides = []: must be an object"},
+    {request_with("overrides", "{\"solver\":{\"radius\":-1}}"), "solver.radius = -1"},
+    {request_with("overrides", "{\"creature\":{\"particleMass\":-1}}"), "creature.particleMass = -1"},
+    {request_with("overrides", "{\"planes\":[[0,1,0,-1]]}"), "outside the tank"},
+    {request_with("overrides", "{\"creature\":null}"), "gait.amplitude has length 2: must have length 0"},
+};
+
+class BadRequestTest : public testing::TestWithParam<BadRequest> {};
+
+TEST_P(BadRequestTest, IsAnsweredWithOneLineAndExitCodeTwo) {
+    const BadRequest& bad = GetParam();
+    const Outcome outcome = run_simulator({"evaluate"}, bad.text);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.find("natator-sim: "), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find(bad.expected), std::string::npos) << outcome.err;
+
+    ASSERT_EQ(lines(outcome.out), 1) << outcome.out;
+    const json result = json::parse(outcome.out);
+    EXPECT_EQ(result.at("status"), "error");
+    EXPECT_EQ(result.at("id"), bad.id_known ? json(7) : json());
+    EXPECT_EQ("natator-sim: " + result.at("error").get<std::string>() + "\n", outcome.err);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadRequestTest, testing::ValuesIn(bad_requests));
+
+/// The table above changes one thing of this request at a time.
+TEST(BadRequestTest, TheRequestWithoutFaultIsAccepted) {
+    const Outcome outcome = run_simulator({"evaluate"}, request_with("duration", "0.05"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+}
+
+TEST(BadRequestTest, WithPlainThereIsNothingOnStandardOutput) {
+    const Outcome outcome = run_simulator({"evaluate", "--plain"}, "{}");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(lines(outcome.err), 1);
+}
+
+TEST(BadRequestTest, ADeviceThatIsNotThereHasItsOwnExitCode) {
+    const Outcome outcome = run_simulator({"evaluate"}, request_with("backend", "\"cuda\""));
+    EXPECT_EQ(outcome.exit_code, 4);
+    EXPECT_EQ(lines(outcome.err), 1);
+    EXPECT_NE(outcome.err.find("backend = \"cuda\""), std::string::npos) << outcome.err;
+    EXPECT_EQ(json::parse(outcome.out).at("status"), "error");
+}
+
+}  // namespace
+}  // namespace natator::test

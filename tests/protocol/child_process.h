@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace natator::test {
+
+/// What a finished program left behind.
+struct Outcome {
+    int exit_code = -1;  ///< -1 if a signal ended it
+    std::string out;
+    std::string err;
+};
+
+/// Runs natator-sim with `arguments`, `input` on its standard input, and waits for its end.
+/// Its standard output goes to `out_path` instead of Outcome::out if that is given.
+Outcome run_simulator(const std::vector<std::string>& arguments, const std::string& input = "",
+                      const std::string& out_path = "");
+
+/// Number of lines in `text`, counting one without an end.
+int lines(const std::string& text);
+
+}  // namespace natator::test

@@ -1,0 +1,143 @@
+// natator-sim evaluate: what a caller on the other end of the pipes relies on.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "child_process.h"
+
+namespace natator::test {
+namespace {
+
+using nlohmann::json;
+
+json request(const std::string& scene, double duration) {
+    return {{"id", 42},
+            {"scene", scene},
+            {"gait", {{"frequency", 1.861}, {"amplitude", {0.973, 0.69}}, {"phase", {0, 0.648}}}},
+            {"duration", duration}};
+}
+
+json result_of(const json& asked) {
+    const Outcome outcome = run_simulator({"evaluate"}, asked.dump());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(lines(outcome.out), 1);
+    return json::parse(outcome.out);
+}
+
+TEST(EvaluateProtocolTest, AResultHasExactlyTheDocumentedFields) {
+    const json result = result_of(request("thesis/creature-1", 0.1));
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : result.items()) keys.push_back(key);
+    EXPECT_EQ(keys, (std::vector<std::string>{"distance", "fitness", "frames", "hash", "id", "precision", "scheme",
+                                              "simulated", "status", "stopped"}));
+    EXPECT_EQ(result["id"], 42);
+    EXPECT_EQ(result["status"], "ok");
+    EXPECT_EQ(result["stopped"], "completed");
+    EXPECT_EQ(result["scheme"], "flex");
+    EXPECT_EQ(result["precision"], "float");
+    EXPECT_EQ(result["frames"], 6);
+    EXPECT_NEAR(result["simulated"].get<double>(), 0.1, 1e-12);
+    EXPECT_EQ(result["fitness"], result["distance"]);
+    EXPECT_TRUE(std::regex_match(result["hash"].get<std::string>(), std::regex("[0-9a-f]{16}")));
+}
+
+TEST(EvaluateProtocolTest, TheSameRequestGivesTheSameAnswer) {
+    const json asked = request("thesis/creature-1", 0.05);
+    EXPECT_EQ(result_of(asked), result_of(asked));
+}
+
+TEST(EvaluateProtocolTest, EveryOptionalFieldHasItsEffect) {
+    const json plain = request("thesis/creature-1-vacuum", 0.5);
+    const json base = result_of(plain);
+    const auto with = [&](const char* patch) {
+        json asked = plain;
+        asked.merge_patch(json::parse(patch));
+        return result_of(asked);
+    };
+    EXPECT_EQ(with(R"({"backend":"cpu","scheme":"flex","precision":"float","perturbation":{"amplitude":0,"seed":9}})"),
+              base);
+    EXPECT_EQ(with(R"({"backend":"auto"})"), base);
+    EXPECT_EQ(with(R"({"precision":"double"})")["precision"], "double");
+    EXPECT_NEAR(with(R"({"precision":"double"})")["distance"].get<double>(), base["distance"].get<double>(), 1e-2);
+    EXPECT_NE(with(R"({"perturbation":{"amplitude":1e-5,"seed":1}})")["hash"], base["hash"]);
+    EXPECT_NE(with(R"({"perturbation":{"amplitude":1e-5,"seed":2}})")["hash"],
+              with(R"({"perturbation":{"amplitude":1e-5,"seed":1}})")["hash"]);
+    EXPECT_NE(with(R"({"gait":{"power":2}})")["hash"], base["hash"]);
+    EXPECT_EQ(with(R"({"gait":{"power":1}})"), base);
+    EXPECT_EQ(with(R"({"duration":0.25})")["frames"], 15);
+    EXPECT_EQ(with(R"({"overrides":{"timeStep":0.008333333333333333}})")["frames"], 60);
+    // Without the acceleration clamp there is no motion in vacuum.
+    const json free = with(R"({"overrides":{"solver":{"maxAcceleration":3.4028234663852886e38}}})");
+    EXPECT_LT(std::abs(free["distance"].get<double>()), std::abs(base["distance"].get<double>()) / 5);
+}
+
+TEST(EvaluateProtocolTest, TheRequestsOwnDurationWinsOverOverrides) {
+    json asked = request("thesis/creature-1-vacuum", 0.1);
+    asked["overrides"] = {{"duration", 3}};
+    EXPECT_EQ(result_of(asked)["frames"], 6);
+}
+
+TEST(EvaluateProtocolTest, EarlyStopsAreNamed) {
+    json falling = request("thesis/creature-1-vacuum", 2);
+    falling["overrides"] =
+        json::parse(R"({"planes":[[0,1,0,0]],"solver":{"gravity":[0,-10,0]},"stopping":{"planeContact":true}})");
+    const json touched = result_of(falling);
+    EXPECT_EQ(touched["stopped"], "touched-plane");
+    EXPECT_EQ(touched["status"], "ok");
+    EXPECT_LT(touched["simulated"].get<double>(), 0.5);
+
+    json resting = request("thesis/creature-1-vacuum", 4);
+    resting["gait"]["amplitude"] = {0, 0};
+    resting["overrides"] = {{"stopping", {{"noProgressAfter", 2}}}};
+    const json idle = result_of(resting);
+    EXPECT_EQ(idle["stopped"], "no-progress");
+    EXPECT_EQ(idle["frames"], 120);
+}
+
+TEST(EvaluateProtocolTest, PlainWritesOnlyTheFitness) {
+    const json asked = request("thesis/creature-1-vacuum", 0.5);
+    const Outcome outcome = run_simulator({"evaluate", "--plain"}, asked.dump());
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(std::stod(outcome.out), result_of(asked)["fitness"].get<double>());
+    EXPECT_TRUE(std::regex_match(outcome.out, std::regex("-?[0-9.]+(e-?[0-9]+)?\n"))) << outcome.out;
+}
+
+TEST(EvaluateProtocolTest, AnUnstableRunHasFitnessZeroAndSaysWhere) {
+    json asked = request("thesis/creature-1", 0.1);
+    asked["overrides"] = {{"solver", {{"relaxationMode", "global"}}}};
+    const Outcome outcome = run_simulator({"evaluate"}, asked.dump());
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    const json result = json::parse(outcome.out);
+    EXPECT_EQ(result["id"], 42);
+    EXPECT_EQ(result["status"], "unstable");
+    EXPECT_EQ(result["stopped"], "unstable");
+    EXPECT_EQ(result["fitness"], 0);
+    EXPECT_TRUE(result["distance"].is_null());
+    EXPECT_TRUE(result["unstable"]["particle"].is_number_unsigned());
+    EXPECT_TRUE(result["unstable"]["stage"].is_string());
+    EXPECT_GE(result["unstable"]["time"].get<double>(), 0);
+}
+
+TEST(EvaluateProtocolTest, ASceneWithoutActuatorsNeedsNoGait) {
+    const json result = result_of({{"id", 0}, {"scene", "thesis/tank"}, {"duration", 0.05}});
+    EXPECT_EQ(result["id"], 0);
+    EXPECT_EQ(result["distance"], 0);
+}
+
+TEST(EvaluateProtocolTest, ALargeRequestIsRefusedAndNotRead) {
+    const Outcome outcome = run_simulator({"evaluate"}, std::string(17 << 20, ' '));
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("larger than 16 MiB"), std::string::npos) << outcome.err;
+}
+
+TEST(EvaluateProtocolTest, AFullDiskBehindStandardOutputIsAFailure) {
+    const Outcome outcome = run_simulator({"evaluate"}, request("thesis/creature-1-vacuum", 0.05).dump(), "/dev/full");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+}
+
+}  // namespace
+}  // namespace natator::test

@@ -1,0 +1,186 @@
+// natator-sim run and info, usage errors, and the form of their output.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "child_process.h"
+
+namespace natator::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
+
+/// A path in the temporary folder, freed at the end.
+struct TemporaryPath {
+    explicit TemporaryPath(const std::string& name)
+        : path((std::filesystem::temp_directory_path() / ("natator-" + std::to_string(::getpid()) + name)).string()) {}
+    ~TemporaryPath() { std::filesystem::remove(path); }
+    std::string path;
+};
+
+std::vector<std::string> file_lines(const std::string& path) {
+    std::ifstream file(path);
+    std::vector<std::string> result;
+    for (std::string line; std::getline(file, line);) result.push_back(line);
+    return result;
+}
+
+TEST(InfoTest, DescribesASceneAsJson) {
+    const Outcome outcome = run_simulator({"info", "thesis/creature-1", "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json info = json::parse(outcome.out);
+    const json expected = {{"scene", "thesis/creature-1"},
+                           {"creature", "creature-1"},
+                           {"actuators", 2},
+                           {"particles", 5915},
+                           {"fluidParticles", 5660},
+                           {"bodyParticles", 255},
+                           {"springs", 80},
+                           {"clusters", 4},
+                           {"planes", 5},
+                           {"duration", 4.0}};
+    for (const auto& [key, value] : expected.items()) EXPECT_EQ(info.at(key), value) << key;
+    ASSERT_TRUE(info.at("plan").is_array());
+    EXPECT_GT(info["plan"].size(), 5u);
+}
+
+TEST(InfoTest, DescribesTheProgramWithoutAScene) {
+    const json info = json::parse(run_simulator({"info", "--json"}).out);
+    EXPECT_TRUE(info.at("version").is_string());
+    EXPECT_TRUE(info.at("instructionSet").is_string());
+    EXPECT_GE(info.at("scenes").size(), 9u);
+    EXPECT_NE(run_simulator({"info"}).out.find("thesis/creature-4-vacuum"), std::string::npos);
+}
+
+TEST(RunTest, PrintsASummary) {
+    const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--gait", gait, "--duration", "0.1"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("creature-1, 2 actuators"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("0.1 s in 6 frames, completed"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("body lengths/s"), std::string::npos) << outcome.out;
+}
+
+/// The same state as `evaluate` reaches, whatever is recorded on the way.
+TEST(RunTest, ATrajectoryChangesNothingAndEndsAtTheDistance) {
+    const TemporaryPath csv("slices.csv");
+    const std::vector<std::string> command = {"run", "thesis/creature-1-vacuum", "--gait", gait, "--duration", "0.5"};
+    std::vector<std::string> recording = command;
+    recording.insert(recording.end(), {"--trajectory", csv.path});
+    const Outcome recorded = run_simulator(recording);
+    ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+    const auto hash = [](const std::string& text) { return text.substr(text.find("hash"), 27); };
+    EXPECT_EQ(hash(recorded.out), hash(run_simulator(command).out));
+
+    const std::vector<std::string> rows = file_lines(csv.path);
+    ASSERT_EQ(rows.size(), 1u + 31 * 17);  // start and 30 frames, 17 slices
+    EXPECT_EQ(rows[0], "frame,time,slice,x,y,z");
+    EXPECT_EQ(rows[1].find("0,0,0,1.6"), 0u) << rows[1];
+    EXPECT_EQ(rows.back().find("30,0.5,16,"), 0u) << rows.back();
+    const auto mean_x = [&](std::size_t first) {
+        double sum = 0;
+        for (std::size_t i = first; i < first + 17; ++i) {
+            std::istringstream row(rows[i]);
+            std::string cell;
+            for (int column = 0; column < 4; ++column) std::getline(row, cell, ',');
+            sum += std::stod(cell);
+        }
+        return sum / 17;
+    };
+    const double distance = std::stod(recorded.out.substr(recorded.out.find("distance") + 8));
+    EXPECT_NEAR(mean_x(rows.size() - 17) - mean_x(1), distance, 1e-5);
+}
+
+TEST(RunTest, ATrajectoryCanHoldEveryParticle) {
+    const TemporaryPath csv("particles.csv");
+    const Outcome outcome = run_simulator(
+        {"run", "thesis/creature-2-vacuum", "--duration", "0.05", "--trajectory", csv.path, "--particles"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::vector<std::string> rows = file_lines(csv.path);
+    EXPECT_EQ(rows.size(), 1u + 4 * 228);
+    EXPECT_EQ(rows[0], "frame,time,particle,x,y,z");
+}
+
+TEST(RunTest, AGaitCanComeFromAFile) {
+    const TemporaryPath file("gait.json");
+    std::ofstream(file.path) << gait;
+    const auto run = [](const std::string& text_or_file) {
+        const auto out =
+            run_simulator({"run", "thesis/creature-1-vacuum", "--gait", text_or_file, "--duration", "0.05"}).out;
+        return out.substr(0, out.find("wall time"));
+    };
+    EXPECT_EQ(run(file.path), run(gait));
+    EXPECT_NE(run(file.path).find("hash"), std::string::npos);
+}
+
+TEST(RunTest, AnUnstableRunEndsWithItsExitCode) {
+    const Outcome outcome =
+        run_simulator({"run", "thesis/creature-1", "--overrides", R"({"solver":{"relaxationMode":"global"}})"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_NE(outcome.out.find("unstable"), std::string::npos);
+}
+
+TEST(RunTest, ATrajectoryThatCannotBeWrittenIsAFailure) {
+    for (const char* path : {"/no/such/folder/x.csv", "/dev/full"}) {
+        const Outcome outcome =
+            run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.1", "--trajectory", path});
+        EXPECT_EQ(outcome.exit_code, 1) << path;
+        EXPECT_NE(outcome.err.find(path), std::string::npos) << outcome.err;
+    }
+}
+
+TEST(UsageTest, BadUsageIsOneLineAndExitCodeTwo) {
+    const std::vector<std::vector<std::string>> commands = {
+        {},
+        {"swim"},
+        {"evaluate", "--bogus"},
+        {"run"},
+        {"run", "thesis/nothing"},
+        {"run", "thesis/tank", "--duration", "x"},
+        {"run", "thesis/tank", "--duration", "-1"},
+        {"run", "thesis/tank", "--duration", "nan"},
+        {"run", "thesis/tank", "--precision", "half"},
+        {"run", "thesis/tank", "--scheme", "best"},
+        {"run", "thesis/tank", "--particles"},
+        {"run", "thesis/tank", "--overrides", "{"},
+        {"run", "thesis/creature-1", "--gait", "{}"},
+        {"run", "thesis/creature-1", "--gait", "/no/such/gait"},
+        {"run", "thesis/creature-2", "--gait", gait},
+        {"info", "thesis/nothing"},
+        {"info", "--overrides", "{}"},
+    };
+    for (const auto& command : commands) {
+        const Outcome outcome = run_simulator(command);
+        const std::string shown = json(command).dump();
+        EXPECT_EQ(outcome.exit_code, 2) << shown;
+        EXPECT_EQ(lines(outcome.err), 1) << shown << outcome.err;
+        EXPECT_EQ(outcome.err.find("natator-sim: "), 0u) << shown << outcome.err;
+        EXPECT_EQ(outcome.out, "") << shown;
+    }
+}
+
+TEST(UsageTest, HelpAndVersionAreNoErrors) {
+    for (const char* argument : {"--help", "--version"}) {
+        const Outcome outcome = run_simulator({argument});
+        EXPECT_EQ(outcome.exit_code, 0);
+        EXPECT_NE(outcome.out.find("natator-sim"), std::string::npos);
+        EXPECT_EQ(outcome.err, "");
+    }
+    const Outcome help = run_simulator({"run", "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.out.find("--trajectory"), std::string::npos);
+}
+
+TEST(UsageTest, AFullDiskBehindStandardOutputIsAFailure) {
+    const Outcome outcome = run_simulator({"info"}, "", "/dev/full");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+}
+
+}  // namespace
+}  // namespace natator::test
