@@ -29,7 +29,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
         this.generations = settings.generations();
         this.pace = new Pace(generations, settings.population(), System::nanoTime);
         this.out = out;
-        this.bar = terminal ? new ProgressBarBuilder().setTaskName("evolving").setInitialMax(1)
+        this.bar = terminal ? new ProgressBarBuilder().setTaskName("").setInitialMax(1)
                 .setStyle(ProgressBarStyle.ASCII).showSpeed().build() : null;
     }
 
@@ -53,7 +53,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
     public void generationFinished(EvolutionState state) {
         GenerationSummary last = state.history().get(state.history().size() - 1);
         if (bar != null) {
-            bar.setExtraMessage(String.format(Locale.ROOT, " generation %d/%d best %.4f mean %.4f", last.generation(),
+            bar.setExtraMessage(String.format(Locale.ROOT, " gen %d/%d best %.4f mean %.4f", last.generation(),
                     generations, last.best(), last.mean()));
             return;
         }

@@ -34,7 +34,8 @@ final class NativeProgram implements AutoCloseable {
     private final Path program;
     private final Duration timeout;
     private final Set<Process> running = ConcurrentHashMap.newKeySet();
-    private final Thread killAtExit = new Thread(() -> running.forEach(NativeProgram::kill), "kill-simulators");
+    private final Thread stopAtExit = new Thread(this::stop, "stop-simulators");
+    private volatile boolean stopped;
     private final ExecutorService pipes = Executors.newCachedThreadPool(task -> {
         Thread thread = new Thread(task, "simulator-pipe");
         thread.setDaemon(true);
@@ -48,16 +49,33 @@ final class NativeProgram implements AutoCloseable {
     NativeProgram(Path program, Duration timeout) {
         this.program = program;
         this.timeout = timeout;
-        Runtime.getRuntime().addShutdownHook(killAtExit);
+        Runtime.getRuntime().addShutdownHook(stopAtExit);
     }
 
     /**
      * Starts the program, writes {@code input} to it, closes its standard input and waits for its end.
      *
      * @throws SimulatorFailure     if it does not start, does not end in time, or prints too much
-     * @throws InterruptedException if interrupted meanwhile; the program is then killed
+     * @throws InterruptedException if interrupted meanwhile, or this virtual machine is shutting down; the program is
+     *                              then killed
      */
     Output call(List<String> arguments, String input) throws SimulatorFailure, InterruptedException {
+        try {
+            return start(arguments, input);
+        } finally {
+            failIfStopped();
+        }
+    }
+
+    /** What a program says when we killed it, or when an interrupt from the keyboard did, says nothing about it. */
+    private void failIfStopped() throws InterruptedException {
+        if (stopped) {
+            throw new InterruptedException("stopped");
+        }
+    }
+
+    private Output start(List<String> arguments, String input) throws SimulatorFailure, InterruptedException {
+        failIfStopped();
         List<String> command = new ArrayList<>();
         command.add(program.toString());
         command.addAll(arguments);
@@ -145,12 +163,17 @@ final class NativeProgram implements AutoCloseable {
         }
     }
 
+    private void stop() {
+        stopped = true;
+        running.forEach(NativeProgram::kill);
+    }
+
     @Override
     public void close() {
-        running.forEach(NativeProgram::kill);
+        stop();
         pipes.shutdownNow();
         try {
-            Runtime.getRuntime().removeShutdownHook(killAtExit);
+            Runtime.getRuntime().removeShutdownHook(stopAtExit);
         } catch (IllegalStateException e) {
             // The virtual machine is already shutting down, and runs the hook itself.
         }

@@ -50,6 +50,9 @@ public final class WorkerPool implements AutoCloseable {
             if (e.getCause() instanceof RuntimeException cause) {
                 throw cause;
             }
+            if (e.getCause() instanceof InterruptedException) {
+                throw new InterruptedException("evaluation was stopped");
+            }
             throw new IllegalStateException("evaluation ended unexpectedly", e.getCause());
         } finally {
             results.forEach(result -> result.cancel(true));

@@ -15,11 +15,11 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
-/** The program as a process of its own, killed as by {@code kill -9}, and continued. */
+/** The program as a process of its own, killed as by {@code kill -9} or ended as by Ctrl-C, and continued. */
 @Timeout(value = 90, unit = TimeUnit.SECONDS)
 class KilledRunTest {
 
-    private static final int KILLS = 4;
+    private static final int KILLS = 6;
 
     @TempDir
     private Path folder;
@@ -35,7 +35,7 @@ class KilledRunTest {
     }
 
     private ProcessBuilder start(Path run) {
-        return natator("--population", "20", "--generations", "8", "--output-dir", run.toString());
+        return natator("--population", "20", "--generations", "8", "--workers", "2", "--output-dir", run.toString());
     }
 
     @Test
@@ -47,7 +47,7 @@ class KilledRunTest {
 
         Random random = new Random(1);
         int kills = killWhenRunning(start(killed), killed, random) ? 1 : 0;
-        while (kills < KILLS && killWhenRunning(natator("--resume", killed.toString()), killed, random)) {
+        while (kills < KILLS && killWhenRunning(natator("--workers", "2", "--resume", killed.toString()), killed, random)) {
             kills++;
         }
         assertThat(kills).as("runs killed before their end").isGreaterThanOrEqualTo(2);
@@ -67,9 +67,14 @@ class KilledRunTest {
         while (process.isAlive() && (!Files.exists(log) || Files.size(log) <= before)) {
             Thread.sleep(5);
         }
-        Thread.sleep(random.nextInt(300));
+        Thread.sleep(random.nextInt(150));
         boolean alive = process.isAlive();
-        process.destroyForcibly().waitFor();
+        (random.nextBoolean() ? process.destroyForcibly() : endPolitely(process)).waitFor();
         return alive;
+    }
+
+    private static Process endPolitely(Process process) {
+        process.destroy();
+        return process;
     }
 }

@@ -33,7 +33,7 @@ class ProtocolTest {
     @TempDir
     private Path folder;
 
-    private static Set<ValidationMessage> check(String schemaFile, String json) throws IOException {
+    static Set<ValidationMessage> check(String schemaFile, String json) throws IOException {
         String schema = Files.readString(Path.of(System.getProperty("natator.protocol"), schemaFile));
         JsonSchema validator = JsonSchemaFactory.getInstance(SpecVersion.VersionFlag.V202012).getSchema(schema);
         return validator.validate(Json.parse(json, JsonNode.class));

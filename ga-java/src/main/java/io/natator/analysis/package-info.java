@@ -1,0 +1,2 @@
+/** Figures that sum up a generation. */
+package io.natator.analysis;

@@ -1,0 +1,2 @@
+/** The command line: options, progress, messages and exit statuses. */
+package io.natator.cli;

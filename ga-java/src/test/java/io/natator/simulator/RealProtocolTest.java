@@ -1,0 +1,42 @@
+package io.natator.simulator;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import io.natator.simulator.SimulationResult.Status;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+/** What the real simulator says, against the schema and the reader on this side. */
+class RealProtocolTest {
+
+    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "OK|thesis/creature-1|{}",
+        "OK|thesis/creature-1-vacuum|{\"solver\":{\"substeps\":2}}",
+        "UNSTABLE|thesis/creature-1|{\"solver\":{\"relaxationMode\":\"global\"}}",
+        "ERROR|thesis/creature-1|{\"timeStep\":-1}",
+        "ERROR|no/such/scene|{}"})
+    void answersFitTheSchema(Status status, String scene, String overrides) throws Exception {
+        assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
+        SimulationRequest request = new SimulationRequest(9, scene, FakeSimulator.request(9, scene).gait(), 0.1, null,
+                Json.parse(overrides, JsonNode.class));
+
+        String answer;
+        try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofSeconds(60))) {
+            answer = program.call(List.of("evaluate"), Json.line(request) + "\n").text();
+        }
+
+        assertThat(ProtocolTest.check("result.schema.json", answer)).as(answer).isEmpty();
+        SimulationResult result = Json.parse(answer, SimulationResult.class);
+        assertThat(result.status()).as(answer).isEqualTo(status);
+        assertThat(result.id()).isEqualTo(9);
+        assertThat(answer.lines()).hasSize(1);
+    }
+}
