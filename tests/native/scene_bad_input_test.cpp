@@ -84,7 +84,7 @@ const BadScene bad_scenes[] = {
     {R"({"creature":{"joints":[4,16]}})", "creature.joints[1] = 16", "[5, 15]"},
     {R"({"creature":{"joints":[15,15]}})", "creature.joints[1] = 15", "left out"},
     // What the solver does not do.
-    {R"({"scheme":"conserving"})", "scheme = \"conserving\"", "\"flex\""},
+    {R"({"scheme":"pbd"})", "scheme = \"pbd\"", "\"flex\""},
     {R"({"solver":{"restitution":0.5}})", "solver.restitution = 0.5", "not supported yet"},
     {R"({"solver":{"cohesion":0.025}})", "solver.cohesion = 0.025", "not supported yet"},
     {R"({"solver":{"wind":[0,0,1]}})", "solver.wind = [0,0,1]", "cloth only"},

@@ -11,6 +11,7 @@ namespace natator {
 struct Plan {
     bool fluid = false;           ///< density constraint, fluid neighbour lists
     bool contacts = false;        ///< pairs that are not both fluid
+    bool mutual_contacts = false; ///< a pair that one side feels is felt by both, so that momentum is kept
     bool solid_pressure = false;  ///< solids add to the fluid's density
     bool uniform_fluid = false;   ///< every fluid particle collides with every other: no test per pair
     bool springs = false;

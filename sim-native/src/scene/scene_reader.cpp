@@ -84,9 +84,8 @@ Scene scene_from_json(const json& document, const std::string& name) {
     fields::read_object(document, place, scene_fields(),
                         {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping"}, scene);
     if (document.contains("scheme")) {
-        // "conserving" is not supported yet; add it here.
-        scene.scheme =
-            fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"), {{"flex", Scheme::flex}});
+        scene.scheme = fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"),
+                                                   {{"flex", Scheme::flex}, {"conserving", Scheme::conserving}});
     }
     if (document.contains("solver")) scene.solver = fields::read_solver(document.at("solver"), place.key("solver"));
     if (document.contains("planes")) scene.planes = read_planes(document.at("planes"), place.key("planes"));

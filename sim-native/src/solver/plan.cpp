@@ -39,7 +39,9 @@ bool is_uniform_fluid(const Model& model) {
 Plan make_plan(const Model& model) {
     const SolverParameters& p = model.parameters;
     const auto is_fluid = [](std::uint32_t bits) { return (bits & phase::fluid) != 0; };
+    const bool flex = model.scheme == Scheme::flex;
     Plan plan;
+    plan.mutual_contacts = !flex;
     plan.fluid = std::any_of(model.phase.begin(), model.phase.end(), is_fluid);
     plan.contacts = has_contacts(model);
     plan.solid_pressure = plan.fluid && plan.contacts && p.solidPressure != 0;
@@ -51,7 +53,7 @@ Plan make_plan(const Model& model) {
     plan.plane_friction = plan.planes && p.dynamicFriction > 0;
     plan.viscosity = plan.fluid && p.viscosity != 0;
     plan.damping = p.damping != 0;
-    plan.clamp_acceleration = limits(p.maxAcceleration);
+    plan.clamp_acceleration = flex && limits(p.maxAcceleration);
     plan.clamp_speed = limits(p.maxSpeed);
     return plan;
 }

@@ -1,7 +1,9 @@
 #include "natator/solver.h"
 
 #include <string_view>
+#include <variant>
 
+#include "cpu/conserving/conserving_stages.h"
 #include "cpu/flex/flex_stages.h"
 #include "natator/actuate.h"
 #include "step.h"
@@ -10,20 +12,32 @@ namespace natator {
 namespace {
 
 /// Runs the substep once more from the unchanged state and looks behind each stage for the first bad particle.
-template <class Real>
-Instability locate_instability(cpu::FlexStages<Real>& stages, const Model& model, double time) {
-    Instability found;
-    bool located = false;
-    const auto look = [&](const char* stage) {
-        if (located) return;
-        if (const auto particle = stages.first_not_finite()) {
-            found = {*particle, stage, time};
-            located = true;
-        }
-    };
-    substep(stages, stages.plan(), model.parameters.numIterations, look);
-    return found;
+template <class Stages>
+Instability locate_instability(Stages& stages, const Model& model, double time) {
+    std::optional<Instability> found;
+    stages.forget();
+    substep(stages, stages.plan(), model.parameters.numIterations, [&](const char* stage) {
+        if (found) return;
+        if (const auto particle = stages.first_not_finite()) found = {*particle, stage, time};
+    });
+    return found.value_or(Instability{0, "velocities", time});
 }
+
+/// Passes the stages that an observer sees on to it.
+template <class Real, class Stages>
+struct Tell {
+    StepObserver<Real>& observer;
+    const Stages& stages;
+    void operator()(std::string_view stage) const {
+        if (stage == "predict") observer.predicted(stages.workspace().predicted_position);
+        if (stage == "iteration") observer.iterated(stages.positions());
+    }
+};
+
+/// Does nothing behind a stage.
+struct Ignore {
+    void operator()(const char*) const {}
+};
 
 }  // namespace
 
@@ -46,48 +60,62 @@ State<Real> initial_state(const Model& model) {
 template <class Real>
 class Solver<Real>::Implementation {
 public:
-    explicit Implementation(const Model& model) : model_(model), stages_(model) {}
+    explicit Implementation(const Model& model) : model_(model), stages_(stages_for(model)) {}
 
-    std::optional<Instability> update(State<Real>& state, double time_step, int substeps,
-                                      StepObserver<Real>* observer) {
+    std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
+                                      const Gait* gait) {
         if (model_.particles() == 0) return std::nullopt;
+        return std::visit([&](auto& stages) { return run(*stages, state, time_step, substeps, observer, gait); },
+                          stages_);
+    }
+
+    std::optional<Instability> frame(State<Real>& state, const Gait& gait) {
+        const bool per_substep = model_.scheme == Scheme::conserving;
+        if (!per_substep) actuate(model_, gait, state.time, state);
+        return update(state, model_.time_step, model_.parameters.substeps, nullptr, per_substep ? &gait : nullptr);
+    }
+
+    std::vector<Real> densities() {
+        return std::visit([](auto& stages) { return stages->densities(); }, stages_);
+    }
+    std::vector<int> neighbour_counts() const {
+        return std::visit([](const auto& stages) { return stages->neighbour_counts(); }, stages_);
+    }
+
+private:
+    using AnyStages =
+        std::variant<std::unique_ptr<cpu::FlexStages<Real>>, std::unique_ptr<cpu::ConservingStages<Real>>>;
+
+    static AnyStages stages_for(const Model& model) {
+        if (model.scheme == Scheme::conserving) return std::make_unique<cpu::ConservingStages<Real>>(model);
+        return std::make_unique<cpu::FlexStages<Real>>(model);
+    }
+
+    /// `gait`: sets the muscles for the end of each substep; null leaves them as they are.
+    template <class Stages>
+    std::optional<Instability> run(Stages& stages, State<Real>& state, double time_step, int substeps,
+                                   StepObserver<Real>* observer, const Gait* gait) {
         const Real h = static_cast<Real>(time_step) / static_cast<Real>(substeps);
+        const double start = state.time;
+        const int iterations = model_.parameters.numIterations;
         for (int k = 0; k < substeps; ++k) {
-            stages_.begin_substep(state, h);
+            const double end = start + time_step * (k + 1) / substeps;
+            if (gait) actuate(model_, *gait, end, state);
+            stages.begin_substep(state, h);
             if (observer)
-                substep(stages_, stages_.plan(), model_.parameters.numIterations, Tell{*observer, stages_});
+                substep(stages, stages.plan(), iterations, Tell<Real, Stages>{*observer, stages});
             else
-                substep(stages_, stages_.plan(), model_.parameters.numIterations, [](const char*) {});
-            if (!stages_.finite()) return locate_instability(stages_, model_, state.time);
-            stages_.commit();
-            state.time += time_step / substeps;
+                substep(stages, stages.plan(), iterations, Ignore{});
+            if (!stages.finite()) return locate_instability(stages, model_, state.time);
+            stages.commit();
+            state.time = end;
             if (observer) observer->substep_ended(state.velocity);
         }
         return std::nullopt;
     }
 
-    std::optional<Instability> frame(State<Real>& state, const Gait& gait) {
-        actuate(model_, gait, state.time, state);
-        return update(state, model_.time_step, model_.parameters.substeps, nullptr);
-    }
-
-    std::vector<Real> densities() { return stages_.densities(); }
-    std::vector<int> neighbour_counts() const { return stages_.neighbour_counts(); }
-
-private:
-    /// Passes the stages that an observer sees on to it.
-    struct Tell {
-        StepObserver<Real>& observer;
-        const cpu::FlexStages<Real>& stages;
-        void operator()(std::string_view stage) const {
-            if (stage == "predict") observer.predicted(stages.workspace().predicted_position);
-            if (stage != "iteration") return;
-            observer.iterated(stages.positions());
-        }
-    };
-
     const Model& model_;
-    cpu::FlexStages<Real> stages_;
+    AnyStages stages_;
 };
 
 template <class Real>
@@ -102,7 +130,7 @@ Solver<Real>& Solver<Real>::operator=(Solver&&) noexcept = default;
 template <class Real>
 std::optional<Instability> Solver<Real>::update(State<Real>& state, double time_step, int substeps,
                                                 StepObserver<Real>* observer) {
-    return implementation_->update(state, time_step, substeps, observer);
+    return implementation_->update(state, time_step, substeps, observer, nullptr);
 }
 
 template <class Real>

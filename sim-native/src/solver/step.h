@@ -35,7 +35,32 @@ void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
     }
 }
 
-/// One substep: this is the order of stages for every backend. `after(name)` is called behind each stage.
+/// One iteration of scheme `conserving`: each group of constraints in turn, on the positions that the last one left.
+template <class Stages, class AfterStage>
+void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) {
+    if (plan.fluid) {
+        stages.solve_density_constraint();
+        after("density constraint");
+    }
+    if (plan.contacts) {
+        stages.solve_contacts();
+        after("contacts");
+    }
+    if (plan.springs) {
+        stages.solve_springs();
+        after("springs");
+    }
+    if (plan.clusters) {
+        stages.solve_clusters();
+        after("shape matching");
+    }
+    if (plan.planes) {
+        stages.solve_planes();
+        after("planes");
+    }
+}
+
+/// One substep: this is the order of stages for both schemes and every backend. `after(name)` is called behind each.
 template <class Stages, class AfterStage>
 void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage& after) {
     stages.predict();
@@ -45,9 +70,13 @@ void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage&
     if (plan.fluid) stages.find_fluid_neighbours();
     if (plan.contacts) stages.find_contacts();
     if (plan.planes) stages.find_plane_contacts();
+    if constexpr (Stages::scheme == Scheme::conserving) stages.begin_iterations();
     after("neighbours");
     for (int i = 0; i < iterations; ++i) {
-        iterate_summed(stages, plan, after);
+        if constexpr (Stages::scheme == Scheme::conserving)
+            iterate_in_turn(stages, plan, after);
+        else
+            iterate_summed(stages, plan, after);
         after("iteration");
     }
     stages.update_velocities();

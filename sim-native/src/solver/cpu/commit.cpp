@@ -9,16 +9,25 @@ bool Substep<Real>::finite() const {
     Real difference = 0;
     for (int i = 0; i < ws_.particles; ++i) {
         const Vector3<Real> x = position_of_slot(ws_.slot_of[i]);
-        difference += (ws_.predicted_velocity[i] - ws_.predicted_velocity[i]).sum() + (x - x).sum();
+        difference += (new_velocity_[i] - new_velocity_[i]).sum() + (x - x).sum();
     }
     return difference == 0;
+}
+
+template <class Real>
+void Substep<Real>::forget() {
+    std::fill(new_velocity_.begin(), new_velocity_.end(), Vector3<Real>::Zero());
+    for (const int slot : ws_.slot_of) {
+        ws_.position.set(slot, Vector3<Real>::Zero());
+        ws_.correction.set(slot, Vector3<Real>::Zero());
+    }
 }
 
 template <class Real>
 std::optional<int> Substep<Real>::first_not_finite() const {
     for (int i = 0; i < ws_.particles; ++i) {
         const int slot = ws_.slot_of[i];
-        if (!ws_.predicted_velocity[i].allFinite() || !ws_.predicted_position[i].allFinite() ||
+        if (!new_velocity_[i].allFinite() || !ws_.predicted_position[i].allFinite() ||
             !position_of_slot(slot).allFinite() || !ws_.correction.at(slot).allFinite())
             return i;
     }
@@ -30,12 +39,14 @@ void Substep<Real>::commit() {
     for (int i = 0; i < ws_.particles; ++i) {
         if (inverse_mass_[i] == 0) continue;
         state_->position[i] = position_of_slot(ws_.slot_of[i]);
-        state_->velocity[i] = ws_.predicted_velocity[i];
+        state_->velocity[i] = new_velocity_[i];
     }
     state_->cluster_rotation = cluster_rotation_;
     state_->cluster_centre = cluster_centre_;
 }
 
+template void Substep<float>::forget();
+template void Substep<double>::forget();
 template bool Substep<float>::finite() const;
 template bool Substep<double>::finite() const;
 template std::optional<int> Substep<float>::first_not_finite() const;

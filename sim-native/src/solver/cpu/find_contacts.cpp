@@ -17,8 +17,9 @@ void Substep<Real>::find_contacts() {
             const Real r2 = (position_of_slot(slot) - position_of_slot(other)).squaredNorm();
             if (!(r2 > 0) || !(r2 < distance_squared)) continue;
             const int j = ws_.particle_of[other];
-            if (collides(i, j)) pairs.emplace_back(slot, other);
-            if (both_directions && collides(j, i)) pairs.emplace_back(other, slot);
+            const bool mutual = plan_.mutual_contacts && (collides(i, j) || collides(j, i));
+            if (mutual || collides(i, j)) pairs.emplace_back(slot, other);
+            if (both_directions && (mutual || collides(j, i))) pairs.emplace_back(other, slot);
         }
     };
     for (int slot = ws_.solid_begin; slot < ws_.slots; ++slot) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "conserving/density_kernels.h"
 #include "fluid_kernels.h"
 #include "natator/error.h"
 
@@ -63,21 +64,51 @@ const char* to_string(InstructionSet set) {
 
 namespace cpu {
 
+namespace {
+
+/// One table of kernels per instruction set that this build has.
+template <class Kernels>
+struct KernelTables {
+    Kernels portable;
+#if defined(NATATOR_X86_KERNELS)
+    Kernels avx2, avx512;
+#endif
+
+    const Kernels& of([[maybe_unused]] InstructionSet set) const {
+#if defined(NATATOR_X86_KERNELS)
+        if (set == InstructionSet::avx512) return avx512;
+        if (set == InstructionSet::avx2) return avx2;
+#endif
+        return portable;
+    }
+};
+
+#if defined(NATATOR_X86_KERNELS)
+#define NATATOR_TABLES(make) \
+    { portable::make(), avx2::make(), avx512::make() }
+#else
+#define NATATOR_TABLES(make) \
+    { portable::make() }
+#endif
+
+}  // namespace
+
 template <class Real>
 const FluidKernels<Real>& fluid_kernels(InstructionSet set) {
-    static const FluidKernels<Real> portable_kernels = portable::fluid_kernels<Real>();
-#if defined(NATATOR_X86_KERNELS)
-    static const FluidKernels<Real> avx2_kernels = avx2::fluid_kernels<Real>();
-    static const FluidKernels<Real> avx512_kernels = avx512::fluid_kernels<Real>();
-    if (set == InstructionSet::avx512) return avx512_kernels;
-    if (set == InstructionSet::avx2) return avx2_kernels;
-#endif
-    (void)set;
-    return portable_kernels;
+    static const KernelTables<FluidKernels<Real>> tables NATATOR_TABLES(fluid_kernels<Real>);
+    return tables.of(set);
+}
+
+template <class Real>
+const DensityKernels<Real>& density_kernels(InstructionSet set) {
+    static const KernelTables<DensityKernels<Real>> tables NATATOR_TABLES(density_kernels<Real>);
+    return tables.of(set);
 }
 
 template const FluidKernels<float>& fluid_kernels<float>(InstructionSet);
 template const FluidKernels<double>& fluid_kernels<double>(InstructionSet);
+template const DensityKernels<float>& density_kernels<float>(InstructionSet);
+template const DensityKernels<double>& density_kernels<double>(InstructionSet);
 
 }  // namespace cpu
 }  // namespace natator

@@ -1,27 +1,8 @@
 #include "substep.h"
 
-#include <cmath>
+#include "rest_packing.h"
 
 namespace natator::cpu {
-namespace {
-
-/// S = sum of (1 - r/R)^2 over a rest packing of spacing a: each particle has 10 neighbours at a and 4 at sqrt(1.5) a
-/// (x shifted by a/2 where y + z is odd, rows sqrt(3/4) a apart in y and z). `ratio` = a/R.
-double rest_packing_sum(double ratio) {
-    const int n = static_cast<int>(std::ceil(1 / ratio)) + 1;
-    double sum = 0;
-    for (int z = -n; z <= n; ++z)
-        for (int y = -n; y <= n; ++y)
-            for (int x = -n; x <= n; ++x) {
-                const double shift = (y + z) % 2 != 0 ? 0.5 : 0.0;
-                const double r = ratio * std::hypot(x + shift, y * std::sqrt(0.75), z * std::sqrt(0.75));
-                if (r > 0 && r < 1) sum += (1 - r) * (1 - r);
-            }
-    return sum;
-}
-
-}  // namespace
-
 template <class Real>
 Constants<Real>::Constants(const SolverParameters& p)
     : radius(Real(p.radius)),
@@ -36,7 +17,9 @@ Constants<Real>::Constants(const SolverParameters& p)
       plane_search_distance(Real(p.collisionDistance) + Real(p.shapeCollisionMargin)),
       relaxation_factor(Real(p.relaxationFactor)),
       max_speed(Real(p.maxSpeed)) {
-    const double rest_sum = p.fluidRestDistance > 0 ? rest_packing_sum(p.fluidRestDistance / p.radius) : 0;
+    const double rest_sum = p.fluidRestDistance > 0 ? rest_packing_sum(p.fluidRestDistance / p.radius,
+                                                                       [](double q) { return (1 - q) * (1 - q); })
+                                                    : 0;
     if (rest_sum > 0) density_scale = static_cast<Real>(1 / rest_sum);
 }
 
@@ -47,6 +30,7 @@ Substep<Real>::Substep(const Model& model)
       constants_(model.parameters),
       ws_(model),
       kernels_(&fluid_kernels<Real>(instruction_set())) {
+    new_velocity_.resize(model.particles());
     for (const double w : model.inverse_mass) inverse_mass_.push_back(static_cast<Real>(w));
     for (const Spring& spring : model.springs) spring_stiffness_.push_back(static_cast<Real>(spring.stiffness));
     for (const Cluster& cluster : model.clusters) {
@@ -76,6 +60,16 @@ bool Substep<Real>::collides(int i, int j) const {
     if (!(model_.phase[i] & phase::self_collide)) return false;
     if (!(model_.phase[i] & phase::self_collide_filter) || model_.rest_position.empty()) return true;
     return (model_.rest_position[i] - model_.rest_position[j]).norm() >= model_.parameters.radius;
+}
+
+template <class Real>
+Vector3<Real> Substep<Real>::friction(const Vector3<Real>& moved, const Vector3<Real>& normal, Real depth,
+                                      Real coefficient) const {
+    const Vector3<Real> tangential = moved - moved.dot(normal) * normal;
+    const Real m = tangential.norm();
+    if (!(m > 0)) return Vector3<Real>::Zero();
+    const Real held = m < constants_.static_friction * depth ? m : std::min(coefficient * depth, m);
+    return held / m * tangential;
 }
 
 template <class Real>

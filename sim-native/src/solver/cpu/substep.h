@@ -58,6 +58,8 @@ public:
 
     /// False if the last substep's outcome is not finite.
     bool finite() const;
+    /// Empties what the last substep left, so that first_not_finite sees only what the coming one computes.
+    void forget();
     /// Lowest particle whose position, correction or velocity is not finite at this point of the substep.
     std::optional<int> first_not_finite() const;
     /// Writes the substep's outcome into the state; particles of infinite mass keep theirs.
@@ -84,7 +86,12 @@ protected:
     State<Real>* state_ = nullptr;
     Real h_ = 0;
 
-    std::vector<Real> inverse_mass_;  ///< by particle
+    /// What Coulomb friction takes off the displacement `moved` of a contact of this depth: the tangential part as a
+    /// whole if it is below staticFriction * depth, else at most friction * depth of it.
+    Vector3<Real> friction(const Vector3<Real>& moved, const Vector3<Real>& normal, Real depth, Real coefficient) const;
+
+    std::vector<Real> inverse_mass_;           ///< by particle
+    std::vector<Vector3<Real>> new_velocity_;  ///< by particle, the substep's outcome
     std::vector<Real> spring_stiffness_;
     std::vector<std::vector<Vector3<Real>>> cluster_offset_;
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep

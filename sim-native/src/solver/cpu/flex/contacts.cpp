@@ -24,11 +24,7 @@ void FlexStages<Real>::solve_contacts() {
             Vector3<Real> push = depth * normal;
             if (plan_.particle_friction) {
                 const Vector3<Real> moved = (xi - start_of_slot(i)) - (position_of_slot(j) - start_of_slot(j));
-                const Vector3<Real> tangential = moved - moved.dot(normal) * normal;
-                const Real m = tangential.norm();
-                const Real held =
-                    m < constants_.static_friction * depth ? m : std::min(constants_.particle_friction * depth, m);
-                if (m > 0) push -= held / m * tangential;
+                push -= this->friction(moved, normal, depth, constants_.particle_friction);
             }
             add_correction(i, share * push);
         }

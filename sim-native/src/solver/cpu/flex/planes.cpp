@@ -14,14 +14,8 @@ void FlexStages<Real>::solve_planes() {
         const Real depth = constants_.collision_distance - (normal.dot(x) + offset);
         if (!(depth > 0)) continue;
         x += depth * normal;
-        if (plan_.plane_friction) {
-            const Vector3<Real> moved = x - start_of_slot(slot);
-            const Vector3<Real> tangential = moved - moved.dot(normal) * normal;
-            const Real m = tangential.norm();
-            const Real held =
-                m < constants_.static_friction * depth ? m : std::min(constants_.dynamic_friction * depth, m);
-            if (m > 0) x -= held / m * tangential;
-        }
+        if (plan_.plane_friction)
+            x -= this->friction(x - start_of_slot(slot), normal, depth, constants_.dynamic_friction);
         ws_.position.set(slot, x);
     }
 }

@@ -27,15 +27,14 @@ void FlexStages<Real>::update_velocities() {
         const int slot = ws_.slot_of[i];
         const Vector3<Real> u = moved_per_second(slot);
         Vector3<Real> v = u;
-        if (plan_.viscosity && slot < ws_.fluid)
-            v += viscosity_step * ws_.correction.at(slot);
+        if (plan_.viscosity && slot < ws_.fluid) v += viscosity_step * ws_.correction.at(slot);
         if (plan_.damping) v -= damping_step * u;
         if (plan_.clamp_acceleration) {
             const Vector3<Real> predicted = ws_.predicted.at(slot);
             v = predicted + clamped(Vector3<Real>(v - predicted), most_change);
         }
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
-        ws_.predicted_velocity[i] = v;
+        this->new_velocity_[i] = v;
     }
 }
 

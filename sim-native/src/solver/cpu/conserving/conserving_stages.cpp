@@ -1,0 +1,126 @@
+#include "conserving_stages.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "../rest_packing.h"
+
+namespace natator::cpu {
+
+double relative_compliance(double stiffness, double h) {
+    constexpr double thesis_substep = 1.0 / 240;
+    const double left_over = std::pow(1 - stiffness, 4);
+    if (left_over >= 1) return std::numeric_limits<double>::infinity();
+    return left_over / (1 - left_over) * (thesis_substep / h) * (thesis_substep / h);
+}
+
+template <class Real>
+std::vector<typename ConservingStages<Real>::FreeBody> ConservingStages<Real>::free_bodies(const Model& model) {
+    std::vector<int> parent(model.particles());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&parent](int i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (const Spring& spring : model.springs) parent[root(spring.a)] = root(spring.b);
+    for (const Cluster& cluster : model.clusters)
+        for (const int i : cluster.particles) parent[root(i)] = root(cluster.particles.front());
+
+    std::vector<std::vector<int>> members(model.particles());
+    std::vector<bool> held(model.particles(), false);
+    for (int i = 0; i < model.particles(); ++i) {
+        members[root(i)].push_back(i);
+        if (model.inverse_mass[i] == 0) held[root(i)] = true;
+    }
+    std::vector<FreeBody> bodies;
+    for (int i = 0; i < model.particles(); ++i)
+        if (members[i].size() > 1 && !held[i]) bodies.push_back({.particles = members[i]});
+    return bodies;
+}
+
+template <class Real>
+ConservingStages<Real>::ConservingStages(const Model& model)
+    : Substep<Real>(model),
+      density_kernels_(&cpu::density_kernels<Real>(instruction_set())),
+      kernel_scale_(0),
+      gradient_scale_(0),
+      bodies_(free_bodies(model)),
+      springs_per_particle_(model.particles(), 0),
+      spring_lambda_(model.springs.size()) {
+    const std::size_t all = ws_.position.x.size();
+    base_.resize(all);
+    displacement_.resize(all);
+    if (plan_.fluid) {
+        const SolverParameters& p = model.parameters;
+        const double poly6_sum =
+            rest_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return std::pow(1 - q * q, 3); });
+        const double poly6 = 315 / (64 * std::numbers::pi * std::pow(p.radius, 3));
+        const double spiky = 45 / (std::numbers::pi * std::pow(p.radius, 4));
+        kernel_scale_ = static_cast<Real>(1 / (1 + poly6_sum));
+        gradient_scale_ = static_cast<Real>(spiky / (poly6 * (1 + poly6_sum)));
+        lambda_.resize(all);
+        solid_gradient_square_.resize(all);
+        solid_gradient_.resize(all);
+    }
+
+    std::vector<int> clusters_per_particle(model.particles(), 0);
+    for (const Spring& spring : model.springs) {
+        ++springs_per_particle_[spring.a];
+        ++springs_per_particle_[spring.b];
+    }
+    for (const Cluster& cluster : model.clusters)
+        for (const int i : cluster.particles) ++clusters_per_particle[i];
+    for (int i = 0; i < model.particles(); ++i)
+        if (springs_per_particle_[i] + clusters_per_particle[i] > 0) bonded_.push_back(i);
+    internal_.assign(bonded_.empty() ? 0 : model.particles(), Vector3<Real>::Zero());
+
+    for (std::size_t k = 0; k < model.clusters.size(); ++k) {
+        const std::vector<int>& members = model.clusters[k].particles;
+        cluster_mass_.emplace_back();
+        Vector3<double> mean = Vector3<double>::Zero();
+        double total = 0;
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            const double w = model.inverse_mass[members[m]];
+            const double mass = (w > 0 ? 1 / w : 1.0) / clusters_per_particle[members[m]];
+            cluster_mass_[k].push_back(static_cast<Real>(mass));
+            mean += mass * model.clusters[k].rest_offset[m];
+            total += mass;
+        }
+        for (auto& offset : cluster_offset_[k]) offset -= (mean / total).template cast<Real>();
+        cluster_displacement_.emplace_back(members.size());
+    }
+}
+
+template <class Real>
+void ConservingStages<Real>::begin_iterations() {
+    base_ = ws_.position;
+    for (auto* array : {&displacement_, &ws_.correction})
+        for (auto* coordinate : {&array->x, &array->y, &array->z})
+            std::fill(coordinate->begin(), coordinate->end(), Real(0));
+    std::fill(internal_.begin(), internal_.end(), Vector3<Real>::Zero());
+    std::fill(spring_lambda_.begin(), spring_lambda_.end(), Real(0));
+    for (auto& displacements : cluster_displacement_)
+        std::fill(displacements.begin(), displacements.end(), Vector3<Real>::Zero());
+}
+
+template <class Real>
+void ConservingStages<Real>::apply_correction(int slot) {
+    if (ws_.inverse_mass[slot] > 0) move(slot, constants_.relaxation_factor * ws_.correction.at(slot));
+    ws_.correction.set(slot, Vector3<Real>::Zero());
+}
+
+template <class Real>
+void ConservingStages<Real>::apply_internal_corrections() {
+    for (const int i : bonded_) {
+        const int slot = ws_.slot_of[i];
+        if (ws_.inverse_mass[slot] > 0) internal_[i] += constants_.relaxation_factor * ws_.correction.at(slot);
+        apply_correction(slot);
+    }
+}
+
+template class ConservingStages<float>;
+template class ConservingStages<double>;
+
+}  // namespace natator::cpu

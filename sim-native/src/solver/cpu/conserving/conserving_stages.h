@@ -1,0 +1,91 @@
+#pragma once
+
+#include "../substep.h"
+#include "density_kernels.h"
+
+namespace natator::cpu {
+
+/// The stages of scheme `conserving`: each group of constraints in turn, within a group all at once with split masses
+/// (Tonge, Benevolenski, Voroshilov: Mass Splitting for Jitter-Free Parallel Rigid Body Simulation, 2012), so that
+/// internal forces keep linear and angular momentum. Stiffness enters as XPBD compliance (Macklin, Müller, Chentanez:
+/// XPBD, 2016), so that it means the same at any substep and iteration count.
+template <class Real>
+class ConservingStages : public Substep<Real> {
+public:
+    static constexpr Scheme scheme = Scheme::conserving;
+
+    explicit ConservingStages(const Model& model);
+
+    void begin_iterations();
+    void solve_density_constraint();
+    void solve_contacts();
+    void solve_springs();
+    void solve_clusters();
+    void solve_planes();
+    void keep_body_momentum();
+    void update_velocities();
+
+    /// Density at the present positions by particle, in units of rest density; 0 for solids and infinite masses.
+    std::vector<Real> densities() {
+        if (plan_.fluid) compute_lambda();
+        return this->densities_by_particle();
+    }
+
+private:
+    void compute_lambda();
+    void add_solid_pressure();
+    void push_solids_by_pressure();
+    DensityView<Real> density_view();
+    /// Moves slot by omega times its correction, which is 0 again afterwards.
+    void apply_correction(int slot);
+    /// Applies the corrections of springs or clusters and books them as internal to their body.
+    void apply_internal_corrections();
+    void move(int slot, const Vector3<Real>& by) {
+        displacement_.add(slot, by);
+        ws_.position.set(slot, base_.at(slot) + displacement_.at(slot));
+    }
+
+    /// Particles that springs and clusters hang together; none of infinite mass.
+    struct FreeBody {
+        std::vector<int> particles;
+        Vector3<double> linear = Vector3<double>::Zero();   ///< velocity to add, so that internal forces kept momentum
+        Vector3<double> angular = Vector3<double>::Zero();  ///< angular velocity to add, about `centre`
+        Vector3<double> centre = Vector3<double>::Zero();
+    };
+    static std::vector<FreeBody> free_bodies(const Model& model);
+
+    const DensityKernels<Real>* density_kernels_;
+    Real kernel_scale_, gradient_scale_;
+    Vector3Array<Real> base_;          ///< predicted positions by slot
+    Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it
+    AlignedVector<Real> lambda_, solid_gradient_square_;
+    Vector3Array<Real> solid_gradient_;
+
+    std::vector<int> bonded_;              ///< particles in springs or clusters
+    std::vector<Vector3<Real>> internal_;  ///< by particle: its displacement by springs and clusters
+    std::vector<FreeBody> bodies_;
+    std::vector<int> springs_per_particle_;  ///< n of the springs' mass splitting
+    std::vector<Real> spring_lambda_;
+    std::vector<std::vector<Real>> cluster_mass_;                   ///< m_j / n_j per member
+    std::vector<std::vector<Vector3<Real>>> cluster_displacement_;  ///< sum of the substep's corrections per member
+
+    using Substep<Real>::model_;
+    using Substep<Real>::plan_;
+    using Substep<Real>::constants_;
+    using Substep<Real>::ws_;
+    using Substep<Real>::state_;
+    using Substep<Real>::h_;
+    using Substep<Real>::inverse_mass_;
+    using Substep<Real>::cluster_offset_;
+    using Substep<Real>::cluster_rotation_;
+    using Substep<Real>::cluster_centre_;
+    using Substep<Real>::position_of_slot;
+    using Substep<Real>::start_of_slot;
+};
+
+/// Compliance of a constraint of `stiffness` k in [0, 1] relative to its inverse mass, at substep length h (s):
+/// alpha = r / (1 - r) (h0 / h)^2 with r = (1 - k)^4, so that a fully solved constraint leaves over as much of its
+/// error as 4 iterations of stiffness k do in the thesis' substep h0 = 1/240 s. Infinite (never solved) at k = 0.
+double relative_compliance(double stiffness, double h);
+
+}  // namespace natator::cpu

@@ -1,0 +1,47 @@
+#include "conserving_stages.h"
+
+namespace natator::cpu {
+
+/// Pair that is not fluid-fluid, depth e = solidRestDistance - r > 0, n = contacts with e > 0 of a particle:
+///   Dx_i = w_i / (w_i n_i + w_j n_j) (e n - f t),
+/// t = direction of the tangential relative displacement since the substep's start, m = its length,
+/// f = m if m < staticFriction * e, else min(particleFriction * e, m). Friction acts only if dynamicFriction > 0.
+template <class Real>
+void ConservingStages<Real>::solve_contacts() {
+    const auto depth_of = [this](int i, int j) {
+        return constants_.solid_rest_distance - (position_of_slot(i) - position_of_slot(j)).norm();
+    };
+    for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
+        const int i = ws_.touched[k];
+        int active = 0;
+        for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) active += depth_of(i, ws_.contact[c]) > 0;
+        ws_.constraint_count[i] = static_cast<Real>(active);
+    }
+    for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
+        const int i = ws_.touched[k];
+        const Real wi = ws_.inverse_mass[i];
+        if (ws_.constraint_count[i] == 0 || wi == 0) continue;
+        for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
+            const int j = ws_.contact[c];
+            const Real depth = depth_of(i, j);
+            if (!(depth > 0)) continue;
+            const Vector3<Real> difference = position_of_slot(i) - position_of_slot(j);
+            const Real r = difference.norm();
+            const Vector3<Real> normal = r > 0 ? Vector3<Real>(difference / r) : Vector3<Real>::Zero();
+            Vector3<Real> push = depth * normal;
+            if (plan_.particle_friction) {
+                const Vector3<Real> moved =
+                    (position_of_slot(i) - start_of_slot(i)) - (position_of_slot(j) - start_of_slot(j));
+                push -= this->friction(moved, normal, depth, constants_.particle_friction);
+            }
+            const Real split = wi * ws_.constraint_count[i] + ws_.inverse_mass[j] * ws_.constraint_count[j];
+            ws_.correction.add(i, wi / split * push);
+        }
+    }
+    for (const int slot : ws_.touched) this->apply_correction(slot);
+}
+
+template void ConservingStages<float>::solve_contacts();
+template void ConservingStages<double>::solve_contacts();
+
+}  // namespace natator::cpu

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+
+#include "natator/instruction_set.h"
+
+namespace natator::cpu {
+
+/// What the density kernels of scheme `conserving` read and write, by slot; see FluidView for the ground rules.
+template <class Real>
+struct DensityView {
+    int blocks;
+    const int* row_begin;           ///< by block
+    const std::int32_t* neighbour;  ///< rows of 16 slots
+    Real inverse_radius;
+    Real kernel_scale;    ///< A: W(r)/rho0 = A (1 - q^2)^3, poly6
+    Real gradient_scale;  ///< B: |grad W(r)|/rho0 = B (1 - q)^2, spiky
+
+    const Real* position[3];
+    const Real* inverse_mass;
+    const Real* solid_density;          ///< what solids add to the density
+    const Real* solid_gradient[3];      ///< what solids add to grad_i C_i
+    const Real* solid_gradient_square;  ///< what solids add to sum_k w_k |grad_k C_i|^2
+    Real* density;
+    Real* lambda;
+    Real* correction[3];
+
+    const Real* velocity[3];
+    Real* velocity_change[3];
+};
+
+template <class Real>
+struct DensityKernels {
+    /// density_i = A (1 + sum_j (1 - q^2)^3) + solids; C_i = density_i - 1;
+    /// lambda_i = -max(C_i, 0) / (w_i |grad_i C_i|^2 + sum_k w_k |grad_k C_i|^2).
+    void (*compute_lambda)(const DensityView<Real>& fluid);
+    /// correction_i = w_i sum_j (lambda_i + lambda_j) grad_i W_ij / rho0.
+    void (*solve_density_constraint)(const DensityView<Real>& fluid);
+    /// velocity_change_i = sum_j A (1 - q^2)^3 2 w_i / (w_i + w_j) (u_j - u_i): equal and opposite momenta per pair.
+    void (*smooth_velocities)(const DensityView<Real>& fluid);
+};
+
+namespace portable {
+template <class Real>
+DensityKernels<Real> density_kernels();
+}
+namespace avx2 {
+template <class Real>
+DensityKernels<Real> density_kernels();
+}
+namespace avx512 {
+template <class Real>
+DensityKernels<Real> density_kernels();
+}
+
+/// The kernels for an instruction set; sets that this build lacks give the portable ones.
+template <class Real>
+const DensityKernels<Real>& density_kernels(InstructionSet set);
+
+}  // namespace natator::cpu

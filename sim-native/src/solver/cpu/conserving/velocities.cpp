@@ -1,0 +1,77 @@
+#include "conserving_stages.h"
+
+namespace natator::cpu {
+
+/// What the displacements by springs and clusters did to a free body's momentum, to be given back: these forces are
+/// internal. With x1 = x0 + h v1 the angular momentum after the substep is sum of m x0 x v1, so they must have no
+/// moment about the start positions: sum of m x0 x Dx = 0. Position corrections have none about the positions they
+/// were computed at, which leaves an error of first order in h. It is given back as a rigid rotation of the velocities,
+/// as momentum is in Dinev et al.: FEPR: Fast Energy Projection for Real-Time Simulation of Deformable Objects (2018).
+template <class Real>
+void ConservingStages<Real>::keep_body_momentum() {
+    for (FreeBody& body : bodies_) {
+        double total = 0;
+        Vector3<double> start_centre = Vector3<double>::Zero();
+        body.centre.setZero();
+        for (const int i : body.particles) {
+            const double mass = 1 / static_cast<double>(inverse_mass_[i]);
+            total += mass;
+            start_centre += mass * state_->position[i].template cast<double>();
+            body.centre += mass * position_of_slot(ws_.slot_of[i]).template cast<double>();
+        }
+        start_centre /= total;
+        body.centre /= total;
+
+        Vector3<double> momentum = Vector3<double>::Zero(), moment = Vector3<double>::Zero();
+        Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+        for (const int i : body.particles) {
+            const double mass = 1 / static_cast<double>(inverse_mass_[i]);
+            const Vector3<double> impulse = mass / static_cast<double>(h_) * internal_[i].template cast<double>();
+            momentum += impulse;
+            moment += (state_->position[i].template cast<double>() - start_centre).cross(impulse);
+            const Vector3<double> arm = position_of_slot(ws_.slot_of[i]).template cast<double>() - body.centre;
+            inertia += mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+        }
+        body.linear = -momentum / total;
+        // A straight chain has no inertia about its own axis, and no moment either: least-norm solution.
+        body.angular = -inertia.completeOrthogonalDecomposition().solve(moment);
+    }
+}
+
+/// u = v* + displacement / h, which rounds less than a difference of positions; internal forces give their momentum
+/// back; viscosity exchanges momentum within pairs, so it needs no masses to be equal; damping v / (1 + h damping).
+template <class Real>
+void ConservingStages<Real>::update_velocities() {
+    const Real viscosity = static_cast<Real>(model_.parameters.viscosity);
+    // At most half of a velocity difference is taken off in a substep, however large the viscosity.
+    const Real smoothing = h_ * viscosity / (1 + 2 * h_ * viscosity);
+    const Real kept = plan_.damping ? 1 / (1 + h_ * static_cast<Real>(model_.parameters.damping)) : Real(1);
+
+    for (int i = 0; i < ws_.particles; ++i) {
+        const int slot = ws_.slot_of[i];
+        this->new_velocity_[i] = ws_.predicted.at(slot) + displacement_.at(slot) / h_;
+    }
+    keep_body_momentum();
+    for (const FreeBody& body : bodies_) {
+        for (const int i : body.particles) {
+            const Vector3<double> arm = position_of_slot(ws_.slot_of[i]).template cast<double>() - body.centre;
+            this->new_velocity_[i] += (body.linear + body.angular.cross(arm)).template cast<Real>();
+        }
+    }
+    if (plan_.viscosity) {
+        for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
+        density_kernels_->smooth_velocities(density_view());
+        for (const int i : ws_.fluid_ids) this->new_velocity_[i] += smoothing * ws_.correction.at(ws_.slot_of[i]);
+    }
+    for (Vector3<Real>& v : this->new_velocity_) {
+        v *= kept;
+        if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
+    }
+}
+
+template void ConservingStages<float>::keep_body_momentum();
+template void ConservingStages<double>::keep_body_momentum();
+template void ConservingStages<float>::update_velocities();
+template void ConservingStages<double>::update_velocities();
+
+}  // namespace natator::cpu
