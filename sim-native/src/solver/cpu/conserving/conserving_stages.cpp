@@ -49,6 +49,8 @@ ConservingStages<Real>::ConservingStages(const Model& model)
       bodies_(free_bodies(model)),
       springs_per_particle_(model.particles(), 0),
       spring_lambda_(model.springs.size()) {
+    // Planes must hold whatever is pushed against them in the course of a substep, not just what starts close to them.
+    constants_.plane_search_distance += constants_.radius;
     const std::size_t all = ws_.position.x.size();
     base_.resize(all);
     displacement_.resize(all);
@@ -60,8 +62,7 @@ ConservingStages<Real>::ConservingStages(const Model& model)
         const double spiky = 45 / (std::numbers::pi * std::pow(p.radius, 4));
         kernel_scale_ = static_cast<Real>(1 / (1 + poly6_sum));
         gradient_scale_ = static_cast<Real>(spiky / (poly6 * (1 + poly6_sum)));
-        lambda_.resize(all);
-        solid_gradient_square_.resize(all);
+        for (auto* array : {&lambda_, &response_, &lambda_sum_, &solid_gradient_square_}) array->resize(all);
         solid_gradient_.resize(all);
     }
 
@@ -99,6 +100,7 @@ void ConservingStages<Real>::begin_iterations() {
     for (auto* array : {&displacement_, &ws_.correction})
         for (auto* coordinate : {&array->x, &array->y, &array->z})
             std::fill(coordinate->begin(), coordinate->end(), Real(0));
+    std::fill(lambda_sum_.begin(), lambda_sum_.end(), Real(0));
     std::fill(internal_.begin(), internal_.end(), Vector3<Real>::Zero());
     std::fill(spring_lambda_.begin(), spring_lambda_.end(), Real(0));
     for (auto& displacements : cluster_displacement_)
@@ -106,8 +108,8 @@ void ConservingStages<Real>::begin_iterations() {
 }
 
 template <class Real>
-void ConservingStages<Real>::apply_correction(int slot) {
-    if (ws_.inverse_mass[slot] > 0) move(slot, constants_.relaxation_factor * ws_.correction.at(slot));
+void ConservingStages<Real>::apply_correction(int slot, Real share) {
+    if (ws_.inverse_mass[slot] > 0) move(slot, constants_.relaxation_factor * share * ws_.correction.at(slot));
     ws_.correction.set(slot, Vector3<Real>::Zero());
 }
 

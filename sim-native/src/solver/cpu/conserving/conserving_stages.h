@@ -5,6 +5,11 @@
 
 namespace natator::cpu {
 
+/// The density constraints of both particles of a pair correct the pair, each in full if it were alone. Half of each makes
+/// a collision inelastic (restitution 0); the whole of both would make it elastic, and a fluid at rest boil.
+template <class Real>
+inline constexpr Real pair_share = Real(0.5);
+
 /// The stages of scheme `conserving`: each group of constraints in turn, within a group all at once with split masses
 /// (Tonge, Benevolenski, Voroshilov: Mass Splitting for Jitter-Free Parallel Rigid Body Simulation, 2012), so that
 /// internal forces keep linear and angular momentum. Stiffness enters as XPBD compliance (Macklin, Müller, Chentanez:
@@ -23,6 +28,7 @@ public:
     void solve_clusters();
     void solve_planes();
     void keep_body_momentum();
+    void solve_density_rate();
     void update_velocities();
 
     /// Density at the present positions by particle, in units of rest density; 0 for solids and infinite masses.
@@ -36,8 +42,8 @@ private:
     void add_solid_pressure();
     void push_solids_by_pressure();
     DensityView<Real> density_view();
-    /// Moves slot by omega times its correction, which is 0 again afterwards.
-    void apply_correction(int slot);
+    /// Moves slot by omega * share times its correction, which is 0 again afterwards.
+    void apply_correction(int slot, Real share = 1);
     /// Applies the corrections of springs or clusters and books them as internal to their body.
     void apply_internal_corrections();
     void move(int slot, const Vector3<Real>& by) {
@@ -58,7 +64,7 @@ private:
     Real kernel_scale_, gradient_scale_;
     Vector3Array<Real> base_;          ///< predicted positions by slot
     Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it
-    AlignedVector<Real> lambda_, solid_gradient_square_;
+    AlignedVector<Real> lambda_, response_, lambda_sum_, solid_gradient_square_;
     Vector3Array<Real> solid_gradient_;
 
     std::vector<int> bonded_;              ///< particles in springs or clusters

@@ -22,6 +22,8 @@ DensityView<Real> ConservingStages<Real>::density_view() {
             .solid_gradient_square = solid_gradient_square_.data(),
             .density = ws_.density.data(),
             .lambda = lambda_.data(),
+            .response = response_.data(),
+            .lambda_sum = lambda_sum_.data(),
             .correction = {correction[0], correction[1], correction[2]},
             .velocity = {velocity[0], velocity[1], velocity[2]},
             .velocity_change = {correction[0], correction[1], correction[2]}};
@@ -86,16 +88,16 @@ void ConservingStages<Real>::compute_lambda() {
 }
 
 /// Density constraint C_i = rho_i / rho0 - 1 <= 0 of Position Based Fluids (Macklin, Müller 2013) with inverse masses:
-/// Dx_i = w_i / rho0 sum_j (lambda_i + lambda_j) grad W_ij. Sums of it over a pair are equal and opposite in m Dx.
+/// Dx_i = w_i / rho0 sum_j (lambda_i + lambda_j) / 2 grad W_ij. Sums of it over a pair are equal and opposite in m Dx.
 template <class Real>
 void ConservingStages<Real>::solve_density_constraint() {
     compute_lambda();
     density_kernels_->solve_density_constraint(density_view());
     if (plan_.solid_pressure) push_solids_by_pressure();
-    for (int slot = 0; slot < ws_.fluid; ++slot) this->apply_correction(slot);
+    for (int slot = 0; slot < ws_.fluid; ++slot) apply_correction(slot, pair_share<Real>);
     if (plan_.solid_pressure)
         for (const int slot : ws_.touched)
-            if (slot >= ws_.solid_begin) this->apply_correction(slot);
+            if (slot >= ws_.solid_begin) apply_correction(slot, pair_share<Real>);
 }
 
 template DensityView<float> ConservingStages<float>::density_view();

@@ -59,7 +59,11 @@ void compute_lambda(const DensityView<Real>& fluid) {
                 fluid.gradient_scale * fluid.gradient_scale * square[lane] + fluid.solid_gradient_square[i];
             const Real all = w[i] * (cx * cx + cy * cy + cz * cz) + others;
             fluid.density[i] = density;
-            fluid.lambda[i] = density > 1 && all > 0 ? (1 - density) / all : 0;
+            const Real response = all > 0 ? 1 / all : 0;
+            const Real lambda = density > 1 ? (1 - density) * response : 0;
+            fluid.response[i] = response;
+            fluid.lambda[i] = lambda;
+            fluid.lambda_sum[i] += lambda;
         }
     }
 }
@@ -96,6 +100,44 @@ void solve_density_constraint(const DensityView<Real>& fluid) {
             fluid.correction[0][first + lane] = scale * sum_x[lane];
             fluid.correction[1][first + lane] = scale * sum_y[lane];
             fluid.correction[2][first + lane] = scale * sum_z[lane];
+        }
+    }
+}
+
+template <class Real>
+void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
+    const Real* const x = fluid.position[0];
+    const Real* const y = fluid.position[1];
+    const Real* const z = fluid.position[2];
+    const Real* const u = fluid.velocity[0];
+    const Real* const v = fluid.velocity[1];
+    const Real* const w = fluid.velocity[2];
+    const Real inverse_radius = fluid.inverse_radius;
+    for (int block = 0; block < fluid.blocks; ++block) {
+        const int first = block * lanes;
+        Real rate[lanes] = {};
+        for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
+            const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
+            for (int lane = 0; lane < lanes; ++lane) {
+                const int i = first + lane;
+                const int j = neighbour[lane];
+                const Real dx = x[i] - x[j];
+                const Real dy = y[i] - y[j];
+                const Real dz = z[i] - z[j];
+                const Real r2 = dx * dx + dy * dy + dz * dz;
+                const Real inverse_r = 1 / square_root(r2 + tiny<Real>);
+                const Real one_minus_q = 1 - r2 * inverse_r * inverse_radius;
+                const Real t = one_minus_q > 0 ? one_minus_q : 0;
+                const Real approach = (u[j] - u[i]) * dx + (v[j] - v[i]) * dy + (w[j] - w[i]) * dz;
+                rate[lane] += t * t * inverse_r * approach;
+            }
+        }
+        for (int lane = 0; lane < lanes; ++lane) {
+            const int i = first + lane;
+            const Real lambda = -fluid.gradient_scale * rate[lane] * fluid.response[i];
+            const Real most = -fluid.lambda_sum[i] * inverse_h;
+            const Real limited = lambda < most ? lambda : most;
+            fluid.lambda[i] = most > 0 ? limited : 0;
         }
     }
 }
@@ -142,7 +184,7 @@ void smooth_velocities(const DensityView<Real>& fluid) {
 
 template <class Real>
 DensityKernels<Real> density_kernels() {
-    return {&compute_lambda<Real>, &solve_density_constraint<Real>, &smooth_velocities<Real>};
+    return {&compute_lambda<Real>, &solve_density_constraint<Real>, &compute_rate_lambda<Real>, &smooth_velocities<Real>};
 }
 
 template DensityKernels<float> density_kernels<float>();

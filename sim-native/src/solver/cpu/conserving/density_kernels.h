@@ -23,6 +23,8 @@ struct DensityView {
     const Real* solid_gradient_square;  ///< what solids add to sum_k w_k |grad_k C_i|^2
     Real* density;
     Real* lambda;
+    Real* response;    ///< 1 / (w_i |grad_i C_i|^2 + sum_k w_k |grad_k C_i|^2)
+    Real* lambda_sum;  ///< of the substep so far
     Real* correction[3];
 
     const Real* velocity[3];
@@ -36,6 +38,9 @@ struct DensityKernels {
     void (*compute_lambda)(const DensityView<Real>& fluid);
     /// correction_i = w_i sum_j (lambda_i + lambda_j) grad_i W_ij / rho0.
     void (*solve_density_constraint)(const DensityView<Real>& fluid);
+    /// lambda_i of the rate of change of C_i, for particles that were under pressure: what takes it to 0, but at most
+    /// what the pressure gave (times 1/h), so that neighbours are never pulled together.
+    void (*compute_rate_lambda)(const DensityView<Real>& fluid, Real inverse_h);
     /// velocity_change_i = sum_j A (1 - q^2)^3 2 w_i / (w_i + w_j) (u_j - u_i): equal and opposite momenta per pair.
     void (*smooth_velocities)(const DensityView<Real>& fluid);
 };

@@ -38,6 +38,17 @@ void ConservingStages<Real>::keep_body_momentum() {
     }
 }
 
+/// Takes the rate of change of the density to 0 where the fluid is under pressure, as an inelastic contact does: pushing
+/// particles apart must not leave them flying apart. Pairwise and along their lines, so momenta are kept; what it takes
+/// away is kinetic energy. The velocity constraint is that of Bender, Koschier: Divergence-Free SPH (2015), eq. 8-10.
+template <class Real>
+void ConservingStages<Real>::solve_density_rate() {
+    for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
+    density_kernels_->compute_rate_lambda(density_view(), 1 / h_);
+    density_kernels_->solve_density_constraint(density_view());
+    for (const int i : ws_.fluid_ids) this->new_velocity_[i] += pair_share<Real> * ws_.correction.at(ws_.slot_of[i]);
+}
+
 /// u = v* + displacement / h, which rounds less than a difference of positions; internal forces give their momentum
 /// back; viscosity exchanges momentum within pairs, so it needs no masses to be equal; damping v / (1 + h damping).
 template <class Real>
@@ -58,6 +69,7 @@ void ConservingStages<Real>::update_velocities() {
             this->new_velocity_[i] += (body.linear + body.angular.cross(arm)).template cast<Real>();
         }
     }
+    if (plan_.fluid) solve_density_rate();
     if (plan_.viscosity) {
         for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
         density_kernels_->smooth_velocities(density_view());
