@@ -15,6 +15,7 @@ void add_evaluate(CLI::App& app, int& status);
 void add_run(CLI::App& app, int& status);
 void add_info(CLI::App& app, int& status);
 void add_particles(CLI::App& app, int& status);
+void add_bench(CLI::App& app, int& status);
 
 /// Writes text to standard output at once. Throws std::runtime_error when that fails (closed pipe, full disk).
 void print(const std::string& text);

@@ -30,6 +30,7 @@ int run_command(int argc, char** argv) {
     add_run(app, status);
     add_info(app, status);
     add_particles(app, status);
+    add_bench(app, status);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {

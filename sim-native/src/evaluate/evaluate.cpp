@@ -7,20 +7,10 @@
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "perturb.h"
+#include "settle.h"
 
 namespace natator {
 namespace {
-
-/// Brings the start to rest (thesis 2.3). Muscles are at rest; time stays 0.
-template <class Real>
-std::optional<Instability> settle(const Settling& settling, Solver<Real>& solver, State<Real>& state) {
-    for (int i = 0; i < settling.updates; ++i) {
-        if (auto instability = solver.update(state, settling.time_step, settling.substeps)) return instability;
-        std::fill(state.velocity.begin(), state.velocity.end(), Vector3<Real>::Zero());
-        state.time = 0;
-    }
-    return std::nullopt;
-}
 
 /// Whether the last `window` frames brought no gain in mean x (thesis 2.6). `mean_x` has one entry per frame from the
 /// start on; a window of 0 frames never ends a run.

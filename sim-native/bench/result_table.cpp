@@ -1,0 +1,95 @@
+#include "result_table.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+#include "natator/error.h"
+
+namespace natator::bench {
+namespace {
+
+std::string joined(const Row& row) {
+    std::string line;
+    for (const std::string& field : row) line += (&field == &row.front() ? "" : ",") + field;
+    return line + "\n";
+}
+
+Row split(const std::string& line) {
+    Row row;
+    std::size_t begin = 0;
+    for (std::size_t comma = line.find(','); comma != std::string::npos; comma = line.find(',', begin)) {
+        row.push_back(line.substr(begin, comma - begin));
+        begin = comma + 1;
+    }
+    row.push_back(line.substr(begin));
+    return row;
+}
+
+}  // namespace
+
+ResultTable::ResultTable(const std::string& path, Row columns, std::size_t key_columns)
+    : path_(path), columns_(std::move(columns)), key_columns_(key_columns) {
+    if (path.empty()) return;
+    const std::uintmax_t whole_lines = take_over(path);
+    if (whole_lines > 0) std::filesystem::resize_file(path, whole_lines);
+    file_.open(path, whole_lines > 0 ? std::ios::app : std::ios::trunc);
+    if (whole_lines == 0) file_ << text() << std::flush;
+    if (!file_) throw std::runtime_error(path + ": can't be written");
+}
+
+std::uintmax_t ResultTable::take_over(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string line;
+    // getline meets the end of the file only in a line without its line break: that one was cut off.
+    if (!file || !std::getline(file, line) || file.eof()) return 0;
+    if (line + "\n" != joined(columns_)) throw InputError(path + ": holds other columns than this study writes");
+    std::uintmax_t whole_lines = line.size() + 1;
+    while (std::getline(file, line) && !file.eof()) {
+        const Row row = split(line);
+        if (row.size() != columns_.size()) throw InputError(path + ": a row has another number of fields: " + line);
+        keep(row);
+        whole_lines += line.size() + 1;
+    }
+    return whole_lines;
+}
+
+void ResultTable::keep(const Row& row) {
+    keys_.insert(Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(key_columns_)));
+    rows_.push_back(row);
+}
+
+void ResultTable::add(const Row& row) {
+    if (row.size() != columns_.size()) throw std::logic_error("a row of " + std::to_string(row.size()) + " fields");
+    keep(row);
+    if (path_.empty()) return;
+    file_ << joined(row) << std::flush;
+    if (!file_) throw std::runtime_error(path_ + ": can't be written");
+}
+
+std::string ResultTable::text() const {
+    std::string text = joined(columns_);
+    for (const Row& row : rows_) text += joined(row);
+    return text;
+}
+
+std::string number_text(double value) {
+    if (!std::isfinite(value)) return "";
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string measured_text(double value) {
+    if (!std::isfinite(value)) return "";
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr};
+}
+
+std::string path_beside(const std::string& path, const std::string& suffix) {
+    const std::filesystem::path file(path);
+    return (file.parent_path() / (file.stem().string() + "-" + suffix + ".csv")).string();
+}
+
+}  // namespace natator::bench
