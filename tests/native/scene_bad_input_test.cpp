@@ -60,6 +60,15 @@ const BadScene bad_scenes[] = {
     {R"({"solver":{"radius":1e300}})", "solver.radius = 1e+300", "(0, 1000]"},
     {R"({"solver":{"numIterations":0}})", "solver.numIterations = 0", "[1, 1000]"},
     {R"({"solver":{"dynamicFriction":-0.2}})", "solver.dynamicFriction = -0.2", "[0, 100]"},
+    {R"({"solver":{"restitution":1.01}})", "solver.restitution = 1.01", "[0, 1]"},
+    {R"({"solver":{"adhesion":-1}})", "solver.adhesion = -1", "[0, 10000] (length/s^2)"},
+    {R"({"solver":{"sleepThreshold":-0.1}})", "solver.sleepThreshold = -0.1", "[0, 1000] (length/s)"},
+    {R"({"solver":{"shockPropagation":-1}})", "solver.shockPropagation = -1", "[0, 1000] (1/length)"},
+    {R"({"solver":{"dissipation":-1}})", "solver.dissipation = -1", "[0, 1000] (1/s)"},
+    {R"({"solver":{"cohesion":-0.025}})", "solver.cohesion = -0.025", "[0, 1000]"},
+    {R"({"solver":{"surfaceTension":-1}})", "solver.surfaceTension = -1", "[0, 10000] (length/s^2)"},
+    {R"({"solver":{"vorticityConfinement":-1}})", "solver.vorticityConfinement = -1", "[0, 1000] (length/s)"},
+    {R"({"solver":{"freeSurfaceDrag":-1}})", "solver.freeSurfaceDrag = -1", "[0, 1000] (1/s)"},
     {R"({"solver":{"maxNeighborsPerParticle":0}})", "solver.maxNeighborsPerParticle = 0", "[1, 4096]"},
     {R"({"solver":{"solidRestDistance":0.16}})", "solver.solidRestDistance = 0.16", "at most radius = 0.15"},
     {R"({"solver":{"fluidRestDistance":0.15}})", "solver.fluidRestDistance = 0.15", "less than radius = 0.15"},
@@ -85,8 +94,6 @@ const BadScene bad_scenes[] = {
     {R"({"creature":{"joints":[15,15]}})", "creature.joints[1] = 15", "left out"},
     // What the solver does not do.
     {R"({"scheme":"pbd"})", "scheme = \"pbd\"", "\"flex\""},
-    {R"({"solver":{"restitution":0.5}})", "solver.restitution = 0.5", "not supported yet"},
-    {R"({"solver":{"cohesion":0.025}})", "solver.cohesion = 0.025", "not supported yet"},
     {R"({"solver":{"wind":[0,0,1]}})", "solver.wind = [0,0,1]", "cloth only"},
     {R"({"solver":{"plasticCreep":0.1}})", "solver.plasticCreep = 0.1", "cloth only"},
     // Scenes whose parts do not fit together.
@@ -118,11 +125,9 @@ TEST_P(BadSceneTest, IsRefusedWithOneLineThatNamesTheField) {
 
 INSTANTIATE_TEST_SUITE_P(All, BadSceneTest, testing::ValuesIn(bad_scenes));
 
-/// The parameters that the thesis leaves at 0 may be written out as 0.
-TEST(SceneTest, UnsupportedParametersMayBeZero) {
-    for (const char* key :
-         {"wind", "drag", "lift", "plasticThreshold", "plasticCreep", "restitution", "adhesion", "sleepThreshold",
-          "shockPropagation", "dissipation", "cohesion", "surfaceTension", "vorticityConfinement", "freeSurfaceDrag"}) {
+/// The parameters that act on cloth only may be written out as 0.
+TEST(SceneTest, ClothParametersMayBeZero) {
+    for (const char* key : {"wind", "drag", "lift", "plasticThreshold", "plasticCreep"}) {
         nlohmann::json overrides;
         overrides["solver"][key] = 0;
         EXPECT_NO_THROW(load_scene("thesis/creature-1", overrides)) << key;

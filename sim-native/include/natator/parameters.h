@@ -31,22 +31,29 @@ struct SolverParameters {
     double dynamicFriction = 0.2;   ///< Coulomb coefficient against planes; > 0 also switches particle friction on
     double staticFriction = 0.0;    ///< static Coulomb coefficient, planes and particles
     double particleFriction = 0.2;  ///< dynamic Coulomb coefficient between particles
-    double restitution = 0.0;       ///< rebound at planes
-    double adhesion = 0.0;          ///< pull towards planes
-    double sleepThreshold = 0.0;    ///< speed below which a particle is held, length/s
+    double restitution = 0.0;       ///< rebound speed over impact speed at planes, [0, 1]
+    double adhesion = 0.0;          ///< pull, length/s^2, that a particle touching a plane withstands, >= 0
+    double sleepThreshold = 0.0;    ///< a particle slower than this, length/s, stays where it is, >= 0
 
     double maxSpeed = std::numeric_limits<float>::max();  ///< limit of |v|, length/s
     double maxAcceleration = 100.0;                       ///< limit of |dv|/h per substep, length/s^2
-    double shockPropagation = 0.0;                        ///< lowers the mass of particles with height
-    double dissipation = 0.0;                             ///< damping per contact
+    /// Contacts take a particle's mass times exp(-k height), height against gravity, so that stacks settle faster;
+    /// momentum is not kept then. k, 1/length, >= 0.
+    double shockPropagation = 0.0;
+    /// Damping per contact, 1/s, >= 0. Scheme `flex`: of the velocity, from the second contact on, as a single contact
+    /// was measured not to damp. Scheme `conserving`: of the relative velocity in each contact, which keeps momentum.
+    double dissipation = 0.0;
     double damping = 1.0;                                 ///< drag on the velocity, 1/s
 
-    double cohesion = 0.0;              ///< attraction between fluid particles
-    double surfaceTension = 0.0;        ///< minimises the fluid's surface
+    /// Pull between fluid particles beyond fluidRestDistance, push within it; dimensionless, >= 0. At contact the push
+    /// moves a particle by cohesion * radius: in scheme `flex` per iteration before relaxation, as measured; in scheme
+    /// `conserving` as a force, per (1/240 s)^2.
+    double cohesion = 0.0;
+    double surfaceTension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
     double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s
-    double vorticityConfinement = 0.0;  ///< strengthens the fluid's vortices
+    double vorticityConfinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
     double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density
-    double freeSurfaceDrag = 0.0;       ///< drag on fluid particles at the surface
+    double freeSurfaceDrag = 0.0;       ///< drag times the part of the rest density that a particle lacks, 1/s, >= 0
     double buoyancy = 1.0;              ///< factor on gravity for fluid particles
 
     double collisionDistance = 0.05;       ///< distance held from planes, length

@@ -23,6 +23,18 @@ struct Plan {
     bool damping = false;
     bool clamp_acceleration = false;
     bool clamp_speed = false;
+
+    // Off in the thesis.
+    bool restitution = false;
+    bool adhesion = false;
+    bool sleep = false;
+    bool shock_propagation = false;
+    bool dissipation = false;
+    bool cohesion = false;
+    bool surface_tension = false;
+    bool vorticity = false;
+    bool free_surface_drag = false;
+    bool fluid_forces = false;  ///< any of the fluid's forces that act on velocities
 };
 
 Plan make_plan(const Model& model);

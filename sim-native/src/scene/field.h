@@ -27,9 +27,6 @@ struct Place {
 /// Throws InputError: "document: path: what".
 [[noreturn]] void refuse(const Place& place, const std::string& what);
 
-/// Whether the solver honours a setting yet. Change `not_yet` to `yes` in a table to enable it.
-enum class Supported { yes, not_yet };
-
 /// What values a number may have. All ranges lie within what a float can hold.
 struct Range {
     double low;
@@ -50,7 +47,6 @@ struct Field {
     const char* key;
     Member<T> member;
     Range range{0, 0};  ///< of numbers, and of each component of vectors
-    Supported supported = Supported::yes;
 };
 
 void read(const json& value, const Place& place, const Range& range, double& out);
@@ -92,7 +88,6 @@ void read_object(const json& object, const Place& place, const std::vector<Field
         const auto found = object.find(field.key);
         if (found == object.end()) continue;
         const Place at = place.key(field.key);
-        if (field.supported == Supported::not_yet) require_zero(*found, at, "0 (other values are not supported yet)");
         std::visit([&](auto member) { read(*found, at, field.range, out.*member); }, field.member);
     }
 }

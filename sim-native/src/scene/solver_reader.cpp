@@ -8,7 +8,6 @@ namespace {
 
 constexpr double largest_float = std::numeric_limits<float>::max();
 constexpr double no_limit = 3.5e38;  // values above the largest float mean it; 3.4028235e38 reads as slightly above
-constexpr auto not_yet = Supported::not_yet;
 
 /// Parameters that act on cloth only: there is no cloth, so they must be 0.
 const std::vector<std::string_view> cloth_only = {"wind", "drag", "lift", "plasticThreshold", "plasticCreep"};
@@ -25,20 +24,20 @@ const std::vector<Field<SolverParameters>>& solver_fields() {
         {"dynamicFriction", &P::dynamicFriction, {0, 100}},
         {"staticFriction", &P::staticFriction, {0, 100}},
         {"particleFriction", &P::particleFriction, {0, 100}},
-        {"restitution", &P::restitution, {0, 1}, not_yet},
-        {"adhesion", &P::adhesion, {0, 1000}, not_yet},
-        {"sleepThreshold", &P::sleepThreshold, {0, 1000, false, "length/s"}, not_yet},
+        {"restitution", &P::restitution, {0, 1}},
+        {"adhesion", &P::adhesion, {0, 10000, false, "length/s^2"}},
+        {"sleepThreshold", &P::sleepThreshold, {0, 1000, false, "length/s"}},
         {"maxSpeed", &P::maxSpeed, {0, no_limit, true, "length/s"}},
         {"maxAcceleration", &P::maxAcceleration, {0, no_limit, true, "length/s^2"}},
-        {"shockPropagation", &P::shockPropagation, {0, 1000}, not_yet},
-        {"dissipation", &P::dissipation, {0, 1000}, not_yet},
+        {"shockPropagation", &P::shockPropagation, {0, 1000, false, "1/length"}},
+        {"dissipation", &P::dissipation, {0, 1000, false, "1/s"}},
         {"damping", &P::damping, {0, 1000, false, "1/s"}},
-        {"cohesion", &P::cohesion, {0, 1000}, not_yet},
-        {"surfaceTension", &P::surfaceTension, {0, 1000}, not_yet},
+        {"cohesion", &P::cohesion, {0, 1000}},
+        {"surfaceTension", &P::surfaceTension, {0, 10000, false, "length/s^2"}},
         {"viscosity", &P::viscosity, {0, 10000, false, "1/s"}},
-        {"vorticityConfinement", &P::vorticityConfinement, {0, 1000}, not_yet},
+        {"vorticityConfinement", &P::vorticityConfinement, {0, 1000, false, "length/s"}},
         {"solidPressure", &P::solidPressure, {0, 100}},
-        {"freeSurfaceDrag", &P::freeSurfaceDrag, {0, 1000}, not_yet},
+        {"freeSurfaceDrag", &P::freeSurfaceDrag, {0, 1000, false, "1/s"}},
         {"buoyancy", &P::buoyancy, {-100, 100}},
         {"collisionDistance", &P::collisionDistance, {0, 1000, false, "length"}},
         {"particleCollisionMargin", &P::particleCollisionMargin, {0, 1000, false, "length"}},

@@ -55,11 +55,22 @@ Plan make_plan(const Model& model) {
     plan.damping = p.damping != 0;
     plan.clamp_acceleration = flex && limits(p.maxAcceleration);
     plan.clamp_speed = limits(p.maxSpeed);
+    plan.restitution = plan.planes && p.restitution > 0;
+    plan.adhesion = plan.planes && p.adhesion > 0;
+    plan.sleep = p.sleepThreshold > 0;
+    plan.shock_propagation = plan.contacts && p.shockPropagation > 0 && !p.gravity.isZero();
+    plan.dissipation = plan.contacts && p.dissipation > 0;
+    plan.cohesion = plan.fluid && p.cohesion > 0;
+    plan.surface_tension = plan.fluid && p.surfaceTension > 0;
+    plan.vorticity = plan.fluid && p.vorticityConfinement > 0;
+    plan.free_surface_drag = plan.fluid && p.freeSurfaceDrag > 0;
+    plan.fluid_forces = plan.surface_tension || plan.vorticity || (plan.cohesion && !flex);
     return plan;
 }
 
 std::vector<std::string> describe_plan(const Model& model) {
     const Plan plan = make_plan(model);
+    const bool flex = model.scheme == Scheme::flex;
     std::vector<std::string> lines;
     const auto add = [&lines](bool needed, std::string line) {
         if (needed) lines.push_back(std::move(line));
@@ -74,7 +85,9 @@ std::vector<std::string> describe_plan(const Model& model) {
     const std::string per_iteration = iterations + " x per substep: ";
     add(plan.fluid, per_iteration + (plan.solid_pressure ? "density with solid pressure" : "density"));
     add(plan.fluid, per_iteration + "density constraint");
-    add(plan.contacts, per_iteration + (plan.particle_friction ? "contacts with friction" : "contacts"));
+    add(plan.cohesion && flex, per_iteration + "cohesion");
+    add(plan.contacts, per_iteration + (plan.particle_friction ? "contacts with friction" : "contacts") +
+                           (plan.shock_propagation ? ", shock propagation" : ""));
     add(plan.springs, per_iteration + "springs");
     add(plan.clusters, per_iteration + "shape matching");
     add(true, per_iteration + (model.parameters.relaxationMode == RelaxationMode::local ? "local relaxation"
@@ -85,7 +98,16 @@ std::vector<std::string> describe_plan(const Model& model) {
     if (plan.damping) velocities += ", damping";
     if (plan.clamp_acceleration) velocities += ", acceleration clamp";
     if (plan.clamp_speed) velocities += ", speed clamp";
-    add(true, velocities + ", check finite");
+    add(true, velocities);
+    add(plan.dissipation, "per substep: dissipation");
+    add(plan.free_surface_drag, "per substep: free-surface drag");
+    add(plan.cohesion && !flex, "per substep: cohesion");
+    add(plan.surface_tension, "per substep: surface tension");
+    add(plan.vorticity, "per substep: vorticity confinement");
+    add(plan.adhesion, "per substep: adhesion");
+    add(plan.restitution, "per substep: restitution");
+    add(plan.sleep, "per substep: sleep");
+    add(true, "per substep: check finite");
     return lines;
 }
 

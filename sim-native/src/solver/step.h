@@ -15,6 +15,10 @@ void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
         stages.solve_density_constraint();
         after("density constraint");
     }
+    if (plan.cohesion) {
+        stages.solve_cohesion();
+        after("cohesion");
+    }
     if (plan.contacts) {
         stages.solve_contacts();
         after("contacts");
@@ -60,6 +64,32 @@ void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) 
     }
 }
 
+/// What acts on the velocities beyond the constraints, the same in both schemes; all of it is off in the thesis.
+template <class Stages, class AfterStage>
+void apply_effects(Stages& stages, const Plan& plan, const AfterStage& after) {
+    if (plan.dissipation) {
+        stages.damp_contacts();
+        after("dissipation");
+    }
+    if (plan.free_surface_drag) {
+        stages.drag_free_surface();
+        after("free-surface drag");
+    }
+    if (plan.fluid_forces) {
+        stages.apply_fluid_forces();
+        after("fluid forces");
+    }
+    if (plan.adhesion) {
+        stages.adhere();
+        after("adhesion");
+    }
+    if (plan.restitution) {
+        stages.rebound();
+        after("restitution");
+    }
+    if (plan.sleep) stages.hold_slow_particles();
+}
+
 /// One substep: this is the order of stages for both schemes and every backend. `after(name)` is called behind each.
 template <class Stages, class AfterStage>
 void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage& after) {
@@ -81,6 +111,7 @@ void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage&
     }
     stages.update_velocities();
     after("velocities");
+    apply_effects(stages, plan, after);
 }
 
 }  // namespace natator

@@ -31,6 +31,10 @@ Substep<Real>::Substep(const Model& model)
       ws_(model),
       kernels_(&fluid_kernels<Real>(instruction_set())) {
     new_velocity_.resize(model.particles());
+    if (plan_.dissipation || plan_.fluid_forces) velocity_change_.resize(model.particles());
+    if (plan_.dissipation) overlaps_.resize(ws_.slots);
+    if (plan_.surface_tension) normal_.resize(ws_.fluid);
+    if (plan_.vorticity) curl_.resize(ws_.fluid);
     for (const double w : model.inverse_mass) inverse_mass_.push_back(static_cast<Real>(w));
     for (const Spring& spring : model.springs) spring_stiffness_.push_back(static_cast<Real>(spring.stiffness));
     for (const Cluster& cluster : model.clusters) {

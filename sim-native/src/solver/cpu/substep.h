@@ -56,6 +56,14 @@ public:
     void find_contacts();
     void find_plane_contacts();
 
+    // Stages after the velocities, cpu/effects.
+    void damp_contacts();
+    void drag_free_surface();
+    void apply_fluid_forces();
+    void adhere();
+    void rebound();
+    void hold_slow_particles();
+
     /// False if the last substep's outcome is not finite.
     bool finite() const;
     /// Empties what the last substep left, so that first_not_finite sees only what the coming one computes.
@@ -90,6 +98,12 @@ protected:
     /// whole if it is below staticFriction * depth, else at most friction * depth of it.
     Vector3<Real> friction(const Vector3<Real>& moved, const Vector3<Real>& normal, Real depth, Real coefficient) const;
 
+    /// How shock propagation changes the weight of contact partner `other` relative to that of `slot`.
+    Real shock_factor(int slot, int other) const;
+    /// Calls visit(other slot, vector from other to this, r, q = r/R) for the fluid neighbours with 0 < r < R.
+    template <class Visit>
+    void for_each_fluid_neighbour(int slot, const Visit& visit) const;
+
     std::vector<Real> inverse_mass_;           ///< by particle
     std::vector<Vector3<Real>> new_velocity_;  ///< by particle, the substep's outcome
     std::vector<Real> spring_stiffness_;
@@ -99,6 +113,13 @@ protected:
     const FluidKernels<Real>* kernels_;
 
 private:
+    void add_surface_tension();
+    void add_vorticity_confinement();
+    void add_cohesion();
+
+    std::vector<Vector3<Real>> velocity_change_;  ///< by particle; empty unless an effect needs it
+    std::vector<Vector3<Real>> normal_, curl_;    ///< by fluid slot; empty unless an effect needs them
+    std::vector<int> overlaps_;                   ///< by slot; empty unless an effect needs it
     std::array<std::vector<std::int32_t>, lanes> found_;  ///< room for the neighbours of one block
     std::vector<std::pair<int, int>> pairs_;              ///< room for the contacts of one substep
 };

@@ -6,6 +6,7 @@ namespace natator::cpu {
 ///   Dx_i = w_i / (w_i n_i + w_j n_j) (e n - f t),
 /// t = direction of the tangential relative displacement since the substep's start, m = its length,
 /// f = m if m < staticFriction * e, else min(particleFriction * e, m). Friction acts only if dynamicFriction > 0.
+/// Shock propagation changes the weights.
 template <class Real>
 void ConservingStages<Real>::solve_contacts() {
     const auto depth_of = [this](int i, int j) {
@@ -34,7 +35,9 @@ void ConservingStages<Real>::solve_contacts() {
                     (position_of_slot(i) - start_of_slot(i)) - (position_of_slot(j) - start_of_slot(j));
                 push -= this->friction(moved, normal, depth, constants_.particle_friction);
             }
-            const Real split = wi * ws_.constraint_count[i] + ws_.inverse_mass[j] * ws_.constraint_count[j];
+            Real wj = ws_.inverse_mass[j];
+            if (plan_.shock_propagation) wj *= this->shock_factor(i, j);
+            const Real split = wi * ws_.constraint_count[i] + wj * ws_.constraint_count[j];
             ws_.correction.add(i, wi / split * push);
         }
     }

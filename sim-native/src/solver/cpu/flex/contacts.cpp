@@ -6,6 +6,7 @@ namespace natator::cpu {
 ///   Dx_i = w_i / (w_i + w_j) (e n - f t),
 /// t = direction of the tangential relative displacement since the substep's start, m = its length,
 /// f = m if m < staticFriction * e, else min(particleFriction * e, m). Friction acts only if dynamicFriction > 0.
+/// Shock propagation changes the weights.
 template <class Real>
 void FlexStages<Real>::solve_contacts() {
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
@@ -18,7 +19,9 @@ void FlexStages<Real>::solve_contacts() {
             const Real r = difference.norm();
             const Real depth = constants_.solid_rest_distance - r;
             if (!(depth > 0)) continue;
-            const Real weights = wi + ws_.inverse_mass[j];
+            Real wj = ws_.inverse_mass[j];
+            if (plan_.shock_propagation) wj *= this->shock_factor(i, j);
+            const Real weights = wi + wj;
             const Real share = weights > 0 ? wi / weights : Real(0);
             const Vector3<Real> normal = r > 0 ? Vector3<Real>(difference / r) : Vector3<Real>::Zero();
             Vector3<Real> push = depth * normal;

@@ -15,6 +15,7 @@ public:
     void clear_corrections();
     void compute_density();
     void solve_density_constraint();
+    void solve_cohesion();
     void solve_contacts();
     void solve_springs();
     void solve_clusters();

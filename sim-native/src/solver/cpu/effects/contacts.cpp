@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+
+#include "../substep.h"
+
+namespace natator::cpu {
+
+/// Masses fall with the height against gravity, m exp(-k height), from wherever heights are counted: only the ratio
+/// exp(-k (height_i - height_j)) enters a contact (Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking,
+/// 2003, sec. 7.2 have infinite mass below instead). Positions are those of the substep's start.
+template <class Real>
+Real Substep<Real>::shock_factor(int slot, int other) const {
+    constexpr Real largest_exponent = 20;  // keeps the ratio finite
+    const Vector3<Real> up = -model_.parameters.gravity.normalized().template cast<Real>();
+    const Real rate = static_cast<Real>(model_.parameters.shockPropagation);
+    const Real exponent = -rate * up.dot(start_of_slot(slot) - start_of_slot(other));
+    return std::exp(std::clamp(exponent, -largest_exponent, largest_exponent));
+}
+
+/// Contacts are pairs that would overlap without the solver: closer than solidRestDistance when predicted. With n of
+/// them on a particle and d = dissipation, implicitly,
+///   scheme flex: v_i /= 1 + h d max(n_i - 1, 0), a single contact was measured to do nothing (b_diss);
+///   scheme conserving: v_i += sum over contacts of 2 w_i / (w_i + w_j) h d / (1 + h d (n_i + n_j)) (v_j - v_i).
+template <class Real>
+void Substep<Real>::damp_contacts() {
+    const Real step = h_ * static_cast<Real>(model_.parameters.dissipation);
+    const auto touch = [this](int i, int j) {
+        const Vector3<Real> difference = ws_.predicted_position[i] - ws_.predicted_position[j];
+        return difference.norm() < constants_.solid_rest_distance;
+    };
+    for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
+        const int i = ws_.particle_of[ws_.touched[k]];
+        int& count = overlaps_[ws_.touched[k]];
+        count = 0;
+        for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c)
+            count += touch(i, ws_.particle_of[ws_.contact[c]]);
+        velocity_change_[i].setZero();
+    }
+    for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
+        const int slot = ws_.touched[k];
+        const int i = ws_.particle_of[slot];
+        const Real n = static_cast<Real>(overlaps_[slot]);
+        if (model_.scheme == Scheme::flex) {
+            const Real counted = std::max(n - 1, Real(0));
+            velocity_change_[i] = -step * counted / (1 + step * counted) * new_velocity_[i];
+            continue;
+        }
+        if (inverse_mass_[i] == 0) continue;
+        for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
+            const int j = ws_.particle_of[ws_.contact[c]];
+            if (!touch(i, j)) continue;
+            const Real both = n + static_cast<Real>(overlaps_[ws_.contact[c]]);
+            const Real share = 2 * inverse_mass_[i] / (inverse_mass_[i] + inverse_mass_[j]);
+            velocity_change_[i] += share * step / (1 + step * both) * (new_velocity_[j] - new_velocity_[i]);
+        }
+    }
+    for (const int slot : ws_.touched) {
+        const int i = ws_.particle_of[slot];
+        new_velocity_[i] += velocity_change_[i];
+    }
+}
+
+template float Substep<float>::shock_factor(int, int) const;
+template double Substep<double>::shock_factor(int, int) const;
+template void Substep<float>::damp_contacts();
+template void Substep<double>::damp_contacts();
+
+}  // namespace natator::cpu

@@ -1,0 +1,20 @@
+#include "../substep.h"
+
+namespace natator::cpu {
+
+/// A particle that ends the substep slower than sleepThreshold stays where it started and loses its velocity.
+/// (NVIDIA Flex was measured to hold its position too, but to report v - v_x in every component as its velocity.)
+template <class Real>
+void Substep<Real>::hold_slow_particles() {
+    const Real threshold = static_cast<Real>(model_.parameters.sleepThreshold);
+    for (int i = 0; i < ws_.particles; ++i) {
+        if (!(new_velocity_[i].norm() < threshold)) continue;
+        new_velocity_[i].setZero();
+        ws_.position.set(ws_.slot_of[i], state_->position[i]);
+    }
+}
+
+template void Substep<float>::hold_slow_particles();
+template void Substep<double>::hold_slow_particles();
+
+}  // namespace natator::cpu

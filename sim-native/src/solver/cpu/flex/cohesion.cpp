@@ -1,0 +1,25 @@
+#include "../effects/cohesion_spline.h"
+#include "../effects/fluid_neighbours.h"
+#include "flex_stages.h"
+
+namespace natator::cpu {
+
+/// Dx_i = -w_i cohesion R sum over fluid j of f(r/R) n, n from j to i. The pairs are those of the density constraint,
+/// so they add no constraints to the pooled count. The weight w_i is taken from there too: measured with w = 1 only.
+template <class Real>
+void FlexStages<Real>::solve_cohesion() {
+    const CohesionSpline<Real> pull(model_.parameters);
+    const Real strength = static_cast<Real>(model_.parameters.cohesion) * constants_.radius;
+    for (int slot = 0; slot < ws_.fluid; ++slot) {
+        Vector3<Real> sum = Vector3<Real>::Zero();
+        this->for_each_fluid_neighbour(slot, [&](int, const Vector3<Real>& difference, Real r, Real q) {
+            sum += pull(q) / r * difference;
+        });
+        ws_.correction.add(slot, -ws_.inverse_mass[slot] * strength * sum);
+    }
+}
+
+template void FlexStages<float>::solve_cohesion();
+template void FlexStages<double>::solve_cohesion();
+
+}  // namespace natator::cpu
