@@ -117,9 +117,9 @@ private:
     void add_vorticity_confinement();
     void add_cohesion();
 
-    std::vector<Vector3<Real>> velocity_change_;  ///< by particle; empty unless an effect needs it
-    std::vector<Vector3<Real>> normal_, curl_;    ///< by fluid slot; empty unless an effect needs them
-    std::vector<int> overlaps_;                   ///< by slot; empty unless an effect needs it
+    std::vector<Vector3<Real>> velocity_change_;          ///< by particle; empty unless an effect needs it
+    std::vector<Vector3<Real>> normal_, curl_;            ///< by fluid slot; empty unless an effect needs them
+    std::vector<int> overlaps_;                           ///< by slot; empty unless an effect needs it
     std::array<std::vector<std::int32_t>, lanes> found_;  ///< room for the neighbours of one block
     std::vector<std::pair<int, int>> pairs_;              ///< room for the contacts of one substep
 };

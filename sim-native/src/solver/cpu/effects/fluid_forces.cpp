@@ -30,9 +30,8 @@ void Substep<Real>::add_surface_tension() {
     const Real strength = static_cast<Real>(model_.parameters.surfaceTension);
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         Vector3<Real> sum = Vector3<Real>::Zero();
-        for_each_fluid_neighbour(slot, [&](int, const Vector3<Real>& difference, Real r, Real q) {
-            sum += (1 - q) / r * difference;
-        });
+        for_each_fluid_neighbour(
+            slot, [&](int, const Vector3<Real>& difference, Real r, Real q) { sum += (1 - q) / r * difference; });
         normal_[slot] = scale * sum;
     }
     for (int slot = 0; slot < ws_.fluid; ++slot) {

@@ -1,0 +1,171 @@
+// Parameters that the thesis leaves at 0, on single particles and solids: what each does, in both schemes.
+#include "bare_particles.h"
+#include "natator/plan.h"
+
+namespace natator {
+namespace {
+
+using namespace test;
+
+class Parameters : public EffectTest {};
+
+/// Without gravity a particle leaves a plane at restitution times its impact speed, exactly.
+TEST_P(Parameters, RestitutionIsTheRatioOfSpeedsAtAPlane) {
+    for (const double e : {0.0, 0.5, 0.9, 1.0}) {
+        Model model = bare_model(GetParam(), {{0, 0.1, 0}}, solid_phase);
+        model.planes = {{{0, 1, 0}, 0}};
+        model.velocity[0] = {0.7, -3, 0};
+        model.parameters.restitution = e;
+        in_both_precisions([&]<class Real>(Real) {
+            const auto state = run<Real>(model, 10);
+            EXPECT_NEAR(state.velocity[0].y(), 3 * e, 1e-5);
+            EXPECT_NEAR(state.velocity[0].x(), 0.7, 1e-5);
+        });
+    }
+}
+
+/// Dropped from 2 above where it rests it rises to e^2 of that, and comes to rest in the end.
+TEST_P(Parameters, RestitutionSquaredIsTheRatioOfHeights) {
+    Model model = bare_model(GetParam(), {{0, 2.05, 0}}, solid_phase);
+    model.planes = {{{0, 1, 0}, 0}};
+    model.parameters.gravity = {0, -10, 0};
+    model.parameters.restitution = 0.5;
+    Solver<double> solver(model);
+    State<double> state = initial_state<double>(model);
+    advance(solver, state, static_cast<int>(std::sqrt(2 * 2 / 10.0) / substep) + 3);
+    EXPECT_GT(state.velocity[0].y(), 0);
+    double highest = 0;
+    for (int k = 0; k < 120; ++k) {
+        advance(solver, state, 1);
+        highest = std::max(highest, state.position[0].y() - 0.05);
+    }
+    EXPECT_NEAR(highest / 2, 0.25, 0.01);
+    advance(solver, state, 1200);
+    EXPECT_NEAR(state.position[0].y(), 0.05, 1e-6);
+    EXPECT_NEAR(state.velocity[0].norm(), 0, 1e-6);
+}
+
+/// On the ceiling against gravity 10: held with more adhesion than that, let go with less.
+TEST_P(Parameters, AdhesionWithstandsAPullUpToItsSize) {
+    for (const double adhesion : {0.0, 9.9, 10.1}) {
+        Model model = bare_model(GetParam(), {{0, 0.95, 0}}, solid_phase);
+        model.planes = {{{0, -1, 0}, 1}};
+        model.parameters.gravity = {0, -10, 0};
+        model.parameters.adhesion = adhesion;
+        in_both_precisions([&]<class Real>(Real) {
+            const auto state = run<Real>(model, 240);
+            if (adhesion > 10)
+                EXPECT_NEAR(state.position[0].y(), 0.95, 1e-5);
+            else
+                EXPECT_LT(state.position[0].y(), -1);
+        });
+    }
+}
+
+/// A force that gives less than the threshold within a substep moves nothing; a larger one moves as without it.
+TEST_P(Parameters, SleepingParticlesStayWhereTheyAre) {
+    Model model = bare_model(GetParam(), {{0, 1, 0}}, solid_phase);
+    model.parameters.sleepThreshold = 0.01;
+    in_both_precisions([&]<class Real>(Real) {
+        model.parameters.gravity = {0, -0.009 / substep, 0};
+        const auto held = run<Real>(model, 100);
+        EXPECT_EQ(held.position[0], initial_state<Real>(model).position[0]);
+        EXPECT_EQ(held.velocity[0].norm(), 0);
+        model.parameters.gravity = {0, -0.011 / substep, 0};
+        const auto falling = run<Real>(model, 100);
+        EXPECT_NEAR(falling.velocity[0].y(), -1.1, 1e-4);
+    });
+}
+
+/// A stack of ten solids under gravity sinks together less with shock propagation.
+TEST_P(Parameters, ShockPropagationKeepsAStackUp) {
+    const auto height = [this](double k, auto real) {
+        Model model = bare_model(GetParam(), lattice(1, 10, 1, 0.15, {0, 0.725, 0}), solid_phase);
+        model.planes = {{{0, 1, 0}, 0}};
+        model.parameters.gravity = {0, -10, 0};
+        model.parameters.shockPropagation = k;
+        const auto state = run<decltype(real)>(model, 240);
+        double top = 0;
+        for (const auto& x : state.position) top = std::max(top, static_cast<double>(x.y()));
+        return top;
+    };
+    in_both_precisions([&]<class Real>(Real real) {
+        const double full = 0.05 + 9 * 0.15;
+        EXPECT_LT(full - height(20, real), 0.7 * (full - height(0, real)));
+        EXPECT_GT(full - height(0, real), 0.001);
+    });
+}
+
+/// A cluster of overlapping solids parts more slowly; a pair is damped as documented, exactly.
+TEST_P(Parameters, DissipationDampsInContacts) {
+    const auto parted = [this](double dissipation, const Points& points, auto real) {
+        Model model = bare_model(GetParam(), points, solid_phase);
+        for (int i = 0; i < model.particles(); ++i) model.inverse_mass[i] = 1 + i % 3;
+        model.parameters.dissipation = dissipation;
+        const auto state = run<decltype(real)>(model, 1);
+        if (GetParam() == Scheme::conserving) {
+            EXPECT_LT(momentum(model, state).norm(), 1e-6 * momentum_size(model, state));
+        }
+        return kinetic_energy(model, state);
+    };
+    in_both_precisions([&]<class Real>(Real real) {
+        const Points cube = lattice(3, 3, 3, 0.13);
+        EXPECT_LT(parted(200, cube, real), 0.8 * parted(0, cube, real));
+
+        const double d = 24, h = substep;
+        const Points pair = {{0, 0, 0}, {0.13, 0, 0}};
+        Model model = bare_model(GetParam(), pair, solid_phase);
+        const double speed = run<Real>(model, 1).velocity[1].x();
+        model.parameters.dissipation = d;
+        const double damped = run<Real>(model, 1).velocity[1].x();
+        const double factor = GetParam() == Scheme::conserving ? 1 / (1 + 2 * h * d) : 1;
+        EXPECT_NEAR(damped / speed, factor, 1e-5);
+    });
+}
+
+/// No particle is ever faster, whatever pushes it.
+TEST_P(Parameters, MaxSpeedHoldsForEveryForce) {
+    Model model = bare_model(GetParam(), lattice(4, 4, 4, 0.07, {0, 0.3, 0}), fluid_phase);
+    model.planes = {{{0, 1, 0}, 0}};
+    model.parameters.gravity = {0, -10, 0};
+    model.parameters.maxSpeed = 0.5;
+    model.parameters.restitution = 1;
+    model.parameters.cohesion = 0.01;
+    model.parameters.surfaceTension = 20;
+    model.parameters.vorticityConfinement = 1;
+    in_both_precisions([&]<class Real>(Real) {
+        Solver<Real> solver(model);
+        State<Real> state = initial_state<Real>(model);
+        double fastest = 0;
+        for (int k = 0; k < 60; ++k) {
+            advance(solver, state, 1);
+            for (const auto& v : state.velocity) fastest = std::max(fastest, static_cast<double>(v.norm()));
+        }
+        EXPECT_LE(fastest, 0.5 + 1e-5);
+        EXPECT_GT(fastest, 0.4);
+    });
+}
+
+/// At 0 no stage runs: the plan has none of them, and is the longer by one line each when they are on.
+TEST_P(Parameters, NothingIsPlannedAtZero) {
+    Model model = bare_model(GetParam(), lattice(2, 2, 2, 0.1), fluid_phase);
+    model.phase[0] = solid_phase;
+    model.planes = {{{0, 1, 0}, 1}};
+    model.parameters.gravity = {0, -10, 0};
+    const std::size_t lines = describe_plan(model).size();
+    SolverParameters& p = model.parameters;
+    for (double* parameter : {&p.restitution, &p.adhesion, &p.sleepThreshold, &p.dissipation, &p.cohesion,
+                              &p.surfaceTension, &p.vorticityConfinement, &p.freeSurfaceDrag}) {
+        *parameter = 0.5;
+        EXPECT_EQ(describe_plan(model).size(), lines + 1);
+        *parameter = 0;
+    }
+    EXPECT_FALSE(make_plan(model).shock_propagation);
+    p.shockPropagation = 1;
+    EXPECT_TRUE(make_plan(model).shock_propagation);
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, Parameters, testing::Values(Scheme::flex, Scheme::conserving), scheme_name);
+
+}  // namespace
+}  // namespace natator
