@@ -6,6 +6,7 @@ import java.io.InputStream;
 import java.io.OutputStream;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
+import java.nio.file.Path;
 import java.security.DigestInputStream;
 import java.security.MessageDigest;
 import java.security.NoSuchAlgorithmException;
@@ -18,7 +19,7 @@ import java.util.HexFormat;
  * build.
  *
  * @param natator         version of this program
- * @param simulator       path of the native program
+ * @param simulator       path of the native program, relative to the working directory
  * @param simulatorSha256 digest of that file
  * @param workers         evaluations at the same time
  * @param timeoutSeconds  time limit of an attempt at an evaluation
@@ -33,12 +34,15 @@ public record Environment(String natator, String simulator, String simulatorSha2
     /** The present environment. */
     public static Environment present(ExecutionSettings execution) {
         String version = Environment.class.getPackage().getImplementationVersion();
-        return new Environment(version == null ? "development" : version, execution.simulator().toString(),
+        return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
                 sha256(execution), execution.workers(), execution.timeout().toMillis() / 1000.0,
                 Runtime.version().toString(),
-                System.getProperty("os.name") + " " + System.getProperty("os.version") + " "
-                        + System.getProperty("os.arch"),
+                System.getProperty("os.name") + " " + System.getProperty("os.arch"),
                 Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString());
+    }
+
+    private static String fromWorkingDirectory(Path path) {
+        return Path.of("").toAbsolutePath().relativize(path.toAbsolutePath()).toString();
     }
 
     private static String sha256(ExecutionSettings execution) {
