@@ -56,12 +56,13 @@ ConservingStages<Real>::ConservingStages(const Model& model)
     displacement_.resize(all);
     if (plan_.fluid) {
         const SolverParameters& p = model.parameters;
-        const double poly6_sum =
-            rest_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return std::pow(1 - q * q, 3); });
-        const double poly6 = 315 / (64 * std::numbers::pi * std::pow(p.radius, 3));
-        const double spiky = 45 / (std::numbers::pi * std::pow(p.radius, 4));
-        kernel_scale_ = static_cast<Real>(1 / (1 + poly6_sum));
-        gradient_scale_ = static_cast<Real>(spiky / (poly6 * (1 + poly6_sum)));
+        const double neighbours =
+            rest_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return std::pow(1 - q, 3); });
+        kernel_scale_ = static_cast<Real>(1 / (1 + neighbours));
+        gradient_scale_ = static_cast<Real>(3 / (p.radius * (1 + neighbours)));
+        const double per_radius_cubed = std::pow(p.radius / p.fluidRestDistance, 3) / rest_packing_volume;
+        plane_scale_ = static_cast<Real>(2 * std::numbers::pi * per_radius_cubed / (1 + neighbours));
+        plane_gap_ = static_cast<Real>(p.fluidRestDistance / 2 - p.collisionDistance);
         for (auto* array : {&lambda_, &response_, &lambda_sum_, &solid_gradient_square_}) array->resize(all);
         solid_gradient_.resize(all);
     }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "conserving_stages.h"
 
 namespace natator::cpu {
@@ -29,13 +31,46 @@ DensityView<Real> ConservingStages<Real>::density_view() {
             .velocity_change = {correction[0], correction[1], correction[2]}};
 }
 
+template <class Real>
+void ConservingStages<Real>::clear_boundary_terms() {
+    for (auto* array :
+         {&ws_.solid_density, &solid_gradient_square_, &solid_gradient_.x, &solid_gradient_.y, &solid_gradient_.z})
+        std::fill(array->begin(), array->end(), Real(0));
+}
+
+/// 1 - q for a particle at `distance` from a plane; between 0 and 1.
+template <class Real>
+Real ConservingStages<Real>::plane_nearness(Real distance) const {
+    return std::clamp(1 - (distance + plane_gap_) * constants_.inverse_radius, Real(0), Real(1));
+}
+
+/// Minus the derivative of a plane's part of the density by the distance.
+template <class Real>
+Real ConservingStages<Real>::plane_slope(Real distance) const {
+    const Real t = plane_nearness(distance);
+    return plane_scale_ * constants_.inverse_radius * t * t * t * t * (Real(1) / 4 - t / 5);
+}
+
+/// Behind a plane the density goes on as in fluid at rest, else particles crowd at walls and floor and the pressure there
+/// is wrong. The part of the kernel beyond distance s = q R of a particle, integrated:
+///   n0 R^3 A 2 pi ((1 - q)^5 / 20 - (1 - q)^6 / 30), n0 = particles per volume of the rest packing,
+/// an idea of Koschier, Bender: Density Maps for Improved SPH Boundary Handling (2017), here in closed form.
+template <class Real>
+void ConservingStages<Real>::add_plane_pressure() {
+    for (const auto& [slot, plane] : ws_.plane_contacts) {
+        if (slot >= ws_.fluid) continue;
+        const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
+        const Real distance = normal.dot(position_of_slot(slot)) + static_cast<Real>(model_.planes[plane].offset);
+        const Real t = plane_nearness(distance);
+        ws_.solid_density[slot] += plane_scale_ * t * t * t * t * t * (Real(1) / 20 - t / 30);
+        solid_gradient_.add(slot, -plane_slope(distance) * normal);
+    }
+}
+
 /// A solid particle counts in the density of the fluid around it with weight solidPressure, like a fluid particle in
 /// value and gradient; other than in scheme `flex` it takes the reaction, see push_solids_by_pressure.
 template <class Real>
 void ConservingStages<Real>::add_solid_pressure() {
-    for (auto* array :
-         {&ws_.solid_density, &solid_gradient_square_, &solid_gradient_.x, &solid_gradient_.y, &solid_gradient_.z})
-        std::fill(array->begin(), array->end(), Real(0));
     const Real weight = static_cast<Real>(model_.parameters.solidPressure);
     for (std::size_t k = 0; k < ws_.touched.size() && ws_.touched[k] < ws_.fluid; ++k) {
         const int i = ws_.touched[k];
@@ -47,15 +82,14 @@ void ConservingStages<Real>::add_solid_pressure() {
             const Real r = difference.norm();
             const Real q = r * constants_.inverse_radius;
             if (q >= 1) continue;
-            const Real poly = 1 - q * q;
             const Real slope = weight * gradient_scale_ * (1 - q) * (1 - q);
-            sum += poly * poly * poly;
+            sum += (1 - q) * (1 - q) * (1 - q);
             if (r > 0) gradient -= slope / r * difference;
             square += ws_.inverse_mass[j] * slope * slope;
         }
-        ws_.solid_density[i] = weight * kernel_scale_ * sum;
-        solid_gradient_.set(i, gradient);
-        solid_gradient_square_[i] = square;
+        ws_.solid_density[i] += weight * kernel_scale_ * sum;
+        solid_gradient_.add(i, gradient);
+        solid_gradient_square_[i] += square;
     }
 }
 
@@ -81,8 +115,22 @@ void ConservingStages<Real>::push_solids_by_pressure() {
     }
 }
 
+/// The planes' part of the density constraints: Dx_i = w_i lambda_i grad_i C_i. Planes take up any momentum.
+template <class Real>
+void ConservingStages<Real>::push_from_planes() {
+    for (const auto& [slot, plane] : ws_.plane_contacts) {
+        if (slot >= ws_.fluid || lambda_[slot] == 0) continue;
+        const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
+        const Real distance = normal.dot(position_of_slot(slot)) + static_cast<Real>(model_.planes[plane].offset);
+        const Real slope = plane_slope(distance);
+        ws_.correction.add(slot, -ws_.inverse_mass[slot] * lambda_[slot] * slope * normal);
+    }
+}
+
 template <class Real>
 void ConservingStages<Real>::compute_lambda() {
+    if (plan_.solid_pressure || plan_.planes) clear_boundary_terms();
+    if (plan_.planes) add_plane_pressure();
     if (plan_.solid_pressure) add_solid_pressure();
     density_kernels_->compute_lambda(density_view());
 }
@@ -93,6 +141,7 @@ template <class Real>
 void ConservingStages<Real>::solve_density_constraint() {
     compute_lambda();
     density_kernels_->solve_density_constraint(density_view());
+    if (plan_.planes) push_from_planes();
     if (plan_.solid_pressure) push_solids_by_pressure();
     for (int slot = 0; slot < ws_.fluid; ++slot) apply_correction(slot, pair_share<Real>);
     if (plan_.solid_pressure)
@@ -102,6 +151,12 @@ void ConservingStages<Real>::solve_density_constraint() {
 
 template DensityView<float> ConservingStages<float>::density_view();
 template DensityView<double> ConservingStages<double>::density_view();
+template void ConservingStages<float>::clear_boundary_terms();
+template void ConservingStages<double>::clear_boundary_terms();
+template void ConservingStages<float>::add_plane_pressure();
+template void ConservingStages<double>::add_plane_pressure();
+template void ConservingStages<float>::push_from_planes();
+template void ConservingStages<double>::push_from_planes();
 template void ConservingStages<float>::add_solid_pressure();
 template void ConservingStages<double>::add_solid_pressure();
 template void ConservingStages<float>::push_solids_by_pressure();

@@ -1,5 +1,7 @@
 // Compiled once per instruction set, like fluid_kernels.cpp and by the same rules.
 // Macklin, Müller: Position Based Fluids (2013), eq. 1-12, with inverse masses w and a constraint that only pushes.
+// Density and gradient come from one kernel, (1 - q)^3 with q = r / R: with poly6 for the density, as the paper has it,
+// pairs that have come close are pushed apart without the density ever falling, substep after substep.
 #include "density_kernels.h"
 
 namespace natator::cpu::NATATOR_ISA {
@@ -37,12 +39,10 @@ void compute_lambda(const DensityView<Real>& fluid) {
                 const Real dz = z[first + lane] - z[j];
                 const Real r2 = dx * dx + dy * dy + dz * dz;
                 const Real inverse_r = 1 / square_root(r2 + tiny<Real>);
-                const Real q = r2 * inverse_r * inverse_radius;
-                const Real one_minus_q = 1 - q;
+                const Real one_minus_q = 1 - r2 * inverse_r * inverse_radius;
                 const Real t = one_minus_q > 0 ? one_minus_q : 0;
-                const Real poly = t * (1 + q);
-                sum[lane] += poly * poly * poly;
                 const Real g = t * t;
+                sum[lane] += g * t;
                 gx[lane] -= g * inverse_r * dx;
                 gy[lane] -= g * inverse_r * dy;
                 gz[lane] -= g * inverse_r * dz;

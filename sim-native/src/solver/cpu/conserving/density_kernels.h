@@ -13,8 +13,8 @@ struct DensityView {
     const int* row_begin;           ///< by block
     const std::int32_t* neighbour;  ///< rows of 16 slots
     Real inverse_radius;
-    Real kernel_scale;    ///< A: W(r)/rho0 = A (1 - q^2)^3, poly6
-    Real gradient_scale;  ///< B: |grad W(r)|/rho0 = B (1 - q)^2, spiky
+    Real kernel_scale;    ///< A: W(r)/rho0 = A (1 - q)^3, spiky
+    Real gradient_scale;  ///< B: |grad W(r)|/rho0 = B (1 - q)^2, of the same kernel
 
     const Real* position[3];
     const Real* inverse_mass;
