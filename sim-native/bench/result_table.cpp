@@ -11,10 +11,8 @@
 namespace natator::bench {
 namespace {
 
-std::string joined(const Row& row) {
-    std::string line;
-    for (const std::string& field : row) line += (&field == &row.front() ? "" : ",") + field;
-    return line + "\n";
+std::string line_of(const Row& row) {
+    return joined(row, ",") + "\n";
 }
 
 Row split(const std::string& line) {
@@ -45,7 +43,7 @@ std::uintmax_t ResultTable::take_over(const std::string& path) {
     std::string line;
     // getline meets the end of the file only in a line without its line break: that one was cut off.
     if (!file || !std::getline(file, line) || file.eof()) return 0;
-    if (line + "\n" != joined(columns_)) throw InputError(path + ": holds other columns than this study writes");
+    if (line + "\n" != line_of(columns_)) throw InputError(path + ": holds other columns than this study writes");
     std::uintmax_t whole_lines = line.size() + 1;
     while (std::getline(file, line) && !file.eof()) {
         const Row row = split(line);
@@ -65,13 +63,25 @@ void ResultTable::add(const Row& row) {
     if (row.size() != columns_.size()) throw std::logic_error("a row of " + std::to_string(row.size()) + " fields");
     keep(row);
     if (path_.empty()) return;
-    file_ << joined(row) << std::flush;
+    file_ << line_of(row) << std::flush;
     if (!file_) throw std::runtime_error(path_ + ": can't be written");
 }
 
 std::string ResultTable::text() const {
-    std::string text = joined(columns_);
-    for (const Row& row : rows_) text += joined(row);
+    std::string text = line_of(columns_);
+    for (const Row& row : rows_) text += line_of(row);
+    return text;
+}
+
+void ResultTable::write(const std::string& path) const {
+    std::ofstream file(path, std::ios::trunc);
+    file << text() << std::flush;
+    if (!file) throw std::runtime_error(path + ": can't be written");
+}
+
+std::string joined(const Row& row, const std::string& separator) {
+    std::string text;
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : separator) + row[i];
     return text;
 }
 

@@ -25,6 +25,8 @@ public:
     const std::vector<Row>& rows() const { return rows_; }
     /// Header and rows.
     std::string text() const;
+    /// Writes header and rows to a file, in place of what it holds. Throws std::runtime_error when that fails.
+    void write(const std::string& path) const;
 
 private:
     /// Reads the file's rows; gives the size of its whole lines in bytes, 0 if there is no such file.
@@ -43,6 +45,9 @@ private:
 std::string number_text(double value);
 /// The same to 6 digits, for what was measured.
 std::string measured_text(double value);
+
+/// The fields with a separator between them.
+std::string joined(const Row& row, const std::string& separator);
 
 /// Path of the file that a study writes beside its table: "a/precision.csv" and "orders" give "a/precision-orders.csv".
 std::string path_beside(const std::string& path, const std::string& suffix);

@@ -44,11 +44,10 @@ StabilityCase case_at(const StabilityPoint& point, Scheme scheme, bool quick) {
     return subject;
 }
 
-std::string joined(const Row& fields, std::size_t count) {
-    std::string text;
-    for (std::size_t i = 0; i < count; ++i)
-        if (!fields[i].empty()) text += (text.empty() ? "" : " ") + fields[i];
-    return text;
+/// "float dt 32 iterations 16"; the second axis may be absent.
+std::string place_text(const Row& place) {
+    const auto used = place[3].empty() ? place.begin() + 3 : place.end();
+    return joined(Row(place.begin(), used), " ");
 }
 
 void add_axis(const StabilityAxis& axis, bool quick, std::vector<StabilityPoint>& points) {
@@ -98,8 +97,7 @@ void run_stability_study(const StabilityStudy& study, ResultTable& table,
                 const Row key = key_of(scheme, precision, point);
                 if (table.has(key)) continue;
                 table.add(row_of(key, run_stability(case_at(point, scheme, study.quick), precision)));
-                const Row& row = table.rows().back();
-                report(joined(row, row.size()));
+                report(joined(table.rows().back(), " "));
             }
         }
     }
@@ -114,7 +112,7 @@ std::vector<std::string> where_only_flex_is_ok(const std::vector<Row>& rows) {
         const Row place(row.begin() + 1, row.begin() + 6);
         const auto other = conserving.find(place);
         if (row[0] != to_string(Scheme::flex) || row[6] != "ok" || other == conserving.end()) continue;
-        if (other->second != "ok") places.push_back(joined(place, place.size()) + ": " + other->second);
+        if (other->second != "ok") places.push_back(place_text(place) + ": " + other->second);
     }
     return places;
 }

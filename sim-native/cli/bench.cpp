@@ -2,6 +2,8 @@
 #include <memory>
 
 #include "commands.h"
+#include "ensemble.h"
+#include "precision.h"
 #include "stability.h"
 
 namespace natator::cli {
@@ -67,11 +69,113 @@ void add_stability(CLI::App* bench, int& status) {
     });
 }
 
+/// How finely time is cut in a study.
+struct Grid {
+    std::vector<int> substeps, iterations;
+};
+
+void add_grid(CLI::App* command, Grid& grid) {
+    command->add_option("--substeps", grid.substeps, "Substeps per frame.")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_option("--iterations", grid.iterations, "Iterations per substep.")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+}
+
+/// Prints a table that has no file, or writes a summary beside the one that has.
+void finish(const Common& common, const ResultTable& table, const ResultTable& summary, const std::string& suffix) {
+    if (common.output.empty())
+        print(table.text());
+    else
+        summary.write(path_beside(common.output, suffix));
+}
+
+void add_precision(CLI::App* bench, int& status) {
+    struct Options {
+        Common common;
+        Grid grid{{1, 2, 4, 8, 16, 32}, {1, 2, 4, 8, 16}};
+        std::vector<std::string> scenes = subject_names();
+        int repeats = 3;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = bench->add_subcommand(
+        "precision", "Run time against error over 0.25 s, for scenes x schemes x precisions x substeps x iterations.");
+    add_common(command, options->common, {"float", "double"});
+    command->add_option("--scene", options->scenes, "Scenes.")
+        ->check(CLI::IsMember(subject_names()))
+        ->capture_default_str();
+    add_grid(command, options->grid);
+    command->add_option("--repeats", options->repeats, "Time measurements per setting; their median counts.")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        PrecisionStudy study{options->scenes,        common.chosen_schemes(),  common.chosen_precisions(),
+                             options->grid.substeps, options->grid.iterations, options->repeats};
+        if (common.quick) {
+            study.scenes = {"hanging-chain", "bending-body"};
+            study.substeps = {4, 8};
+            study.iterations = {2};
+            study.repeats = 1;
+        }
+        ResultTable table(common.output, precision_columns(), precision_key_columns);
+        run_precision_study(study, table, report);
+        const ResultTable orders = convergence_orders(table.rows());
+        finish(common, table, orders, "orders");
+        report(orders.text() + pareto_text(table.rows()));
+        status = ok;
+    });
+}
+
+void add_ensemble(CLI::App* bench, int& status) {
+    struct Options {
+        Common common;
+        Grid grid{{2, 4, 8, 16}, {1, 4}};
+        EnsembleStudy study;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = bench->add_subcommand(
+        "ensemble", "Distances of creatures 1 and 2 over 4 s: mean and spread over starts that differ a little.");
+    add_common(command, options->common, {"float"});
+    add_grid(command, options->grid);
+    command->add_option("--creature", options->study.creatures, "1, 2.")
+        ->check(CLI::Range(1, 2))
+        ->capture_default_str();
+    command->add_option("--runs", options->study.runs, "Runs per setting.")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_option("--perturbation", options->study.perturbation, "Largest shift of each coordinate, length.")
+        ->check(CLI::Range(0.0, 0.01))
+        ->capture_default_str();
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        EnsembleStudy study = options->study;
+        for (const Scheme scheme : common.chosen_schemes())
+            for (const Precision precision : common.chosen_precisions())
+                for (const int substeps : options->grid.substeps)
+                    for (const int iterations : options->grid.iterations)
+                        study.settings.push_back({scheme, precision, substeps, iterations});
+        if (common.quick) {
+            study.duration = 0.1;
+            study.runs = 2;
+        }
+        ResultTable table(common.output, ensemble_columns(), ensemble_key_columns);
+        run_ensemble_study(study, table, report);
+        const ResultTable summary = ensemble_summary(table.rows());
+        finish(common, table, summary, "summary");
+        report(summary.text());
+        status = ok;
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app, int& status) {
     CLI::App* bench = app.add_subcommand("bench", "Run a study of the solver and write its results as CSV.");
     bench->require_subcommand(1);
+    add_precision(bench, status);
+    add_ensemble(bench, status);
     add_stability(bench, status);
 }
 

@@ -49,7 +49,7 @@ const BadRequest bad_requests[] = {
     {request_with("id", "\"x\""), "id = \"x\"", false},
     {request_with("scene", ""), "scene: missing"},
     {request_with("scene", "5"), "scene = 5: must be a string"},
-    {request_with("scene", "\"thesis/creature-7\""), "must be one of thesis/creature-1, "},
+    {request_with("scene", "\"thesis/creature-7\""), "must be one of bench/dam-break, "},
     {request_with("scene", "\"no\\nsuch.json\""), "cannot be read"},
     {request_with("gaits", "1"), "gaits: unknown key (= 1); did you mean gait?"},
     {request_with("gait", ""), "gait: missing"},

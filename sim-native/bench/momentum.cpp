@@ -1,0 +1,35 @@
+#include "momentum.h"
+
+namespace natator::bench {
+
+template <class Real>
+Momentum measure_momentum(const Model& model, const State<Real>& state) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double total = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (model.inverse_mass[i] == 0) continue;
+        centre += state.position[i].template cast<double>() / model.inverse_mass[i];
+        total += 1 / model.inverse_mass[i];
+    }
+    if (total > 0) centre /= total;
+
+    Momentum result;
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+    for (int i = 0; i < model.particles(); ++i) {
+        if (model.inverse_mass[i] == 0) continue;
+        const Eigen::Vector3d p = state.velocity[i].template cast<double>() / model.inverse_mass[i];
+        const Eigen::Vector3d moment = (state.position[i].template cast<double>() - centre).cross(p);
+        linear += p;
+        angular += moment;
+        result.linear_size += p.norm();
+        result.angular_size += moment.norm();
+    }
+    result.linear = linear.norm();
+    result.angular = angular.norm();
+    return result;
+}
+
+template Momentum measure_momentum(const Model&, const State<float>&);
+template Momentum measure_momentum(const Model&, const State<double>&);
+
+}  // namespace natator::bench

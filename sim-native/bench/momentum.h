@@ -1,0 +1,19 @@
+#pragma once
+
+#include "natator/model.h"
+#include "natator/state.h"
+
+namespace natator::bench {
+
+/// Momentum of all movable particles, beside the sizes that it is a sum of.
+struct Momentum {
+    double linear = 0;        ///< |sum of m v|, mass length/s
+    double angular = 0;       ///< |sum of m (x - c) x v| about the centre of mass c, mass length^2/s
+    double linear_size = 0;   ///< sum of |m v|
+    double angular_size = 0;  ///< sum of |m (x - c) x v|
+};
+
+template <class Real>
+Momentum measure_momentum(const Model& model, const State<Real>& state);
+
+}  // namespace natator::bench

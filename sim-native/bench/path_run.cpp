@@ -1,0 +1,110 @@
+#include "path_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "evaluate/settle.h"
+#include "momentum.h"
+#include "natator/measure.h"
+
+namespace natator::bench {
+namespace {
+
+template <class Real>
+State<Real> cast_state(const State<double>& from) {
+    State<Real> state;
+    for (const auto& x : from.position) state.position.push_back(x.template cast<Real>());
+    for (const auto& v : from.velocity) state.velocity.push_back(v.template cast<Real>());
+    for (const auto& q : from.cluster_rotation) state.cluster_rotation.push_back(q.template cast<Real>());
+    for (const auto& c : from.cluster_centre) state.cluster_centre.push_back(c.template cast<Real>());
+    for (const double length : from.spring_rest_length) state.spring_rest_length.push_back(static_cast<Real>(length));
+    state.time = from.time;
+    return state;
+}
+
+template <class Real>
+PathRun::Places tracked_places(const Model& model, const State<Real>& state) {
+    PathRun::Places places;
+    const bool swims = !model.body.particles.empty();
+    for (const int i : model.body.particles) places.push_back(state.position[i].template cast<double>());
+    for (int i = 0; i < model.particles() && !swims; ++i) places.push_back(state.position[i].template cast<double>());
+    return places;
+}
+
+template <class Real>
+void measure_density(const Model& model, Solver<Real>& solver, PathRun& run) {
+    const std::vector<Real> densities = solver.densities();
+    int fluid = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i)) continue;
+        const double excess = std::max(static_cast<double>(densities[i]) - 1, 0.0);
+        run.density_error_mean += excess;
+        run.density_error_max = std::max(run.density_error_max, excess);
+        ++fluid;
+    }
+    if (fluid > 0) run.density_error_mean /= fluid;
+}
+
+/// Keeps the largest of all frames.
+void widen(Momentum& largest, const Momentum& now) {
+    largest.linear = std::max(largest.linear, now.linear);
+    largest.angular = std::max(largest.angular, now.angular);
+    largest.linear_size = std::max(largest.linear_size, now.linear_size);
+    largest.angular_size = std::max(largest.angular_size, now.angular_size);
+}
+
+template <class Real>
+PathRun run_as(const Subject& subject, const Model& model, const State<double>& start) {
+    using Clock = std::chrono::steady_clock;
+    Solver<Real> solver(model);
+    State<Real> state = cast_state<Real>(start);
+    PathRun run;
+    Momentum largest;
+    int frame = 0;
+    for (std::size_t mark = 0; mark < path_times.size(); ++mark) {
+        const int last_frame = static_cast<int>(std::lround(path_times[mark] / model.time_step));
+        for (; frame < last_frame; ++frame) {
+            const auto begin = Clock::now();
+            run.instability = solver.frame(state, subject.gait);
+            run.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+            if (run.instability) return run;
+            state.time = (frame + 1) * model.time_step;
+            widen(largest, measure_momentum(model, state));
+        }
+        run.places[mark] = tracked_places(model, state);
+    }
+    measure_density(model, solver, run);
+    if (largest.linear_size > 0) run.linear_momentum_error = largest.linear / largest.linear_size;
+    if (largest.angular_size > 0) run.angular_momentum_error = largest.angular / largest.angular_size;
+    run.hash = state_hash(state);
+    return run;
+}
+
+}  // namespace
+
+State<double> settled_start(const Subject& subject, Scheme scheme) {
+    Model model = subject.model;
+    model.scheme = scheme;
+    Solver<double> solver(model);
+    State<double> state = initial_state<double>(model);
+    if (settle(subject.settling, solver, state)) throw std::runtime_error(subject.name + ": unstable while settling");
+    return state;
+}
+
+PathRun run_path(const Subject& subject, const Setting& setting, const State<double>& start) {
+    Model model = subject.model;
+    model.scheme = setting.scheme;
+    model.parameters.substeps = setting.substeps;
+    model.parameters.numIterations = setting.iterations;
+    return setting.precision == Precision::double_precision ? run_as<double>(subject, model, start)
+                                                            : run_as<float>(subject, model, start);
+}
+
+double path_error(const PathRun::Places& places, const PathRun::Places& reference) {
+    double squares = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) squares += (places[i] - reference[i]).squaredNorm();
+    return places.empty() ? 0 : std::sqrt(squares / static_cast<double>(places.size()));
+}
+
+}  // namespace natator::bench

@@ -1,0 +1,219 @@
+// The studies behind `natator-sim bench`: their figures on synthetic data, quick runs of each, and resumption.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "ensemble.h"
+#include "momentum.h"
+#include "natator/error.h"
+#include "physical_bounds.h"
+#include "precision.h"
+#include "stability.h"
+#include "statistics.h"
+
+namespace natator::bench {
+namespace {
+
+void ignore(const std::string&) {}
+
+/// A path in the temporary folder, freed at the end.
+struct TemporaryPath {
+    explicit TemporaryPath(const std::string& name)
+        : path((std::filesystem::temp_directory_path() / ("natator-" + std::to_string(::getpid()) + name)).string()) {}
+    ~TemporaryPath() { std::filesystem::remove(path); }
+    std::string path;
+};
+
+std::string content(const std::string& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(StatisticsTest, OrderIsTheExponentOfAPowerLaw) {
+    const std::vector<double> n{4, 8, 16, 32};
+    std::vector<double> errors;
+    for (const double value : n) errors.push_back(0.3 * std::pow(value, -1.5));
+    EXPECT_NEAR(convergence_order(n, errors).value(), 1.5, 1e-12);
+}
+
+TEST(StatisticsTest, OrderLeavesOutWhatHasNoLogarithm) {
+    EXPECT_NEAR(convergence_order({1, 2, 4, 8}, {1, 0.5, 0, std::nan("")}).value(), 1, 1e-12);
+    EXPECT_FALSE(convergence_order({1, 2}, {1, 0}));
+    EXPECT_FALSE(convergence_order({2, 2, 2}, {1, 2, 3}));
+    EXPECT_FALSE(convergence_order({}, {}));
+}
+
+TEST(StatisticsTest, ParetoFrontHoldsWhatNothingBeats) {
+    const std::vector<WorkPoint> points{{4, 1}, {1, 9}, {2, 9}, {3, 2}, {5, 3}, {1, 9}};
+    EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1, 3, 0}));
+    EXPECT_TRUE(pareto_front({}).empty());
+}
+
+TEST(StatisticsTest, MedianAndSpread) {
+    EXPECT_EQ(median({3, 1, 2}), 2);
+    EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
+    EXPECT_NEAR(spread({1, 2, 3, 4}).deviation, std::sqrt(5.0 / 3), 1e-15);
+    EXPECT_EQ(spread({7}).deviation, 0);
+}
+
+TEST(ResultTableTest, GoesOnWhereAKilledStudyStopped) {
+    const TemporaryPath file("-table.csv");
+    { ResultTable(file.path, {"a", "b"}, 1).add({"1", "x"}); }
+    std::ofstream(file.path, std::ios::app) << "2,cut o";
+    ResultTable table(file.path, {"a", "b"}, 1);
+    EXPECT_TRUE(table.has({"1"}));
+    EXPECT_FALSE(table.has({"2"}));
+    table.add({"2", "y"});
+    EXPECT_EQ(content(file.path), "a,b\n1,x\n2,y\n");
+    EXPECT_EQ(table.text(), content(file.path));
+    EXPECT_THROW(ResultTable(file.path, {"a", "c"}, 1), InputError);
+}
+
+TEST(ResultTableTest, NumbersReadBack) {
+    EXPECT_EQ(number_text(0.1), "0.1");
+    EXPECT_EQ(measured_text(1.0 / 3), "0.333333");
+    EXPECT_EQ(number_text(std::nan("")), "");
+    EXPECT_EQ(path_beside("results/precision.csv", "orders"), "results/precision-orders.csv");
+}
+
+TEST(BenchScenesTest, AllAreBuilt) {
+    for (const std::string& name : subject_names()) {
+        const Subject subject = make_subject(name);
+        EXPECT_GT(subject.model.particles(), 0) << name;
+        EXPECT_EQ(subject.gait.amplitude.size(), static_cast<std::size_t>(subject.model.actuators)) << name;
+    }
+    EXPECT_THROW(make_subject("bathtub"), InputError);
+}
+
+/// Two particles of masses 1 and 2 with opposite momenta at distance 3: nothing is left over but the spin.
+TEST(MomentumTest, OppositeMomentaLeaveTheSpin) {
+    Model model;
+    model.position = {{0, 0, 0}, {3, 0, 0}};
+    model.inverse_mass = {1, 0.5};
+    State<double> state;
+    state.position = model.position;
+    state.velocity = {{0, 2, 0}, {0, -1, 0}};
+    const Momentum momentum = measure_momentum(model, state);
+    EXPECT_NEAR(momentum.linear, 0, 1e-15);
+    EXPECT_NEAR(momentum.angular, 6, 1e-14);
+    EXPECT_NEAR(momentum.linear_size, 4, 1e-15);
+}
+
+/// A box of half a length in gravity 10: sqrt(2 g H) with a margin of 3.
+TEST(PhysicalBoundsTest, FreeFallSetsTheSpeed) {
+    Model model;
+    model.position = {{0, 0, 0}, {0, 0.5, 0}};
+    model.inverse_mass = {1, 1};
+    const PhysicalBounds bounds = physical_bounds(model, {});
+    EXPECT_NEAR(bounds.speed, 3 * std::sqrt(10.0), 1e-12);
+    EXPECT_NEAR(bounds.kinetic_energy, 10, 1e-12);
+}
+
+TEST(PrecisionTest, QuickStudyGivesFiniteRowsAndGoesOn) {
+    const TemporaryPath file("-precision.csv");
+    PrecisionStudy study{{"hanging-chain", "bending-body"},
+                         {Scheme::flex, Scheme::conserving},
+                         {Precision::single_precision, Precision::double_precision},
+                         {4, 8},
+                         {2},
+                         1};
+    ResultTable table(file.path, precision_columns(), precision_key_columns);
+    run_precision_study(study, table, ignore);
+    ASSERT_EQ(table.rows().size(), 16u);
+    for (const Row& row : table.rows()) {
+        EXPECT_EQ(row[5], "ok");
+        for (const std::size_t column : {7u, 8u, 9u}) EXPECT_GT(std::stod(row[column]), 0) << joined(row, " ");
+        if (row[0] == "bending-body" && row[1] == "conserving") {
+            EXPECT_LT(std::stod(row[13]), 1e-5);
+        }
+    }
+    EXPECT_EQ(convergence_orders(table.rows()).rows().size(), 4u);
+    EXPECT_NE(pareto_text(table.rows()).find("hanging-chain conserving"), std::string::npos);
+
+    study.substeps = {4, 8, 16};
+    study.scenes = {"hanging-chain"};
+    ResultTable again(file.path, precision_columns(), precision_key_columns);
+    run_precision_study(study, again, ignore);
+    EXPECT_EQ(again.rows().size(), 20u);
+    EXPECT_EQ(again.rows().front(), table.rows().front());
+}
+
+TEST(EnsembleTest, SummaryIsTheMeanOfTheSeeds) {
+    EnsembleStudy study;
+    study.creatures = {1};
+    study.settings = {{Scheme::conserving, Precision::single_precision, 1, 1}};
+    study.runs = 2;
+    study.duration = 2.0 / 60;
+    ResultTable table("", ensemble_columns(), ensemble_key_columns);
+    run_ensemble_study(study, table, ignore);
+    ASSERT_EQ(table.rows().size(), 2u);
+    EXPECT_NE(table.rows()[0][8], table.rows()[1][8]);
+    const ResultTable summary = ensemble_summary(table.rows());
+    ASSERT_EQ(summary.rows().size(), 1u);
+    EXPECT_NEAR(std::stod(summary.rows()[0][6]), (std::stod(table.rows()[0][7]) + std::stod(table.rows()[1][7])) / 2,
+                1e-6);
+}
+
+/// Shocks, extremes and the calm case: each run ends, with finite figures, as one of the three verdicts.
+TEST(StabilityTest, QuickSweepGivesFiniteRows) {
+    const StabilityStudy study{{Scheme::flex, Scheme::conserving},
+                               {Precision::single_precision},
+                               {"dt", "gravity", "overlap", "coincident", "outside", "radius-ratio"},
+                               true};
+    ResultTable table("", stability_columns(), stability_key_columns);
+    run_stability_study(study, table, ignore);
+    ASSERT_EQ(table.rows().size(), 2 * stability_points(study.axes, true).size());
+    for (const Row& row : table.rows()) {
+        EXPECT_TRUE(row[6] == "ok" || row[6] == "diverged" || row[6] == "unstable") << row[6];
+        for (const std::size_t column : {9u, 10u, 11u, 13u}) EXPECT_FALSE(row[column].empty()) << joined(row, " ");
+        EXPECT_EQ(row[6] == "ok", row[8].empty()) << joined(row, " ");
+        if (row[2] == "dt" && row[3] == "1") {
+            EXPECT_EQ(row[6], "ok") << joined(row, " ");
+        }
+    }
+}
+
+TEST(StabilityTest, PointsAreNamedByAxisOrMap) {
+    const auto map = stability_points({"dt:stiffness"}, false);
+    EXPECT_EQ(map.size(), 48u);
+    EXPECT_EQ(map.front().second_axis, "stiffness");
+    EXPECT_GT(stability_points({}, false).size(), 200u);
+    EXPECT_THROW(stability_points({"luck"}, true), InputError);
+}
+
+TEST(StabilityTest, TellsWhereOnlyFlexIsOk) {
+    const auto row = [](const char* scheme, const char* value, const char* status) {
+        return Row{scheme, "float", "dt", value, "", "", status, "", "", "", "", "", "", ""};
+    };
+    const std::vector<Row> rows{row("flex", "1", "ok"),
+                                row("flex", "2", "ok"),
+                                row("flex", "4", "diverged"),
+                                row("conserving", "1", "ok"),
+                                row("conserving", "2", "unstable"),
+                                row("conserving", "4", "ok")};
+    EXPECT_EQ(where_only_flex_is_ok(rows), (std::vector<std::string>{"float dt 2: unstable"}));
+}
+
+/// Velocities at the edge of the numbers: the run ends as unstable, and at once.
+TEST(StabilityTest, PositionsBeyondTheNumbersEndTheRun) {
+    for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
+        Subject subject = make_subject("falling-drop");
+        subject.model.scheme = scheme;
+        Solver<double> solver(subject.model);
+        State<double> state = initial_state<double>(subject.model);
+        state.velocity[0].x() = std::numeric_limits<double>::max();
+        state.velocity[1].x() = std::numeric_limits<double>::lowest();
+        subject.model.parameters.maxSpeed = std::numeric_limits<double>::max();
+        const auto instability = solver.update(state, 4, 1);
+        ASSERT_TRUE(instability);
+        EXPECT_EQ(instability->particle, 0);
+        EXPECT_EQ(instability->stage, "predict");
+    }
+}
+
+}  // namespace
+}  // namespace natator::bench
