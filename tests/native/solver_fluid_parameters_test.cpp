@@ -86,8 +86,8 @@ TEST_P(FluidParameters, SurfaceTensionMakesADropRounder) {
         return moments[2] / moments[0];
     };
     const double without = oblong(float{});
-    model.parameters.surfaceTension = 10;
-    in_both_precisions([&]<class Real>(Real real) { EXPECT_LT(oblong(real), 0.6 * without); });
+    model.parameters.surfaceTension = 20;
+    in_both_precisions([&]<class Real>(Real real) { EXPECT_LT(oblong(real), 0.75 * without); });
 }
 
 /// Enstrophy of the vortex about z: sum of squared vorticity, estimated over neighbours with a kernel of its own.
@@ -136,24 +136,26 @@ TEST_P(FluidParameters, VorticityConfinementKeepsVorticesAlive) {
     });
 }
 
-/// A lone fluid particle feels the full drag in scheme flex (it has no density there), one inside fluid hardly any.
+/// A lone fluid particle lacks nearly all of the rest density and is slowed the more, exactly by the drag on what it
+/// lacks; one inside fluid keeps its speed. Only the first substep: later the fluid around passes on what it feels.
 TEST_P(FluidParameters, FreeSurfaceDragActsOnWhatHasFewNeighbours) {
-    const double c = 6;
     Model drop = bare_model(GetParam(), {{0, 0, 0}}, fluid_phase);
     drop.velocity[0] = {0, -1, 0};
-    Model block = bare_model(GetParam(), lattice(7, 7, 7, 0.095), fluid_phase);
+    Model block = bare_model(GetParam(), lattice(7, 7, 7, 0.085), fluid_phase);
     for (auto& v : block.velocity) v = {0, -1, 0};
     const int middle = (block.particles() - 1) / 2;
-    drop.parameters.freeSurfaceDrag = block.parameters.freeSurfaceDrag = c;
+    drop.parameters.freeSurfaceDrag = block.parameters.freeSurfaceDrag = 1 / substep;
     in_both_precisions([&]<class Real>(Real) {
-        const double alone = run<Real>(drop, 24).velocity[0].y();
-        const double inside = run<Real>(block, 24).velocity[middle].y();
-        if (GetParam() == Scheme::flex) {
-            EXPECT_NEAR(alone, -std::pow(1 + substep * c, -24), 1e-5);
-        } else {
-            EXPECT_LT(std::abs(alone), 0.7);
-        }
-        EXPECT_LT(inside, -0.85);
+        Solver<Real> solver(drop);
+        State<Real> state = initial_state<Real>(drop);
+        advance(solver, state, 1);
+        const double alone = -state.velocity[0].y();
+        const double lacking = 1 - solver.densities()[0];
+        EXPECT_GT(lacking, 0.2);
+        EXPECT_NEAR(alone, 1 / (1 + lacking), 1e-5);
+        const double inside = -run<Real>(block, 1).velocity[middle].y();
+        EXPECT_GT(inside, 0.95);
+        EXPECT_GT(inside, alone + 0.1);
     });
 }
 
