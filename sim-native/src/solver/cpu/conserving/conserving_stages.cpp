@@ -57,10 +57,10 @@ ConservingStages<Real>::ConservingStages(const Model& model)
     if (plan_.fluid) {
         const SolverParameters& p = model.parameters;
         const double neighbours =
-            rest_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return std::pow(1 - q, 3); });
+            close_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return std::pow(1 - q, 3); });
         kernel_scale_ = static_cast<Real>(1 / (1 + neighbours));
         gradient_scale_ = static_cast<Real>(3 / (p.radius * (1 + neighbours)));
-        const double per_radius_cubed = std::pow(p.radius / p.fluidRestDistance, 3) / rest_packing_volume;
+        const double per_radius_cubed = std::pow(p.radius / p.fluidRestDistance, 3) * std::numbers::sqrt2;
         plane_scale_ = static_cast<Real>(2 * std::numbers::pi * per_radius_cubed / (1 + neighbours));
         plane_gap_ = static_cast<Real>(p.fluidRestDistance / 2 - p.collisionDistance);
         for (auto* array : {&lambda_, &response_, &lambda_sum_, &solid_gradient_square_}) array->resize(all);

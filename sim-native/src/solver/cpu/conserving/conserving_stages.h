@@ -39,6 +39,11 @@ public:
 
 private:
     void compute_lambda();
+    void clear_boundary_terms();
+    void add_plane_pressure();
+    void push_from_planes();
+    Real plane_nearness(Real distance) const;
+    Real plane_slope(Real distance) const;
     void add_solid_pressure();
     void push_solids_by_pressure();
     DensityView<Real> density_view();
@@ -62,6 +67,8 @@ private:
 
     const DensityKernels<Real>* density_kernels_;
     Real kernel_scale_, gradient_scale_;
+    Real plane_scale_ = 0;  ///< 2 pi n0 R^3 A
+    Real plane_gap_ = 0;    ///< from a plane to where the fluid behind it begins, half a spacing from resting particles
     Vector3Array<Real> base_;          ///< predicted positions by slot
     Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it
     AlignedVector<Real> lambda_, response_, lambda_sum_, solid_gradient_square_;
