@@ -1,0 +1,53 @@
+package io.natator.cli;
+
+import io.natator.plot.PrecisionPlot;
+import io.natator.plot.StabilityPlot;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Path;
+import java.util.List;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator plot}: pictures of what {@code natator-sim bench} measured. */
+@Command(name = "plot", mixinStandardHelpOptions = true,
+        description = "Draws the results of natator-sim bench as SVG and PNG.")
+final class PlotCommand {
+
+    @Spec
+    private CommandSpec spec;
+
+    @FunctionalInterface
+    private interface Drawing {
+        List<Path> draw(Path csv, Path folder) throws IOException;
+    }
+
+    @Command(name = "precision", mixinStandardHelpOptions = true,
+            description = "Run time against path error, one picture per scene, with Pareto fronts.")
+    int precision(@Parameters(paramLabel = "CSV", description = "Results of bench precision.") Path csv,
+            @Option(names = "--output-dir", required = true, paramLabel = "DIR",
+                    description = "Where the pictures go.") Path directory) {
+        return draw(PrecisionPlot::draw, csv, directory);
+    }
+
+    @Command(name = "stability", mixinStandardHelpOptions = true,
+            description = "Map of the stable region, one picture per scheme and pair of settings.")
+    int stability(@Parameters(paramLabel = "CSV", description = "Results of bench stability.") Path csv,
+            @Option(names = "--output-dir", required = true, paramLabel = "DIR",
+                    description = "Where the pictures go.") Path directory) {
+        return draw(StabilityPlot::draw, csv, directory);
+    }
+
+    private int draw(Drawing drawing, Path csv, Path directory) {
+        try {
+            drawing.draw(csv, directory).forEach(spec.commandLine().getOut()::println);
+        } catch (IOException e) {
+            throw new UncheckedIOException(directory + ": cannot be written: " + e.getMessage(), e);
+        }
+        return ExitCode.OK;
+    }
+}

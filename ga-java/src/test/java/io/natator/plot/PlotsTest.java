@@ -1,0 +1,71 @@
+package io.natator.plot;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import io.natator.config.InvalidInputException;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+class PlotsTest {
+
+    @TempDir
+    private Path folder;
+
+    private Path file(String text) throws IOException {
+        return Files.writeString(folder.resolve("results.csv"), text);
+    }
+
+    private void assertDrawn(String name) throws IOException {
+        assertThat(folder.resolve("plots").resolve(name + ".png")).isNotEmptyFile();
+        assertThat(Files.readString(folder.resolve("plots").resolve(name + ".svg"))).contains("<svg")
+                .hasSizeLessThan(300_000);
+    }
+
+    @Test
+    void drawsEachSceneOfAPrecisionStudy() throws IOException {
+        Path csv = file("""
+                scene,scheme,precision,status,run_time,path_error_0.25
+                drop,flex,float,ok,0.1,0.01
+                drop,flex,double,ok,0.2,0.008
+                drop,conserving,float,ok,0.1,0.002
+                drop,conserving,float,unstable,0.1,
+                chain,conserving,double,ok,0.3,0
+                chain,conserving,double,ok,0.2,0.001
+                """);
+
+        assertThat(PrecisionPlot.draw(csv, folder.resolve("plots"))).hasSize(2);
+        assertDrawn("precision-drop");
+        assertDrawn("precision-chain");
+    }
+
+    @Test
+    void drawsAMapForEachScheme() throws IOException {
+        Path csv = file("""
+                scheme,precision,axis,value,second_axis,second_value,status
+                flex,float,dt,1,,,ok
+                flex,float,dt,1,iterations,4,ok
+                flex,float,dt,2,iterations,4,diverged
+                flex,float,dt,10,iterations,4,unstable
+                conserving,float,dt,1,iterations,4,ok
+                """);
+
+        assertThat(StabilityPlot.draw(csv, folder.resolve("plots"))).hasSize(2);
+        assertDrawn("stability-flex-float-dt-iterations");
+        assertDrawn("stability-conserving-float-dt-iterations");
+    }
+
+    @Test
+    void refusesAnUnknownStatus() throws IOException {
+        Path csv = file("""
+                scheme,precision,axis,value,second_axis,second_value,status
+                flex,float,dt,1,iterations,4,fine
+                """);
+
+        assertThatThrownBy(() -> StabilityPlot.draw(csv, folder)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("fine");
+    }
+}
