@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "evaluate/settle.h"
-#include "momentum.h"
+#include "natator/momentum.h"
 #include "natator/measure.h"
 
 namespace natator::bench {

@@ -44,7 +44,7 @@ std::vector<Setting> missing_settings(const PrecisionStudy& study, const std::st
 }  // namespace
 
 Setting reference_setting(Scheme scheme) {
-    return {scheme, Precision::double_precision, scheme == Scheme::conserving ? 256 : 64, 4};
+    return {scheme, Precision::double_precision, 256, 4};
 }
 
 Row precision_columns() {

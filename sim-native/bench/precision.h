@@ -19,9 +19,8 @@ struct PrecisionStudy {
     int repeats = 3;  ///< of the time measurement
 };
 
-/// Setting of the reference in double. `conserving` converges to the same path with any number of iterations; 256 x 4
-/// lies well below the error of 32 substeps. `flex` has no limit: its stiffness grows with substeps and iterations, so
-/// its reference keeps the thesis' 4 iterations, at 64 substeps.
+/// Setting of the reference: 256 substeps x 4 iterations in double. Scheme `conserving` converges to the same path with
+/// any number of iterations; `flex` has no limit, since its stiffness grows with substeps and iterations.
 Setting reference_setting(Scheme scheme);
 
 /// Columns scene, scheme, precision, substeps, iterations (these are the key); status (ok, unstable); repeats;

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "ensemble.h"
-#include "momentum.h"
+#include "natator/momentum.h"
 #include "natator/error.h"
 #include "physical_bounds.h"
 #include "precision.h"

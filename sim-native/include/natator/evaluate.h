@@ -20,6 +20,14 @@ struct Perturbation {
     std::uint64_t seed = 1;
 };
 
+/// How well the final state keeps the laws of mechanics.
+struct LawFigures {
+    double linear_momentum = 0;     ///< |sum of m v| / sum of |m v| over the body; 0 for a body that internal forces move
+    double angular_momentum = 0;    ///< the same for m r x v about the body's centre of mass
+    double density_error_mean = 0;  ///< mean over the fluid of max(density - 1, 0), densities in units of rest density
+    double density_error_max = 0;
+};
+
 /// What one evaluation of a gait in a scene gives.
 struct Evaluation {
     Stopped stopped = Stopped::completed;
@@ -28,6 +36,7 @@ struct Evaluation {
     int frames = 0;
     std::uint64_t hash = 0;  ///< of the final positions and velocities
     std::optional<Instability> instability;
+    LawFigures laws;
 };
 
 /// One body position per frame, for callers that want a trajectory.

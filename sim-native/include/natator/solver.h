@@ -47,6 +47,9 @@ public:
 
     /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids.
     std::vector<Real> densities();
+    /// Pressure of each fluid particle in the last substep, mass/(length s^2): the virial of its density
+    /// constraint. Right inside the fluid, too low where a wall takes part of the load. Empty in scheme flex.
+    std::vector<Real> pressures() const;
     /// Number of fluid and contact neighbours of each particle in the last substep.
     std::vector<int> neighbour_counts() const;
 

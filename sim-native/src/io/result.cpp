@@ -20,7 +20,13 @@ ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation,
     result["scheme"] = to_string(scheme);
     result["precision"] = to_string(precision);
     result["hash"] = hash_text(evaluation.hash);
-    if (!stable) {
+    if (stable) {
+        const LawFigures& laws = evaluation.laws;
+        result["laws"] = {{"linearMomentum", laws.linear_momentum},
+                          {"angularMomentum", laws.angular_momentum},
+                          {"densityErrorMean", laws.density_error_mean},
+                          {"densityErrorMax", laws.density_error_max}};
+    } else {
         const Instability& where = *evaluation.instability;
         result["unstable"] = {{"particle", where.particle}, {"stage", where.stage}, {"time", where.time}};
     }

@@ -78,6 +78,9 @@ public:
     std::vector<Real> densities() {
         return std::visit([](auto& stages) { return stages->densities(); }, stages_);
     }
+    std::vector<Real> pressures() const {
+        return std::visit([](const auto& stages) { return stages->pressures(); }, stages_);
+    }
     std::vector<int> neighbour_counts() const {
         return std::visit([](const auto& stages) { return stages->neighbour_counts(); }, stages_);
     }
@@ -141,6 +144,11 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Gait& g
 template <class Real>
 std::vector<Real> Solver<Real>::densities() {
     return implementation_->densities();
+}
+
+template <class Real>
+std::vector<Real> Solver<Real>::pressures() const {
+    return implementation_->pressures();
 }
 
 template <class Real>

@@ -5,8 +5,8 @@
 
 namespace natator::cpu {
 
-/// The density constraints of both particles of a pair correct the pair, each in full if it were alone. Half of each makes
-/// a collision inelastic (restitution 0); the whole of both would make it elastic, and a fluid at rest boil.
+/// The density constraints of both particles of a pair correct the pair, each in full if it were alone. Half of each
+/// makes a collision inelastic (restitution 0); the whole of both would make it elastic, and a fluid at rest boil.
 template <class Real>
 inline constexpr Real pair_share = Real(0.5);
 
@@ -33,9 +33,14 @@ public:
 
     /// Density at the present positions by particle, in units of rest density; 0 for solids and infinite masses.
     std::vector<Real> densities() {
-        if (plan_.fluid) compute_lambda();
+        if (plan_.fluid) {
+            const AlignedVector<Real> lambda_sum = lambda_sum_;
+            compute_lambda();
+            lambda_sum_ = lambda_sum;
+        }
         return this->densities_by_particle();
     }
+    std::vector<Real> pressures() const;
 
 private:
     void compute_lambda();

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "conserving_stages.h"
 
@@ -51,8 +53,8 @@ Real ConservingStages<Real>::plane_slope(Real distance) const {
     return plane_scale_ * constants_.inverse_radius * t * t * t * t * (Real(1) / 4 - t / 5);
 }
 
-/// Behind a plane the density goes on as in fluid at rest, else particles crowd at walls and floor and the pressure there
-/// is wrong. The part of the kernel beyond distance s = q R of a particle, integrated:
+/// Behind a plane the density goes on as in fluid at rest, else particles crowd at walls and floor and the pressure
+/// there is wrong. The part of the kernel beyond distance s = q R of a particle, integrated:
 ///   n0 R^3 A 2 pi ((1 - q)^5 / 20 - (1 - q)^6 / 30), n0 = particles per volume of the rest packing,
 /// an idea of Koschier, Bender: Density Maps for Improved SPH Boundary Handling (2017), here in closed form.
 template <class Real>
@@ -149,6 +151,30 @@ void ConservingStages<Real>::solve_density_constraint() {
             if (slot >= ws_.solid_begin) apply_correction(slot, pair_share<Real>);
 }
 
+/// The virial of particle i's density constraint: p_i = -lambda_i / h^2 n0 / 3 sum_j r_ij |grad_j C_i|.
+template <class Real>
+std::vector<Real> ConservingStages<Real>::pressures() const {
+    std::vector<Real> pressures(ws_.particles, Real(0));
+    if (!plan_.fluid) return pressures;
+    const double at_rest = std::numbers::sqrt2 / std::pow(model_.parameters.fluidRestDistance, 3);
+    const Real scale = constants_.relaxation_factor * pair_share<Real> * static_cast<Real>(at_rest) / (3 * h_ * h_);
+    for (const int i : ws_.fluid_ids) {
+        const int slot = ws_.slot_of[i];
+        const int block = slot / lanes;
+        Real virial = 0;
+        for (int row = ws_.row_begin[block]; row < ws_.row_begin[block + 1]; ++row) {
+            const int j = ws_.neighbour[row * lanes + slot % lanes];
+            const Real r = (position_of_slot(slot) - position_of_slot(j)).norm();
+            const Real t = std::max(1 - r * constants_.inverse_radius, Real(0));
+            virial += gradient_scale_ * t * t * r;
+        }
+        pressures[i] = -scale * lambda_sum_[slot] * virial;
+    }
+    return pressures;
+}
+
+template std::vector<float> ConservingStages<float>::pressures() const;
+template std::vector<double> ConservingStages<double>::pressures() const;
 template DensityView<float> ConservingStages<float>::density_view();
 template DensityView<double> ConservingStages<double>::density_view();
 template void ConservingStages<float>::clear_boundary_terms();

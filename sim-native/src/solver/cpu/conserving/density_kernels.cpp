@@ -184,7 +184,8 @@ void smooth_velocities(const DensityView<Real>& fluid) {
 
 template <class Real>
 DensityKernels<Real> density_kernels() {
-    return {&compute_lambda<Real>, &solve_density_constraint<Real>, &compute_rate_lambda<Real>, &smooth_velocities<Real>};
+    return {&compute_lambda<Real>, &solve_density_constraint<Real>, &compute_rate_lambda<Real>,
+            &smooth_velocities<Real>};
 }
 
 template DensityKernels<float> density_kernels<float>();

@@ -38,13 +38,15 @@ void ConservingStages<Real>::keep_body_momentum() {
     }
 }
 
-/// Takes the rate of change of the density to 0 where the fluid is under pressure, as an inelastic contact does: pushing
-/// particles apart must not leave them flying apart. Pairwise and along their lines, so momenta are kept; what it takes
-/// away is kinetic energy. The velocity constraint is that of Bender, Koschier: Divergence-Free SPH (2015), eq. 8-10.
+/// Takes the rate of change of the density to 0 where the fluid is under pressure, as an inelastic contact does:
+/// pushing particles apart must not leave them flying apart. Pairwise and along their lines, so momenta are kept; what
+/// it takes away is kinetic energy. The velocity constraint is that of Bender, Koschier: Divergence-Free SPH (2015),
+/// eq. 8-10.
 template <class Real>
 void ConservingStages<Real>::solve_density_rate() {
     for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
     density_kernels_->compute_rate_lambda(density_view(), 1 / h_);
+    for (int slot = 0; slot < ws_.fluid; ++slot) lambda_sum_[slot] += h_ * lambda_[slot];
     density_kernels_->solve_density_constraint(density_view());
     for (const int i : ws_.fluid_ids) this->new_velocity_[i] += pair_share<Real> * ws_.correction.at(ws_.slot_of[i]);
 }

@@ -29,6 +29,9 @@ public:
         return this->densities_by_particle();
     }
 
+    /// Its density constraint has no multiplier.
+    std::vector<Real> pressures() const { return {}; }
+
 private:
     void add_correction(int slot, const Vector3<Real>& correction) {
         ws_.correction.add(slot, correction);

@@ -1,12 +1,14 @@
-#include "momentum.h"
+#include "natator/momentum.h"
 
-namespace natator::bench {
+#include <numeric>
+
+namespace natator {
 
 template <class Real>
-Momentum measure_momentum(const Model& model, const State<Real>& state) {
+Momentum measure_momentum(const Model& model, const State<Real>& state, const std::vector<int>& particles) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double total = 0;
-    for (int i = 0; i < model.particles(); ++i) {
+    for (const int i : particles) {
         if (model.inverse_mass[i] == 0) continue;
         centre += state.position[i].template cast<double>() / model.inverse_mass[i];
         total += 1 / model.inverse_mass[i];
@@ -15,7 +17,7 @@ Momentum measure_momentum(const Model& model, const State<Real>& state) {
 
     Momentum result;
     Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
-    for (int i = 0; i < model.particles(); ++i) {
+    for (const int i : particles) {
         if (model.inverse_mass[i] == 0) continue;
         const Eigen::Vector3d p = state.velocity[i].template cast<double>() / model.inverse_mass[i];
         const Eigen::Vector3d moment = (state.position[i].template cast<double>() - centre).cross(p);
@@ -29,7 +31,16 @@ Momentum measure_momentum(const Model& model, const State<Real>& state) {
     return result;
 }
 
+template <class Real>
+Momentum measure_momentum(const Model& model, const State<Real>& state) {
+    std::vector<int> all(model.particles());
+    std::iota(all.begin(), all.end(), 0);
+    return measure_momentum(model, state, all);
+}
+
 template Momentum measure_momentum(const Model&, const State<float>&);
 template Momentum measure_momentum(const Model&, const State<double>&);
+template Momentum measure_momentum(const Model&, const State<float>&, const std::vector<int>&);
+template Momentum measure_momentum(const Model&, const State<double>&, const std::vector<int>&);
 
-}  // namespace natator::bench
+}  // namespace natator

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "natator/model.h"
 #include "natator/state.h"
 
-namespace natator::bench {
+namespace natator {
 
-/// Momentum of all movable particles, beside the sizes that it is a sum of.
+/// Momentum of movable particles, beside the sizes that it is a sum of.
 struct Momentum {
     double linear = 0;        ///< |sum of m v|, mass length/s
     double angular = 0;       ///< |sum of m (x - c) x v| about the centre of mass c, mass length^2/s
@@ -13,7 +15,12 @@ struct Momentum {
     double angular_size = 0;  ///< sum of |m (x - c) x v|
 };
 
+/// Of the given particles.
+template <class Real>
+Momentum measure_momentum(const Model& model, const State<Real>& state, const std::vector<int>& particles);
+
+/// Of all particles.
 template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state);
 
-}  // namespace natator::bench
+}  // namespace natator
