@@ -6,6 +6,7 @@ import java.awt.Color;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.DoubleSummaryStatistics;
 import java.util.List;
 import java.util.Map;
 import org.knowm.xchart.XYChart;
@@ -51,12 +52,27 @@ public final class PrecisionPlot {
         for (String scene : table.distinct("scene")) {
             PrecisionPlot plot = new PrecisionPlot(scene);
             ResultTable runs = table.where("scene", scene);
+            plot.fitAxes(points(runs));
             for (String scheme : runs.distinct("scheme")) {
                 plot.add(scheme, runs.where("scheme", scheme));
             }
             pictures.add(Picture.save(plot.chart, folder.resolve("precision-" + scene)));
         }
         return pictures;
+    }
+
+    /** Lets the axes end at powers of ten: only these have labels. */
+    private void fitAxes(List<ParetoFront.Point> points) {
+        DoubleSummaryStatistics costs = points.stream().mapToDouble(ParetoFront.Point::cost).summaryStatistics();
+        DoubleSummaryStatistics errors = points.stream().mapToDouble(ParetoFront.Point::error).summaryStatistics();
+        if (costs.getCount() > 0) {
+            chart.getStyler().setXAxisMin(decadeBelow(costs.getMin())).setXAxisMax(10 * decadeBelow(costs.getMax()))
+                    .setYAxisMin(decadeBelow(errors.getMin())).setYAxisMax(10 * decadeBelow(errors.getMax()));
+        }
+    }
+
+    private static double decadeBelow(double value) {
+        return Math.pow(10, Math.floor(Math.log10(value)));
     }
 
     private void add(String scheme, ResultTable runs) {

@@ -40,8 +40,9 @@ public final class StabilityPlot {
                     for (String second : ofAxis.distinct("second_axis")) {
                         if (!second.isEmpty()) {
                             String name = String.join("-", "stability", scheme, precision, first, second);
-                            HeatMapChart chart = chart("Scheme " + scheme + " in " + precision, first, second,
-                                    ofAxis.where("second_axis", second));
+                            String title = "Scheme " + scheme + " in " + precision
+                                    + ": blue ok, orange diverged, red unstable";
+                            HeatMapChart chart = chart(title, first, second, ofAxis.where("second_axis", second));
                             pictures.add(Picture.save(chart, folder.resolve(name)));
                         }
                     }
@@ -61,8 +62,7 @@ public final class StabilityPlot {
         }
         HeatMapChart chart = new HeatMapChartBuilder().width(760).height(480).title(title).xAxisTitle(first)
                 .yAxisTitle(second).build();
-        chart.getStyler().setMin(0).setMax(STATUSES.size() - 1.0).setRangeColors(COLOURS).setShowValue(true)
-                .setHeatMapDecimalValueFormatter(value -> STATUSES.get((int) Math.round(value)))
+        chart.getStyler().setMin(0).setMax(STATUSES.size() - 1.0).setRangeColors(COLOURS).setDrawBorder(true)
                 .setPlotGridLinesVisible(false).setLegendVisible(false).setChartBackgroundColor(Color.WHITE);
         chart.addSeries("status", x, y, cells);
         return chart;
