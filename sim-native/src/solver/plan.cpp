@@ -76,7 +76,8 @@ std::vector<std::string> describe_plan(const Model& model) {
         if (needed) lines.push_back(std::move(line));
     };
     const std::string iterations = std::to_string(model.parameters.numIterations);
-    add(!model.muscles.empty(), "per frame: actuate muscles");
+    add(!model.muscles.empty(),
+        flex ? "per frame: actuate muscles" : "per substep: actuate muscles, with a start ramp");
     add(true, "per substep: predict");
     add(plan.fluid || plan.contacts, "per substep: sort into cells");
     add(plan.fluid, std::string("per substep: find fluid neighbours") + (plan.uniform_fluid ? "" : " (test per pair)"));
@@ -90,10 +91,12 @@ std::vector<std::string> describe_plan(const Model& model) {
                            (plan.shock_propagation ? ", shock propagation" : ""));
     add(plan.springs, per_iteration + "springs");
     add(plan.clusters, per_iteration + "shape matching");
-    add(true, per_iteration + (model.parameters.relaxationMode == RelaxationMode::local ? "local relaxation"
-                                                                                        : "global relaxation"));
+    const bool local = model.parameters.relaxationMode == RelaxationMode::local;
+    add(flex, per_iteration + (local ? "local relaxation" : "global relaxation"));
     add(plan.planes, per_iteration + (plan.plane_friction ? "planes with friction" : "planes"));
     std::string velocities = "per substep: velocities";
+    if (!flex && (plan.springs || plan.clusters)) velocities += ", body momentum";
+    if (!flex && plan.fluid) velocities += ", density rate";
     if (plan.viscosity) velocities += ", viscosity";
     if (plan.damping) velocities += ", damping";
     if (plan.clamp_acceleration) velocities += ", acceleration clamp";
