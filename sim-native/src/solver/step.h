@@ -4,6 +4,23 @@
 
 namespace natator {
 
+/// The groups of constraints that act on solids, in the order of both schemes.
+template <class Stages, class AfterStage>
+void solve_solids(Stages& stages, const Plan& plan, const AfterStage& after) {
+    if (plan.contacts) {
+        stages.solve_contacts();
+        after("contacts");
+    }
+    if (plan.springs) {
+        stages.solve_springs();
+        after("springs");
+    }
+    if (plan.clusters) {
+        stages.solve_clusters();
+        after("shape matching");
+    }
+}
+
 /// One constraint iteration of scheme `flex`: every correction is computed from the same positions and summed
 /// (Jacobi), the sum is relaxed and applied, planes come last and one after the other.
 template <class Stages, class AfterStage>
@@ -19,18 +36,7 @@ void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
         stages.solve_cohesion();
         after("cohesion");
     }
-    if (plan.contacts) {
-        stages.solve_contacts();
-        after("contacts");
-    }
-    if (plan.springs) {
-        stages.solve_springs();
-        after("springs");
-    }
-    if (plan.clusters) {
-        stages.solve_clusters();
-        after("shape matching");
-    }
+    solve_solids(stages, plan, after);
     stages.relax_and_apply();
     after("relaxation");
     if (plan.planes) {
@@ -46,18 +52,7 @@ void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) 
         stages.solve_density_constraint();
         after("density constraint");
     }
-    if (plan.contacts) {
-        stages.solve_contacts();
-        after("contacts");
-    }
-    if (plan.springs) {
-        stages.solve_springs();
-        after("springs");
-    }
-    if (plan.clusters) {
-        stages.solve_clusters();
-        after("shape matching");
-    }
+    solve_solids(stages, plan, after);
     if (plan.planes) {
         stages.solve_planes();
         after("planes");
