@@ -36,7 +36,9 @@ struct SolverParameters {
     double sleepThreshold = 0.0;    ///< a particle slower than this, length/s, stays where it is, >= 0
 
     double maxSpeed = std::numeric_limits<float>::max();  ///< limit of |v|, length/s
-    double maxAcceleration = 100.0;                       ///< limit of |dv|/h per substep, length/s^2
+    /// Limit of |dv|/h, length/s^2. Scheme `flex`: of every particle's change of velocity in a substep. Scheme
+    /// `conserving`: of how fast particles are pushed apart that overlapped at the substep's start.
+    double maxAcceleration = 100.0;
     /// Contacts take a particle's mass times exp(-k height), height against gravity, so that stacks settle faster;
     /// momentum is not kept then. k, 1/length, >= 0.
     double shockPropagation = 0.0;
@@ -63,7 +65,9 @@ struct SolverParameters {
     RelaxationMode relaxationMode = RelaxationMode::local;
     double relaxationFactor = 1.0;  ///< omega
 
-    int maxNeighborsPerParticle = 96;  ///< fluid neighbours kept per particle, the first found in cell order
+    /// Fluid neighbours kept per particle, the first found in cell order. Scheme `conserving` keeps at least four times
+    /// those of the rest packing, and a pair only if both keep it.
+    int maxNeighborsPerParticle = 96;
 };
 
 /// Half space a*x + b*y + c*z + d >= 0 that particles are kept in; (a, b, c) has length 1.

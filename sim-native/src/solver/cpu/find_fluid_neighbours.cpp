@@ -28,12 +28,11 @@ FluidView<Real> Substep<Real>::fluid_view() {
 }
 
 /// Lists for each fluid particle the fluid particles closer than the radius plus margin at the predicted positions,
-/// in the order of their slots per run of cells, at most maxNeighborsPerParticle. Pairs at distance 0 are left out.
+/// in the order of their slots per run of cells, at most most_neighbours_. Pairs at distance 0 are left out.
 template <class Real>
 void Substep<Real>::find_fluid_neighbours() {
     const FluidView<Real> view = fluid_view();
     const Real distance_squared = constants_.search_distance * constants_.search_distance;
-    const int most = model_.parameters.maxNeighborsPerParticle;
     std::array<std::vector<std::int32_t>, lanes>& found = found_;
     ws_.neighbour.clear();
     for (int block = 0; block < ws_.blocks(); ++block) {
@@ -60,7 +59,7 @@ void Substep<Real>::find_fluid_neighbours() {
                 n = static_cast<int>(
                     std::remove_if(list, list + n, [&](int j) { return !collides(i, ws_.particle_of[j]); }) - list);
             }
-            count[lane] = std::min(n, most);
+            count[lane] = std::min(n, most_neighbours_);
             ws_.neighbour_count[slot] = count[lane];
             rows = std::max(rows, count[lane]);
         }

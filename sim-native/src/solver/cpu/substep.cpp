@@ -29,6 +29,7 @@ Substep<Real>::Substep(const Model& model)
       plan_(make_plan(model)),
       constants_(model.parameters),
       ws_(model),
+      most_neighbours_(model.parameters.maxNeighborsPerParticle),
       kernels_(&fluid_kernels<Real>(instruction_set())) {
     new_velocity_.resize(model.particles());
     if (plan_.dissipation || plan_.fluid_forces) velocity_change_.resize(model.particles());

@@ -104,6 +104,7 @@ protected:
     template <class Visit>
     void for_each_fluid_neighbour(int slot, const Visit& visit) const;
 
+    int most_neighbours_;                      ///< fluid neighbours kept per particle
     std::vector<Real> inverse_mass_;           ///< by particle
     std::vector<Vector3<Real>> new_velocity_;  ///< by particle, the substep's outcome
     std::vector<Real> spring_stiffness_;

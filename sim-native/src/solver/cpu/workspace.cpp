@@ -17,8 +17,8 @@ Workspace<Real>::Workspace(const Model& model) : particles(model.particles()) {
 
     constexpr Real far_away = Real(1e9);
     const std::size_t all = round_up_to_block(slots + 1);
-    position.resize(all, far_away);
-    for (auto* array : {&start, &predicted, &correction}) array->resize(all);
+    for (auto* array : {&position, &start}) array->resize(all, far_away);
+    for (auto* array : {&predicted, &correction}) array->resize(all);
     velocity.resize(fluid > 0 ? all : 0);
     constraint_count.resize(all);
     inverse_mass.resize(all);

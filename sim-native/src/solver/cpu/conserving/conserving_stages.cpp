@@ -58,12 +58,16 @@ ConservingStages<Real>::ConservingStages(const Model& model)
         const SolverParameters& p = model.parameters;
         const double neighbours =
             close_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return std::pow(1 - q, 3); });
+        const double close_neighbours = close_packing_sum(p.fluidRestDistance / p.radius, [](double) { return 1; });
+        this->most_neighbours_ = std::max(p.maxNeighborsPerParticle, 4 * static_cast<int>(close_neighbours));
+        rest_sum_ = static_cast<Real>(neighbours);
         kernel_scale_ = static_cast<Real>(1 / (1 + neighbours));
         gradient_scale_ = static_cast<Real>(3 / (p.radius * (1 + neighbours)));
         const double per_radius_cubed = std::pow(p.radius / p.fluidRestDistance, 3) * std::numbers::sqrt2;
         plane_scale_ = static_cast<Real>(2 * std::numbers::pi * per_radius_cubed / (1 + neighbours));
         plane_gap_ = static_cast<Real>(p.fluidRestDistance / 2 - p.collisionDistance);
-        for (auto* array : {&lambda_, &response_, &lambda_sum_, &solid_gradient_square_}) array->resize(all);
+        for (auto* array : {&lambda_, &response_, &lambda_sum_, &solid_gradient_square_, &overlap_, &overlap_lambda_})
+            array->resize(all);
         solid_gradient_.resize(all);
     }
 
@@ -95,9 +99,18 @@ ConservingStages<Real>::ConservingStages(const Model& model)
     }
 }
 
+/// At which overlaps are pushed apart: maxAcceleration, but enough to win against gravity. Unlimited only nominally, so
+/// that it can be multiplied.
+template <class Real>
+Real ConservingStages<Real>::overlap_acceleration(const SolverParameters& p) {
+    return static_cast<Real>(std::min(std::max(p.maxAcceleration, 10 * p.gravity.norm()), 1e30));
+}
+
 template <class Real>
 void ConservingStages<Real>::begin_iterations() {
     base_ = ws_.position;
+    overlap_push_ = overlap_acceleration(model_.parameters) * h_ * h_;
+    looked_for_overlap_ = overlapping_ = false;
     for (auto* array : {&displacement_, &ws_.correction})
         for (auto* coordinate : {&array->x, &array->y, &array->z})
             std::fill(coordinate->begin(), coordinate->end(), Real(0));

@@ -21,6 +21,8 @@ public:
 
     explicit ConservingStages(const Model& model);
 
+    void predict();
+    void find_fluid_neighbours();
     void begin_iterations();
     void solve_density_constraint();
     void solve_contacts();
@@ -44,6 +46,10 @@ public:
 
 private:
     void compute_lambda();
+    static Real overlap_acceleration(const SolverParameters& parameters);
+    bool find_overlap();
+    void limit_overlap_pressure();
+    Real contact_depth(int i, int j) const;
     void clear_boundary_terms();
     void add_plane_pressure();
     void push_from_planes();
@@ -71,12 +77,16 @@ private:
     static std::vector<FreeBody> free_bodies(const Model& model);
 
     const DensityKernels<Real>* density_kernels_;
-    Real kernel_scale_, gradient_scale_;
+    Real kernel_scale_, gradient_scale_, rest_sum_ = 0;
     Real plane_scale_ = 0;  ///< 2 pi n0 R^3 A
     Real plane_gap_ = 0;    ///< from a plane to where the fluid behind it begins, half a spacing from resting particles
-    Vector3Array<Real> base_;          ///< predicted positions by slot
+    Real overlap_push_ = 0;                                  ///< how far a substep may push overlaps apart, length
+    bool looked_for_overlap_ = false, overlapping_ = false;  ///< in this substep
+    Vector3Array<Real> base_;                                ///< predicted positions by slot
     Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it
     AlignedVector<Real> lambda_, response_, lambda_sum_, solid_gradient_square_;
+    AlignedVector<Real> overlap_;         ///< C_i at the start of the substep if it is an overlap, else 0
+    AlignedVector<Real> overlap_lambda_;  ///< what has pushed it out in this substep
     Vector3Array<Real> solid_gradient_;
 
     std::vector<int> bonded_;              ///< particles in springs or clusters

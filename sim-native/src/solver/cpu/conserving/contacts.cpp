@@ -2,20 +2,19 @@
 
 namespace natator::cpu {
 
-/// Pair that is not fluid-fluid, depth e = solidRestDistance - r > 0, n = contacts with e > 0 of a particle:
+/// Pair that is not fluid-fluid, depth e = solidRestDistance - r > 0 (less where it started too deep, contact_depth),
+/// n = contacts with e > 0 of a particle:
 ///   Dx_i = w_i / (w_i n_i + w_j n_j) (e n - f t),
 /// t = direction of the tangential relative displacement since the substep's start, m = its length,
 /// f = m if m < staticFriction * e, else min(particleFriction * e, m). Friction acts only if dynamicFriction > 0.
 /// Shock propagation changes the weights.
 template <class Real>
 void ConservingStages<Real>::solve_contacts() {
-    const auto depth_of = [this](int i, int j) {
-        return constants_.solid_rest_distance - (position_of_slot(i) - position_of_slot(j)).norm();
-    };
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
         const int i = ws_.touched[k];
         int active = 0;
-        for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) active += depth_of(i, ws_.contact[c]) > 0;
+        for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c)
+            active += contact_depth(i, ws_.contact[c]) > 0;
         ws_.constraint_count[i] = static_cast<Real>(active);
     }
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
@@ -24,7 +23,7 @@ void ConservingStages<Real>::solve_contacts() {
         if (ws_.constraint_count[i] == 0 || wi == 0) continue;
         for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
             const int j = ws_.contact[c];
-            const Real depth = depth_of(i, j);
+            const Real depth = contact_depth(i, j);
             if (!(depth > 0)) continue;
             const Vector3<Real> difference = position_of_slot(i) - position_of_slot(j);
             const Real r = difference.norm();

@@ -18,6 +18,7 @@ DensityView<Real> ConservingStages<Real>::density_view() {
             .neighbour = ws_.neighbour.data(),
             .inverse_radius = constants_.inverse_radius,
             .kernel_scale = kernel_scale_,
+            .rest_sum = rest_sum_,
             .gradient_scale = gradient_scale_,
             .position = {position[0], position[1], position[2]},
             .inverse_mass = ws_.inverse_mass.data(),
@@ -142,6 +143,11 @@ void ConservingStages<Real>::compute_lambda() {
 template <class Real>
 void ConservingStages<Real>::solve_density_constraint() {
     compute_lambda();
+    if (!looked_for_overlap_) {
+        looked_for_overlap_ = true;
+        overlapping_ = find_overlap();
+    }
+    if (overlapping_) limit_overlap_pressure();
     density_kernels_->solve_density_constraint(density_view());
     if (plan_.planes) push_from_planes();
     if (plan_.solid_pressure) push_solids_by_pressure();

@@ -51,16 +51,16 @@ void compute_lambda(const DensityView<Real>& fluid) {
         }
         for (int lane = 0; lane < lanes; ++lane) {
             const int i = first + lane;
-            const Real density = fluid.kernel_scale * (1 + sum[lane]) + fluid.solid_density[i];
+            const Real above = fluid.kernel_scale * (sum[lane] - fluid.rest_sum) + fluid.solid_density[i];
             const Real cx = fluid.gradient_scale * gx[lane] + fluid.solid_gradient[0][i];
             const Real cy = fluid.gradient_scale * gy[lane] + fluid.solid_gradient[1][i];
             const Real cz = fluid.gradient_scale * gz[lane] + fluid.solid_gradient[2][i];
             const Real others =
                 fluid.gradient_scale * fluid.gradient_scale * square[lane] + fluid.solid_gradient_square[i];
             const Real all = w[i] * (cx * cx + cy * cy + cz * cz) + others;
-            fluid.density[i] = density;
+            fluid.density[i] = 1 + above;
             const Real response = all > 0 ? 1 / all : 0;
-            const Real lambda = density > 1 ? (1 - density) * response : 0;
+            const Real lambda = above > 0 ? -above * response : 0;
             fluid.response[i] = response;
             fluid.lambda[i] = lambda;
             fluid.lambda_sum[i] += lambda;
@@ -112,10 +112,11 @@ void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
     const Real* const u = fluid.velocity[0];
     const Real* const v = fluid.velocity[1];
     const Real* const w = fluid.velocity[2];
+    const Real* const inverse_mass = fluid.inverse_mass;
     const Real inverse_radius = fluid.inverse_radius;
     for (int block = 0; block < fluid.blocks; ++block) {
         const int first = block * lanes;
-        Real rate[lanes] = {};
+        Real rate[lanes] = {}, gx[lanes] = {}, gy[lanes] = {}, gz[lanes] = {}, square[lanes] = {};
         for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
             const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
             for (int lane = 0; lane < lanes; ++lane) {
@@ -129,12 +130,24 @@ void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
                 const Real one_minus_q = 1 - r2 * inverse_r * inverse_radius;
                 const Real t = one_minus_q > 0 ? one_minus_q : 0;
                 const Real approach = (u[j] - u[i]) * dx + (v[j] - v[i]) * dy + (w[j] - w[i]) * dz;
-                rate[lane] += t * t * inverse_r * approach;
+                const Real g = t * t;
+                const Real s = g * inverse_r;
+                rate[lane] += s * approach;
+                gx[lane] -= s * dx;
+                gy[lane] -= s * dy;
+                gz[lane] -= s * dz;
+                square[lane] += inverse_mass[j] * g * g;
             }
         }
         for (int lane = 0; lane < lanes; ++lane) {
             const int i = first + lane;
-            const Real lambda = -fluid.gradient_scale * rate[lane] * fluid.response[i];
+            const Real cx = fluid.gradient_scale * gx[lane] + fluid.solid_gradient[0][i];
+            const Real cy = fluid.gradient_scale * gy[lane] + fluid.solid_gradient[1][i];
+            const Real cz = fluid.gradient_scale * gz[lane] + fluid.solid_gradient[2][i];
+            const Real others =
+                fluid.gradient_scale * fluid.gradient_scale * square[lane] + fluid.solid_gradient_square[i];
+            const Real all = inverse_mass[i] * (cx * cx + cy * cy + cz * cz) + others;
+            const Real lambda = all > 0 ? -fluid.gradient_scale * rate[lane] / all : 0;
             const Real most = -fluid.lambda_sum[i] * inverse_h;
             const Real limited = lambda < most ? lambda : most;
             fluid.lambda[i] = most > 0 ? limited : 0;

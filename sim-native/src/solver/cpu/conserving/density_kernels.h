@@ -14,6 +14,7 @@ struct DensityView {
     const std::int32_t* neighbour;  ///< rows of 16 slots
     Real inverse_radius;
     Real kernel_scale;    ///< A: W(r)/rho0 = A (1 - q)^3, spiky
+    Real rest_sum;        ///< sum of (1 - q)^3 over the neighbours in the rest packing
     Real gradient_scale;  ///< B: |grad W(r)|/rho0 = B (1 - q)^2, of the same kernel
 
     const Real* position[3];
@@ -33,7 +34,7 @@ struct DensityView {
 
 template <class Real>
 struct DensityKernels {
-    /// density_i = A (1 + sum_j (1 - q^2)^3) + solids; C_i = density_i - 1;
+    /// C_i = A (sum_j (1 - q)^3 - rest sum) + solids, which rounds less than density_i - 1; density_i = 1 + C_i;
     /// lambda_i = -max(C_i, 0) / (w_i |grad_i C_i|^2 + sum_k w_k |grad_k C_i|^2).
     void (*compute_lambda)(const DensityView<Real>& fluid);
     /// correction_i = w_i sum_j (lambda_i + lambda_j) grad_i W_ij / rho0.
