@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "natator/error.h"
@@ -23,12 +24,13 @@ Gait gait_for(const Request& request, const Scene& scene) {
 }
 
 /// Evaluates one request. Sets `id` as soon as it is known, for messages.
-int evaluate_request(const std::string& text, bool plain, json& id) {
+int evaluate_request(const std::string& text, bool plain, const StartCache* starts, json& id) {
     const json value = parse_json(text, "request");
     id = request_id(value);
     const Request request = parse_request(value);
     const Scene scene = load_scene(request.scene, request.overrides);
-    const Evaluation evaluation = evaluate(scene, gait_for(request, scene), request.precision, request.perturbation);
+    const Evaluation evaluation =
+        evaluate(scene, gait_for(request, scene), request.precision, request.perturbation, {}, starts);
     const auto result = result_json(id, evaluation, scene.scheme, request.precision);
     print((plain ? result.at("fitness") : result).dump() + "\n");
     if (!evaluation.instability) return ok;
@@ -38,10 +40,11 @@ int evaluate_request(const std::string& text, bool plain, json& id) {
     return unstable;
 }
 
-int run_evaluate(bool plain) {
+int run_evaluate(bool plain, bool use_cache) {
     json id;
     try {
-        return evaluate_request(read_all(stdin, "request"), plain, id);
+        const std::optional<StartCache> starts = use_cache ? StartCache::of_user() : std::nullopt;
+        return evaluate_request(read_all(stdin, "request"), plain, starts ? &*starts : nullptr, id);
     } catch (const std::exception& error) {
         // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code.
         if (!plain) print(error_json(id, error.what()).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
@@ -54,9 +57,14 @@ int run_evaluate(bool plain) {
 void add_evaluate(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand(
         "evaluate", "Read one JSON request on standard input, write one JSON result on standard output.");
-    const auto plain = std::make_shared<bool>(false);
-    command->add_flag("--plain", *plain, "Write only the fitness, as a number.");
-    command->callback([plain, &status] { status = run_evaluate(*plain); });
+    struct Options {
+        bool plain = false, no_cache = false;
+    };
+    const auto options = std::make_shared<Options>();
+    command->add_flag("--plain", options->plain, "Write only the fitness, as a number.");
+    command->add_flag("--no-cache", options->no_cache,
+                      "Settle the start anew instead of keeping it for the next time.");
+    command->callback([options, &status] { status = run_evaluate(options->plain, !options->no_cache); });
 }
 
 }  // namespace natator::cli

@@ -7,6 +7,7 @@
 #include "natator/model_builder.h"
 #include "natator/plan.h"
 #include "natator/scene_json.h"
+#include "natator/start_cache.h"
 #include "natator/strict_json.h"
 
 namespace natator::cli {
@@ -20,7 +21,11 @@ struct Options {
 };
 
 ordered_json describe_program() {
-    return {{"version", NATATOR_VERSION}, {"instructionSet", to_string(instruction_set())}, {"scenes", scene_names()}};
+    const std::optional<StartCache> starts = StartCache::of_user();
+    return {{"version", NATATOR_VERSION},
+            {"instructionSet", to_string(instruction_set())},
+            {"startCache", starts ? starts->folder().string() : "none"},
+            {"scenes", scene_names()}};
 }
 
 ordered_json describe_scene(const Scene& scene) {

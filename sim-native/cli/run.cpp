@@ -20,6 +20,7 @@ struct Options {
     std::string precision = "float";
     std::optional<double> duration;
     bool particles = false;
+    bool no_cache = false;
 };
 
 /// JSON given on the command line, or in a file if it does not begin with '{'.
@@ -86,8 +87,9 @@ int run_scene(const Options& options) {
         on_frame = [&trajectory](double time, const auto& positions) { trajectory->add_frame(time, positions); };
     }
 
+    const std::optional<StartCache> starts = options.no_cache ? std::nullopt : StartCache::of_user();
     const auto start = std::chrono::steady_clock::now();
-    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame);
+    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame, starts ? &*starts : nullptr);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));
@@ -104,7 +106,7 @@ void add_run(CLI::App& app, int& status) {
                         R"(File or JSON text: {"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]}. )"
                         "Default: muscles at rest.");
     command->add_option("--duration", options->duration, "Simulated time, s. Default: the scene's.");
-    command->add_option("--scheme", options->scheme, "Update rule: flex. Default: the scene's.");
+    command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
@@ -116,6 +118,8 @@ void add_run(CLI::App& app, int& status) {
         ->add_flag("--particles", options->particles,
                    "In the trajectory, every body particle instead of slice centres.")
         ->needs(trajectory);
+    command->add_flag("--no-cache", options->no_cache,
+                      "Settle the start anew instead of keeping it for the next time.");
     command->callback([options, &status] { status = run_scene(*options); });
 }
 

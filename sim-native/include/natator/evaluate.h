@@ -8,6 +8,7 @@
 #include "natator/gait.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
+#include "natator/start_cache.h"
 
 namespace natator {
 
@@ -42,9 +43,11 @@ struct Evaluation {
 /// One body position per frame, for callers that want a trajectory.
 using FrameObserver = std::function<void(double time, const std::vector<Eigen::Vector3d>& body_positions)>;
 
-/// Settles the scene and runs it with a gait until its duration or an early stop.
+/// Settles the scene, or takes its settled start from `starts`, and runs it with a gait until its duration or an early
+/// stop. The result is the same, bit by bit, with and without `starts`.
 /// Throws InputError when the gait does not fit the scene.
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision = Precision::single_precision,
-                    const Perturbation& perturbation = {}, const FrameObserver& on_frame = {});
+                    const Perturbation& perturbation = {}, const FrameObserver& on_frame = {},
+                    const StartCache* starts = nullptr);
 
 }  // namespace natator

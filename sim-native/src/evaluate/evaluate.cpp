@@ -48,17 +48,31 @@ LawFigures law_figures(const Model& model, const State<Real>& state, Solver<Real
     return figures;
 }
 
+/// The start of the scene at rest: from the cache if it is there, else settled and kept there.
+template <class Real>
+State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver, const StartCache* starts,
+                          std::optional<Instability>& instability) {
+    if (settling.updates == 0) starts = nullptr;
+    if (starts)
+        if (auto found = starts->find<Real>(model, settling)) return *found;
+    State<Real> state = initial_state<Real>(model);
+    instability = settle(settling, solver, state);
+    if (starts && !instability) starts->keep(model, settling, state);
+    return state;
+}
+
 /// Runs frame by frame to the duration or an early stop.
 template <class Real>
-Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const FrameObserver& on_frame) {
+Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const FrameObserver& on_frame,
+                       const StartCache* starts) {
     const bool swims = !model.body.particles.empty();
     const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
     const double window = swims ? std::round(scene.stopping.no_progress_after / scene.time_step) : 0;
 
     Solver<Real> solver(model);
-    State<Real> state = initial_state<Real>(model);
     Evaluation result;
-    result.instability = settle(scene.settling, solver, state);
+    if (frames == 0) starts = nullptr;  // the figures of a run without frames are those of settling
+    State<Real> state = settled_start(model, scene.settling, solver, starts, result.instability);
     observe(model.body, state, on_frame);
 
     std::vector<double> path{mean_x(model.body, state)};
@@ -88,12 +102,13 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
 }  // namespace
 
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision, const Perturbation& perturbation,
-                    const FrameObserver& on_frame) {
+                    const FrameObserver& on_frame, const StartCache* starts) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
     Model model = build_model(scene);
     perturb(perturbation, model);
-    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame)
-                                                    : evaluate_as<float>(scene, model, gait, on_frame);
+    if (perturbation.amplitude != 0) starts = nullptr;  // such starts are as many as seeds
+    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame, starts)
+                                                    : evaluate_as<float>(scene, model, gait, on_frame, starts);
 }
 
 }  // namespace natator

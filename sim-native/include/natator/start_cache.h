@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "natator/model.h"
+#include "natator/scene.h"
+#include "natator/state.h"
+
+namespace natator {
+
+/// Settled starts of scenes in a folder, one file each, so that a scene settles once and not in every evaluation.
+/// A start is found by its whole content: all that settling depends on, with the precision, the instruction set and the
+/// build of the program, stands in the file and is compared byte by byte. Safe with several processes at once. The
+/// cache never fails: what cannot be read is not there, what cannot be written is not kept.
+class StartCache {
+public:
+    explicit StartCache(std::filesystem::path folder);
+
+    /// In $NATATOR_CACHE, else $XDG_CACHE_HOME/natator, else $HOME/.cache/natator; none if that is empty or unset.
+    static std::optional<StartCache> of_user();
+
+    template <class Real>
+    std::optional<State<Real>> find(const Model& model, const Settling& settling) const;
+    template <class Real>
+    void keep(const Model& model, const Settling& settling, const State<Real>& settled) const;
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+    static constexpr int most_files = 64;  ///< kept; the oldest give way
+
+private:
+    std::filesystem::path folder_;
+};
+
+}  // namespace natator

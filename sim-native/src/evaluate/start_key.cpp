@@ -1,0 +1,104 @@
+#include "start_key.h"
+
+#include <link.h>
+
+#include "byte_writer.h"
+#include "natator/instruction_set.h"
+
+namespace natator {
+namespace {
+
+/// The build id that the linker put into the running program (ELF note NT_GNU_BUILD_ID): a digest of all its code.
+std::string build_id() {
+    std::string id;
+    const auto look = [](dl_phdr_info* info, std::size_t, void* found) {
+        for (int i = 0; i < info->dlpi_phnum; ++i) {
+            if (info->dlpi_phdr[i].p_type != PT_NOTE) continue;
+            const char* at = reinterpret_cast<const char*>(info->dlpi_addr + info->dlpi_phdr[i].p_vaddr);
+            const char* const end = at + info->dlpi_phdr[i].p_memsz;
+            const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
+            while (at + sizeof(ElfW(Nhdr)) <= end) {
+                const auto* note = reinterpret_cast<const ElfW(Nhdr)*>(at);
+                const char* const name = at + sizeof *note;
+                const char* const content = name + padded(note->n_namesz);
+                if (note->n_type == NT_GNU_BUILD_ID && std::string(name, note->n_namesz) == std::string("GNU\0", 4))
+                    static_cast<std::string*>(found)->assign(content, note->n_descsz);
+                at = content + padded(note->n_descsz);
+            }
+        }
+        return 1;  // the first object is the program itself
+    };
+    dl_iterate_phdr(look, &id);
+    return id;
+}
+
+void add_parameters(ByteWriter& key, const SolverParameters& p) {
+    static_assert(sizeof(SolverParameters) == 248, "a parameter was added or removed: list it here");
+    for (const int value : {p.substeps, p.numIterations, p.maxNeighborsPerParticle}) key.add(value);
+    key.add(p.gravity);
+    for (const double value : {p.radius,
+                               p.solidRestDistance,
+                               p.fluidRestDistance,
+                               p.dynamicFriction,
+                               p.staticFriction,
+                               p.particleFriction,
+                               p.restitution,
+                               p.adhesion,
+                               p.sleepThreshold,
+                               p.maxSpeed,
+                               p.maxAcceleration,
+                               p.shockPropagation,
+                               p.dissipation,
+                               p.damping,
+                               p.cohesion,
+                               p.surfaceTension,
+                               p.viscosity,
+                               p.vorticityConfinement,
+                               p.solidPressure,
+                               p.freeSurfaceDrag,
+                               p.buoyancy,
+                               p.collisionDistance,
+                               p.particleCollisionMargin,
+                               p.shapeCollisionMargin,
+                               p.relaxationFactor})
+        key.add(value);
+    key.add(p.relaxationMode);
+}
+
+}  // namespace
+
+std::string start_key(const Model& model, const Settling& settling, int real_bytes) {
+    static const std::string id = build_id();
+    ByteWriter key;
+    key.add(id);
+    key.add(instruction_set());
+    key.add(real_bytes);
+    key.add(settling.updates);
+    key.add(settling.time_step);
+    key.add(settling.substeps);
+    key.add(model.scheme);
+    add_parameters(key, model.parameters);
+    for (const auto* vectors : {&model.position, &model.velocity, &model.rest_position}) key.add(*vectors);
+    key.add(model.inverse_mass);
+    key.add(model.phase);
+    for (const Plane& plane : model.planes) {
+        key.add(plane.normal);
+        key.add(plane.offset);
+    }
+    for (const Spring& spring : model.springs) {
+        key.add(spring.a);
+        key.add(spring.b);
+        key.add(spring.rest_length);
+        key.add(spring.stiffness);
+    }
+    for (const Cluster& cluster : model.clusters) {
+        key.add(cluster.particles);
+        key.add(cluster.rest_offset);
+        key.add(cluster.stiffness);
+        key.add(cluster.rotation);
+        key.add(cluster.centre);
+    }
+    return key.bytes();
+}
+
+}  // namespace natator
