@@ -1,10 +1,15 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include "commands.h"
 #include "ensemble.h"
+#include "natator/error.h"
+#include "natator/strict_json.h"
 #include "precision.h"
 #include "stability.h"
+#include "validation.h"
 
 namespace natator::cli {
 namespace {
@@ -169,6 +174,69 @@ void add_ensemble(CLI::App* bench, int& status) {
     });
 }
 
+/// The settings of substeps and iterations, written "8x4", for each scheme and precision asked for.
+std::vector<Setting> settings_of(const Common& common, const std::vector<std::string>& texts) {
+    std::vector<Setting> settings;
+    for (const Scheme scheme : common.chosen_schemes())
+        for (const Precision precision : common.chosen_precisions())
+            for (const std::string& text : texts) {
+                Setting setting{scheme, precision, 0, 0};
+                std::istringstream parts(text);
+                char cross = 0;
+                parts >> setting.substeps >> cross >> setting.iterations;
+                const bool fits = parts && parts.eof() && cross == 'x';
+                const auto allowed = [](int count) { return 1 <= count && count <= 1000; };
+                if (!fits || !allowed(setting.substeps) || !allowed(setting.iterations))
+                    throw InputError("--setting " + quoted(text) + ": must be SUBSTEPSxITERATIONS, such as 8x4");
+                settings.push_back(setting);
+            }
+    return settings;
+}
+
+void add_validation(CLI::App* bench, int& status) {
+    struct Options {
+        Common common;
+        std::vector<std::string> parts{"dam-break", "tank"}, settings;
+        ValidationStudy study;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = bench->add_subcommand("validation",
+                                              "Front of a collapsing column against the experiment of Martin and Moyce "
+                                              "(1952), density of the fluid at rest against other simulators.");
+    add_common(command, options->common, {"float"});
+    command->add_option("--part", options->parts, "dam-break, tank.")
+        ->check(CLI::IsMember({"dam-break", "tank"}))
+        ->capture_default_str();
+    command->add_option("--setting", options->settings,
+                        "Substeps and iterations, such as 8x4. Default: 4x4 8x4; the tank also 8x8 16x4.");
+    command->add_option("--width", options->study.width, "Particles along the base of the column.")
+        ->check(CLI::Range(4, 100))
+        ->capture_default_str();
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        ValidationStudy study = options->study;
+        std::vector<std::string> dam_break_settings{"4x4", "8x4"}, tank_settings{"4x4", "8x4", "8x8", "16x4"};
+        if (common.quick) {
+            dam_break_settings = tank_settings = {"4x4"};
+            study.width = 8;
+            study.rest = study.window = 0.1;
+        }
+        if (!options->settings.empty()) dam_break_settings = tank_settings = options->settings;
+        const auto chosen = [&options](const char* part) { return std::ranges::count(options->parts, part) > 0; };
+        if (chosen("dam-break")) {
+            for (const DamBreakCase& one : dam_break_cases()) study.dam_breaks.push_back(one.name);
+            study.dam_break_settings = settings_of(common, dam_break_settings);
+        }
+        if (chosen("tank")) study.tank_settings = settings_of(common, tank_settings);
+        ResultTable table(common.output, validation_columns(), validation_key_columns);
+        ResultTable fronts(common.output.empty() ? "" : path_beside(common.output, "fronts"), front_columns(),
+                           front_key_columns);
+        run_validation_study(study, table, fronts, report);
+        if (common.output.empty()) print(table.text());
+        status = ok;
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app, int& status) {
@@ -177,6 +245,7 @@ void add_bench(CLI::App& app, int& status) {
     add_precision(bench, status);
     add_ensemble(bench, status);
     add_stability(bench, status);
+    add_validation(bench, status);
 }
 
 }  // namespace natator::cli

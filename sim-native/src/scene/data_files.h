@@ -6,7 +6,7 @@
 
 namespace natator {
 
-/// Reads a data file of one kind ("scenes", "creatures") by name, or by path if the name ends in `.json`.
+/// Reads a data file of one kind ("scenes", "creatures", "references") by name, or by path if the name ends in `.json`.
 ///
 /// Names are looked up in the directory that the environment variable NATATOR_DATA names; without it in
 /// `<directory of the executable>/../share/natator`, then in the source tree this was built from.
