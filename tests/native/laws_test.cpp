@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_column.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
 #include "natator/scene_json.h"
@@ -11,6 +12,8 @@
 
 namespace natator {
 namespace {
+
+using namespace test;
 
 Gait strongest_gait(const Model& model) {
     Gait gait;
@@ -53,46 +56,6 @@ TEST_P(NoSwimmingInVacuum, MomentumIsKeptInDouble) {
     expect_momentum_kept<double>(GetParam(), 1e-12);
 }
 INSTANTIATE_TEST_SUITE_P(Creatures, NoSwimmingInVacuum, testing::Values(1, 2, 3, 4));
-
-constexpr double frame = 1.0 / 60;
-
-/// A block of fluid of mass 1 per particle on the thesis' lattice in a box that it fills but for the top.
-Model fluid_column(int width, int layers, int substeps, int iterations) {
-    constexpr double spacing = 0.09;
-    const double side = (width - 1) * spacing + 0.1;
-    Model model;
-    model.scheme = Scheme::conserving;
-    model.parameters.substeps = substeps;
-    model.parameters.numIterations = iterations;
-    model.parameters.dynamicFriction = 0;
-    for (int y = 0; y < layers; ++y)
-        for (int x = 0; x < width; ++x)
-            for (int z = 0; z < width; ++z)
-                model.position.emplace_back(0.05 + x * spacing, 0.05 + y * spacing, 0.05 + z * spacing);
-    model.velocity.assign(model.position.size(), Eigen::Vector3d::Zero());
-    model.inverse_mass.assign(model.position.size(), 1.0);
-    model.phase.assign(model.position.size(), phase::fluid | phase::self_collide);
-    model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{0, 0, 1}, 0}, {{-1, 0, 0}, side}, {{0, 0, -1}, side}};
-    return model;
-}
-
-template <class Real>
-double kinetic_energy(const Model& model, const State<Real>& state) {
-    double energy = 0;
-    for (int i = 0; i < model.particles(); ++i)
-        if (model.inverse_mass[i] > 0)
-            energy += 0.5 / model.inverse_mass[i] * static_cast<double>(state.velocity[i].squaredNorm());
-    return energy;
-}
-
-template <class Real>
-double total_energy(const Model& model, const State<Real>& state) {
-    double energy = kinetic_energy(model, state);
-    for (int i = 0; i < model.particles(); ++i)
-        if (model.inverse_mass[i] > 0)
-            energy -= model.parameters.gravity.dot(state.position[i].template cast<double>()) / model.inverse_mass[i];
-    return energy;
-}
 
 /// Hydrostatics, p(y) = rho g (H - y) with rho g = weight / volume: density at the bottom 1, pressure there the weight
 /// per area, height that of the lattice; and the column comes to rest.
