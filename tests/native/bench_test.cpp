@@ -8,12 +8,15 @@
 #include <limits>
 
 #include "ensemble.h"
-#include "natator/momentum.h"
+#include "front_error.h"
 #include "natator/error.h"
+#include "natator/momentum.h"
 #include "physical_bounds.h"
 #include "precision.h"
+#include "references.h"
 #include "stability.h"
 #include "statistics.h"
+#include "validation.h"
 
 namespace natator::bench {
 namespace {
@@ -213,6 +216,94 @@ TEST(StabilityTest, PositionsBeyondTheNumbersEndTheRun) {
         EXPECT_EQ(instability->particle, 0);
         EXPECT_EQ(instability->stage, "predict");
     }
+}
+
+/// Z = 1 + T, and the same 0.25 later.
+TEST(FrontErrorTest, AGateThatOpensLateIsALag) {
+    const FrontCurve computed{{0, 1}, {1, 2}, {4, 5}};
+    FrontCurve measured;
+    for (const double time : {0.75, 1.25, 2.25}) measured.push_back({time, 1 + time - 0.25});
+    const FrontError error = front_error(computed, measured);
+    EXPECT_NEAR(error.position, 0.25, 1e-12);
+    EXPECT_NEAR(error.lag, 0.25, 1e-12);
+    EXPECT_NEAR(error.position_after_lag, 0, 1e-12);
+    EXPECT_NEAR(error.arrival, (0.25 / 0.75 + 0.25 / 1.25 + 0.25 / 2.25) / 3, 1e-12);
+    measured.push_back({4.5, 9});  // further than the computed front came
+    EXPECT_EQ(front_error(computed, measured).position, error.position);
+}
+
+TEST(FrontErrorTest, CurvesAreLinearBetweenTheirPoints) {
+    const FrontCurve curve{{0, 1}, {2, 2}, {3, 4}};
+    EXPECT_NEAR(position_at(curve, 1), 1.5, 1e-15);
+    EXPECT_NEAR(time_at(curve, 3), 2.5, 1e-15);
+    EXPECT_EQ(position_at(curve, 9), 4);
+}
+
+TEST(ReferencesTest, FrontsGoForwardAndPeersHaveFigures) {
+    for (const int height : {1, 2}) {
+        const FrontCurve front = measured_front(height);
+        ASSERT_GE(front.size(), 15u);
+        for (std::size_t i = 1; i < front.size(); ++i) {
+            EXPECT_GT(front[i].time, front[i - 1].time);
+            EXPECT_GT(front[i].position, front[i - 1].position);
+            EXPECT_LT(front[i].position, 1 + 2 * front[i].time);  // Ritter (1892): no front is faster than 2 sqrt(g h)
+        }
+    }
+    EXPECT_THROW(measured_front(3), InputError);
+    for (const PeerRun& peer : peer_runs()) {
+        EXPECT_GT(peer.run_time, 0) << peer.name;
+        EXPECT_GT(peer.density_error_max, peer.density_error_mean) << peer.name;
+    }
+}
+
+TEST(DamBreakTest, TheColumnFillsItsPlaceBehindTheGate) {
+    const Model model = dam_break_model({.height_over_base = 2, .width = 6, .ideal = true});
+    EXPECT_EQ(model.particles(), 6 * 12 * 10);
+    for (const Eigen::Vector3d& x : model.position)
+        for (const Plane& plane : model.planes)
+            EXPECT_GE(plane.distance(x), model.parameters.collisionDistance - 1e-12);
+    EXPECT_EQ(model.parameters.viscosity, 0);
+}
+
+TEST(ValidationTest, QuickStudyGivesPlausibleRowsAndGoesOn) {
+    const TemporaryPath file("-validation.csv"), path("-validation-fronts.csv");
+    ValidationStudy study;
+    study.dam_breaks = {"tall"};
+    study.width = 8;
+    study.last_time = 2;
+    study.dam_break_settings = {{Scheme::conserving, Precision::single_precision, 4, 4}};
+    study.tank_settings = {{Scheme::flex, Precision::single_precision, 2, 1},
+                           {Scheme::conserving, Precision::single_precision, 2, 1}};
+    study.rest = study.window = 0.05;
+    ResultTable table(file.path, validation_columns(), validation_key_columns);
+    ResultTable fronts(path.path, front_columns(), front_key_columns);
+    run_validation_study(study, table, fronts, ignore);
+    ASSERT_EQ(table.rows().size(), 3 + peer_runs().size());
+    const Row& column = table.rows().front();
+    EXPECT_EQ(column[7], "ok");
+    EXPECT_NEAR(std::stod(column[11]), 2, 0.1);  // start_height
+    EXPECT_LT(std::stod(column[12]), 0.3);       // front_error
+    for (const Row& row : table.rows()) {
+        ASSERT_EQ(row.size(), validation_columns().size());
+        if (row[0] == "tank") {
+            EXPECT_LT(std::stod(row[16]), std::stod(row[17])) << joined(row, " ");
+        }
+    }
+    FrontCurve front;
+    for (const Row& row : fronts.rows())
+        if (row[2] == "conserving") front.push_back({std::stod(row[6]), std::stod(row[7])});
+    ASSERT_GT(front.size(), 10u);
+    EXPECT_NEAR(front.front().position, 1, 0.01);
+    EXPECT_GT(front.back().position, 1.8);
+
+    const std::string before = content(file.path), path_before = content(path.path);
+    ResultTable again(file.path, validation_columns(), validation_key_columns);
+    ResultTable fronts_again(path.path, front_columns(), front_key_columns);
+    run_validation_study(study, again, fronts_again, ignore);
+    EXPECT_EQ(content(file.path), before);
+    EXPECT_EQ(content(path.path), path_before);
+    study.dam_breaks = {"burst"};
+    EXPECT_THROW(run_validation_study(study, again, fronts_again, ignore), InputError);
 }
 
 }  // namespace

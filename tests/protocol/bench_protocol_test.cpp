@@ -1,0 +1,53 @@
+// natator-sim bench from outside: files that it writes, and what it refuses.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "child_process.h"
+
+namespace natator::test {
+namespace {
+
+/// A folder in the temporary folder, freed at the end.
+struct TemporaryFolder {
+    TemporaryFolder()
+        : path(std::filesystem::temp_directory_path() / ("natator-bench-" + std::to_string(::getpid()))) {
+        std::filesystem::create_directory(path);
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(path); }
+    std::filesystem::path path;
+};
+
+std::string content(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(BenchProtocolTest, ValidationWritesItsTableAndTheFrontsBesideIt) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path / "validation.csv").string();
+    const Outcome outcome =
+        run_simulator({"bench", "validation", "--quick", "--scheme", "conserving", "--output", file});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    const std::string table = content(file);
+    EXPECT_NE(table.find("dam-break,tall,8,conserving,float,4,4,ok"), std::string::npos) << table;
+    EXPECT_NE(table.find("tank,thesis/tank,,conserving,float,4,4,ok"), std::string::npos) << table;
+    const std::string fronts = content(folder.path / "validation-fronts.csv");
+    EXPECT_NE(fronts.find("tall,,experiment,,,,0.41,1.11"), std::string::npos) << fronts;
+    EXPECT_NE(fronts.find("square,8,conserving,float,4,4,0,1"), std::string::npos) << fronts;
+}
+
+TEST(BenchProtocolTest, ValidationRefusesWhatIsNoSetting) {
+    for (const char* setting : {"8", "8x", "x4", "0x4", "8x4x2", "8,4", "-1x4", "8x1001", "fine"}) {
+        const Outcome outcome = run_simulator({"bench", "validation", "--part", "tank", "--setting", setting});
+        EXPECT_EQ(outcome.exit_code, 2) << setting;
+        EXPECT_NE(outcome.err.find("SUBSTEPSxITERATIONS"), std::string::npos) << outcome.err;
+        EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    }
+}
+
+}  // namespace
+}  // namespace natator::test
