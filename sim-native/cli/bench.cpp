@@ -208,14 +208,14 @@ void add_validation(CLI::App* bench, int& status) {
         ->check(CLI::IsMember({"dam-break", "tank"}))
         ->capture_default_str();
     command->add_option("--setting", options->settings,
-                        "Substeps and iterations, such as 8x4. Default: 4x4 8x4; the tank also 8x8 16x4.");
+                        "Substeps and iterations, such as 8x4. Default: 4x4 8x4; the tank also 8x2 8x8 16x4.");
     command->add_option("--width", options->study.width, "Particles along the base of the column.")
         ->check(CLI::Range(4, 100))
         ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
         ValidationStudy study = options->study;
-        std::vector<std::string> dam_break_settings{"4x4", "8x4"}, tank_settings{"4x4", "8x4", "8x8", "16x4"};
+        std::vector<std::string> dam_break_settings{"4x4", "8x4"}, tank_settings{"4x4", "8x2", "8x4", "8x8", "16x4"};
         if (common.quick) {
             dam_break_settings = tank_settings = {"4x4"};
             study.width = 8;

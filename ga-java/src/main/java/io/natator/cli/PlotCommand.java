@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import io.natator.plot.PrecisionPlot;
 import io.natator.plot.StabilityPlot;
+import io.natator.plot.ValidationPlot;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Path;
@@ -40,6 +41,14 @@ final class PlotCommand {
             @Option(names = "--output-dir", required = true, paramLabel = "DIR",
                     description = "Where the pictures go.") Path directory) {
         return draw(StabilityPlot::draw, csv, directory);
+    }
+
+    @Command(name = "validation", mixinStandardHelpOptions = true,
+            description = "Front of the collapsing column against the experiment; density error beside other programs.")
+    int validation(@Parameters(paramLabel = "CSV", description = "Results of bench validation.") Path csv,
+            @Option(names = "--output-dir", required = true, paramLabel = "DIR",
+                    description = "Where the pictures go.") Path directory) {
+        return draw(ValidationPlot::draw, csv, directory);
     }
 
     private int draw(Drawing drawing, Path csv, Path directory) {

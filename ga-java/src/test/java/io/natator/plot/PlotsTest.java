@@ -58,6 +58,44 @@ class PlotsTest {
         assertDrawn("stability-conserving-float-dt-iterations");
     }
 
+    private static final String VALIDATION_HEADER =
+            "part,case,width,scheme,precision,substeps,iterations,status,run_time,density_error_mean,density_error_max\n";
+
+    @Test
+    void drawsFrontsAndDensitiesOfAValidationStudy() throws IOException {
+        Path csv = file(VALIDATION_HEADER + """
+                dam-break,tall,24,flex,float,4,4,ok,2,,
+                tank,thesis/tank,,conserving,float,4,4,ok,3,0.0006,0.002
+                tank,thesis/tank,,conserving,float,8,4,ok,6,0.0002,0.0005
+                tank,thesis/tank,,flex,float,4,4,unstable,,,
+                tank,thesis/tank,,Peer 1.0,,,,published,13.7,0.0005,0.0013
+                """);
+        Files.writeString(folder.resolve("results-fronts.csv"), """
+                case,width,scheme,precision,substeps,iterations,time,position
+                tall,,experiment,,,,0.41,1.11
+                tall,24,flex,float,4,4,0,1
+                tall,24,flex,float,4,4,1,1.5
+                tall,24,flex,float,8,4,0,1
+                tall,24,flex,float,8,4,1,1.4
+                """);
+
+        assertThat(ValidationPlot.draw(csv, folder.resolve("plots"))).hasSize(3);
+        assertDrawn("validation-front-tall");
+        assertDrawn("validation-density-mean");
+        assertDrawn("validation-density-max");
+        // Two settings of a scheme in two shades of its colour.
+        assertThat(Files.readString(folder.resolve("plots/validation-front-tall.svg")))
+                .contains("stroke:rgb(214,39,40);stroke-opacity:0.43").contains("stroke:rgb(214,39,40);stroke-width");
+    }
+
+    @Test
+    void needsTheFrontsBesideAValidationStudy() throws IOException {
+        Path csv = file(VALIDATION_HEADER);
+
+        assertThatThrownBy(() -> ValidationPlot.draw(csv, folder)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("results-fronts.csv");
+    }
+
     @Test
     void refusesAnUnknownStatus() throws IOException {
         Path csv = file("""
