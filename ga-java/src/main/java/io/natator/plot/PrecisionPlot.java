@@ -6,7 +6,6 @@ import java.awt.Color;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.DoubleSummaryStatistics;
 import java.util.List;
 import java.util.Map;
 import org.knowm.xchart.XYChart;
@@ -32,8 +31,7 @@ public final class PrecisionPlot {
         chart = new XYChartBuilder().width(900).height(600)
                 .title(scene + ": run time of 0.25 s against path error").xAxisTitle("run time (s)")
                 .yAxisTitle("path error at 0.25 s (scene units)").build();
-        chart.getStyler().setXAxisLogarithmic(true).setYAxisLogarithmic(true)
-                .setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
+        chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
         // Dashed lines make an SVG of half a megabyte, since each dash becomes a path.
         chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
     }
@@ -52,27 +50,15 @@ public final class PrecisionPlot {
         for (String scene : table.distinct("scene")) {
             PrecisionPlot plot = new PrecisionPlot(scene);
             ResultTable runs = table.where("scene", scene);
-            plot.fitAxes(points(runs));
+            List<ParetoFront.Point> points = points(runs);
+            LogAxes.fit(plot.chart, points.stream().mapToDouble(ParetoFront.Point::cost),
+                    points.stream().mapToDouble(ParetoFront.Point::error));
             for (String scheme : runs.distinct("scheme")) {
                 plot.add(scheme, runs.where("scheme", scheme));
             }
             pictures.add(Picture.save(plot.chart, folder.resolve("precision-" + scene)));
         }
         return pictures;
-    }
-
-    /** Lets the axes end at powers of ten: only these have labels. */
-    private void fitAxes(List<ParetoFront.Point> points) {
-        DoubleSummaryStatistics costs = points.stream().mapToDouble(ParetoFront.Point::cost).summaryStatistics();
-        DoubleSummaryStatistics errors = points.stream().mapToDouble(ParetoFront.Point::error).summaryStatistics();
-        if (costs.getCount() > 0) {
-            chart.getStyler().setXAxisMin(decadeBelow(costs.getMin())).setXAxisMax(10 * decadeBelow(costs.getMax()))
-                    .setYAxisMin(decadeBelow(errors.getMin())).setYAxisMax(10 * decadeBelow(errors.getMax()));
-        }
-    }
-
-    private static double decadeBelow(double value) {
-        return Math.pow(10, Math.floor(Math.log10(value)));
     }
 
     private void add(String scheme, ResultTable runs) {

@@ -9,6 +9,7 @@ import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
 import java.util.function.ToDoubleFunction;
+import java.util.stream.Stream;
 import org.knowm.xchart.XYChart;
 import org.knowm.xchart.XYChartBuilder;
 import org.knowm.xchart.XYSeries;
@@ -40,7 +41,7 @@ public final class ValidationPlot {
      *
      * @param csv what {@code natator-sim bench validation} wrote; the fronts are in the file beside it
      * @return the PNG files
-     * @throws IOException                                   if a picture cannot be written
+     * @throws IOException if a picture cannot be written
      * @throws io.natator.config.InvalidInputException if a CSV cannot be used
      */
     public static List<Path> draw(Path csv, Path folder) throws IOException {
@@ -89,10 +90,13 @@ public final class ValidationPlot {
     private static XYChart densities(String figure, ResultTable tank) {
         XYChart chart = chart("density error of the thesis' tank at rest, " + figure, "wall time of 4 s (s)",
                 "max(ρ - 1, 0), " + figure + " (%)");
-        chart.getStyler().setXAxisLogarithmic(true).setYAxisLogarithmic(true)
-                .setLegendPosition(Styler.LegendPosition.OutsideE);
+        chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE);
         NumberOf error = column("density_error_" + figure).times(100);
         ResultTable own = tank.where("status", "ok");
+        ResultTable peers = tank.where("status", "published");
+        List<List<String>> all = Stream.concat(own.rows().stream(), peers.rows().stream()).toList();
+        LogAxes.fit(chart, all.stream().mapToDouble(row -> column("run_time").of(tank, row)),
+                all.stream().mapToDouble(row -> error.of(tank, row)));
         for (String scheme : own.distinct("scheme")) {
             ResultTable runs = own.where("scheme", scheme);
             List<List<String>> byCost = runs.rows().stream()
@@ -100,7 +104,6 @@ public final class ValidationPlot {
             addSeries(chart, scheme, new ResultTable(runs.columns(), byCost), column("run_time"), error,
                     colour(scheme)).setMarker(SeriesMarkers.CIRCLE);
         }
-        ResultTable peers = tank.where("status", "published");
         int shape = 0;
         for (String peer : peers.distinct("scheme")) {
             addSeries(chart, peer, peers.where("scheme", peer), column("run_time"), error, Color.DARK_GRAY)
