@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "commands.h"
+#include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/instruction_set.h"
 #include "natator/model_builder.h"
@@ -22,9 +23,14 @@ struct Options {
 
 ordered_json describe_program() {
     const std::optional<StartCache> starts = StartCache::of_user();
+    ordered_json devices = ordered_json::array();
+    for (const Device& device : cuda_devices())
+        devices.push_back(std::to_string(device.index) + ": " + device.name + ", compute capability " +
+                          device.capability + ", " + std::to_string(device.memory >> 20) + " MiB");
     return {{"version", NATATOR_VERSION},
             {"instructionSet", to_string(instruction_set())},
             {"startCache", starts ? starts->folder().string() : "none"},
+            {"devices", devices},
             {"scenes", scene_names()}};
 }
 

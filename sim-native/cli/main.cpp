@@ -27,6 +27,7 @@ int run_command(int argc, char** argv) {
         "Scenes are names (see `natator-sim info`) or paths ending in .json.");
     int status = ok;
     add_evaluate(app, status);
+    add_serve(app, status);
     add_run(app, status);
     add_info(app, status);
     add_particles(app, status);

@@ -63,7 +63,6 @@ TEST(EvaluateProtocolTest, EveryOptionalFieldHasItsEffect) {
     };
     EXPECT_EQ(with(R"({"backend":"cpu","scheme":"flex","precision":"float","perturbation":{"amplitude":0,"seed":9}})"),
               base);
-    EXPECT_EQ(with(R"({"backend":"auto"})"), base);
     EXPECT_EQ(with(R"({"precision":"double"})")["precision"], "double");
     EXPECT_NEAR(with(R"({"precision":"double"})")["distance"].get<double>(), base["distance"].get<double>(), 1e-2);
     EXPECT_NE(with(R"({"perturbation":{"amplitude":1e-5,"seed":1}})")["hash"], base["hash"]);

@@ -6,7 +6,7 @@
 #include "natator/actuate.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
-#include "natator/momentum.h"
+#include "law_figures.h"
 #include "perturb.h"
 #include "settle.h"
 
@@ -25,27 +25,6 @@ void observe(const Body& body, const State<Real>& state, const FrameObserver& on
     std::vector<Eigen::Vector3d> positions;
     for (const int particle : body.particles) positions.push_back(state.position[particle].template cast<double>());
     on_frame(state.time, positions);
-}
-
-/// The figures of the final state.
-template <class Real>
-LawFigures law_figures(const Model& model, const State<Real>& state, Solver<Real>& solver) {
-    const auto share = [](double part, double size) { return size > 0 ? part / size : 0; };
-    const Momentum momentum = measure_momentum(model, state, model.body.particles);
-    LawFigures figures;
-    figures.linear_momentum = share(momentum.linear, momentum.linear_size);
-    figures.angular_momentum = share(momentum.angular, momentum.angular_size);
-    double sum = 0, fluid = 0;
-    const std::vector<Real> densities = solver.densities();
-    for (int i = 0; i < model.particles(); ++i) {
-        if (!model.is_fluid(i)) continue;
-        const double excess = std::max(static_cast<double>(densities[i]) - 1, 0.0);
-        sum += excess;
-        fluid += 1;
-        figures.density_error_max = std::max(figures.density_error_max, excess);
-    }
-    figures.density_error_mean = share(sum, fluid);
-    return figures;
 }
 
 /// The start of the scene at rest: from the cache if it is there, else settled and kept there.
@@ -91,7 +70,7 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
     if (result.instability) {
         result.stopped = Stopped::unstable;
     } else {
-        result.laws = law_figures(model, state, solver);
+        result.laws = law_figures(model, state, solver.densities());
     }
     result.distance = path.back() - path.front();
     result.simulated = result.frames * scene.time_step;

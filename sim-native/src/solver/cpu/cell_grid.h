@@ -17,6 +17,13 @@ public:
     /// Lays the grid over [low, high]; a box of more than `max_cells` cells is cut down around its middle.
     void cover(const std::array<Real, 3>& low, const std::array<Real, 3>& high, Real search_distance, int max_cells);
 
+    /// The grid in numbers: a value lies in cell (value - low) * inverse_size of each axis.
+    struct Box {
+        std::array<Real, 3> low, inverse_size;
+        std::array<int, 3> count;
+    };
+    Box box() const { return {low_, inverse_size_, count_}; }
+
     int cells() const { return count_[0] * count_[1] * count_[2]; }
 
     int cell_x(Real x) const { return coordinate(x, 0); }

@@ -1,0 +1,36 @@
+#include "backend.h"
+
+#include <iostream>
+#include <optional>
+#include <set>
+
+#include "natator/error.h"
+
+namespace natator::cli {
+
+void add_backend_options(CLI::App* command, BackendChoice& choice) {
+    command->add_option("--backend", choice.name, "cpu, cuda (a GPU), or auto (a GPU where there is one).")
+        ->check(CLI::IsMember({"cpu", "cuda", "auto"}))
+        ->capture_default_str();
+    command->add_option("--device", choice.device, "Number of the GPU, see natator-sim info.")
+        ->check(CLI::Range(0, 1023))
+        ->capture_default_str();
+}
+
+bool on_gpu(const BackendChoice& choice, const Scene& scene) {
+    if (choice.name == "cpu") return false;
+    const int devices = static_cast<int>(cuda_devices().size());
+    if (choice.name == "cuda") {
+        if (choice.device < devices) return true;
+        throw NoDevice("backend = \"cuda\", device " + std::to_string(choice.device) +
+                       ": no such device here; must be one that natator-sim info lists, or backend \"cpu\"");
+    }
+    std::optional<std::string> reason = "no GPU here";
+    if (choice.device < devices) reason = gpu_refusal(scene);
+    if (!reason) return true;
+    static std::set<std::string> said;
+    if (said.insert(*reason).second) std::cerr << "natator-sim: backend auto: " << *reason << "; using the CPU\n";
+    return false;
+}
+
+}  // namespace natator::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "natator/batch.h"
+
+namespace natator::cli {
+
+/// Where a command computes.
+struct BackendChoice {
+    std::string name = "cpu";  ///< cpu, cuda or auto
+    int device = 0;            ///< number of the GPU
+};
+
+/// Adds --backend and --device.
+void add_backend_options(CLI::App* command, BackendChoice& choice);
+
+/// True if the scene is to be computed on the GPU. `auto` takes the GPU where there is one that does the whole scene,
+/// else says on standard error, once for each reason, why it takes the CPU. Throws NoDevice for `cuda` without a GPU.
+bool on_gpu(const BackendChoice& choice, const Scene& scene);
+
+}  // namespace natator::cli

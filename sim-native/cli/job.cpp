@@ -1,0 +1,36 @@
+#include "job.h"
+
+#include "natator/error.h"
+#include "natator/scene_json.h"
+
+namespace natator::cli {
+namespace {
+
+/// The request's gait; without one, of a scene that needs none, an empty gait.
+Gait gait_for(const Request& request, const Scene& scene) {
+    if (request.gait) return *request.gait;
+    const int actuators = scene.creature ? scene.creature->actuators() : 0;
+    if (actuators == 0) return {};
+    throw InputError("request: gait: missing; must be given, the creature has " + std::to_string(actuators) +
+                     " actuators");
+}
+
+}  // namespace
+
+Job read_job(const nlohmann::json& value, const BackendChoice& backend) {
+    Job job{.request = parse_request(value), .scene = {}, .gait = {}, .backend = backend};
+    if (job.request.backend) job.backend.name = *job.request.backend;
+    job.scene = load_scene(job.request.scene, job.request.overrides);
+    job.gait = gait_for(job.request, job.scene);
+    return job;
+}
+
+Evaluation evaluate_job(const Job& job, const StartCache* starts) {
+    const Request& request = job.request;
+    if (!on_gpu(job.backend, job.scene))
+        return evaluate(job.scene, job.gait, request.precision, request.perturbation, {}, starts);
+    return evaluate_on_gpu(job.scene, {{job.gait, request.perturbation}}, request.precision, job.backend.device)
+        .front();
+}
+
+}  // namespace natator::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "natator/evaluate.h"
+
+namespace natator {
+
+/// A GPU that this program can compute on.
+struct Device {
+    int index = 0;
+    std::string name;
+    std::string capability;  ///< of its instruction set, such as "9.0"
+    std::size_t memory = 0;  ///< bytes
+    int multiprocessors = 0;
+};
+
+/// All of them; empty without a GPU, without its driver, or if this program was built without CUDA.
+std::vector<Device> cuda_devices();
+
+/// Why the GPU's stages cannot do a scene, in one line; none if they can.
+std::optional<std::string> gpu_refusal(const Scene& scene);
+
+/// One evaluation of a batch.
+struct BatchMember {
+    Gait gait;
+    Perturbation perturbation;
+};
+
+/// Evaluates gaits in one scene on a GPU, all at once; member k of the result belongs to member k. The result of a
+/// member is the same, bit by bit, whatever the others and their number. A batch that does not fit into the device's
+/// memory is computed in parts. An unstable member's stage is "substep". Throws InputError when a gait does not fit the
+/// scene or the scene needs what the GPU's stages do not do, NoDevice without that GPU.
+std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
+                                        Precision precision = Precision::single_precision, int device = 0);
+
+}  // namespace natator

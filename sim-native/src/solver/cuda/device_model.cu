@@ -1,0 +1,175 @@
+#include "device_model.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "natator/error.h"
+#include "solver/cpu/cell_grid.h"
+#include "solver/cpu/substep.h"
+
+namespace natator::cuda {
+namespace {
+
+template <class Real>
+Vec3<Real> vec3(const Eigen::Vector3d& v) {
+    return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+}
+
+/// Particles listed by kind: position k of the result is what stands at `begin[k]` to `begin[k + 1]` of `shares`.
+struct Lists {
+    std::vector<int> begin;
+    std::vector<Share> shares;
+    explicit Lists(const std::vector<std::vector<Share>>& by_particle) {
+        for (const auto& list : by_particle) {
+            begin.push_back(static_cast<int>(shares.size()));
+            shares.insert(shares.end(), list.begin(), list.end());
+        }
+        begin.push_back(static_cast<int>(shares.size()));
+    }
+};
+
+}  // namespace
+
+template <class Real>
+DeviceModel<Real>::DeviceModel(const Model& model) {
+    const cpu::Constants<Real> constants(model.parameters);
+    const SolverParameters& p = model.parameters;
+    view_.plan = make_plan(model);
+    view_.particles = model.particles();
+    view_.radius = constants.radius;
+    view_.inverse_radius = constants.inverse_radius;
+    view_.search_distance = constants.search_distance;
+    view_.solid_rest_distance = constants.solid_rest_distance;
+    view_.density_scale = constants.density_scale;
+    view_.dynamic_friction = constants.dynamic_friction;
+    view_.static_friction = constants.static_friction;
+    view_.particle_friction = constants.particle_friction;
+    view_.collision_distance = constants.collision_distance;
+    view_.plane_search_distance = constants.plane_search_distance;
+    view_.relaxation_factor = constants.relaxation_factor;
+    view_.max_speed = constants.max_speed;
+    view_.viscosity = static_cast<Real>(p.viscosity);
+    view_.damping = static_cast<Real>(p.damping);
+    view_.max_acceleration = static_cast<Real>(p.maxAcceleration);
+    view_.solid_pressure = static_cast<Real>(p.solidPressure);
+    view_.local_relaxation = p.relaxationMode == RelaxationMode::local;
+    view_.gravity = vec3<Real>(p.gravity);
+    view_.fluid_gravity = vec3<Real>(p.gravity * p.buoyancy);
+    view_.iterations = p.numIterations;
+    view_.most_neighbours = p.maxNeighborsPerParticle;
+    view_.planes = static_cast<int>(model.planes.size());
+    for (int k = 0; k < view_.planes; ++k) {
+        const Plane& plane = model.planes[k];
+        view_.plane[k] = {vec3<Real>(plane.normal),
+                          static_cast<Real>(plane.offset),
+                          {plane.normal.x(), plane.normal.y(), plane.normal.z()},
+                          plane.offset};
+    }
+
+    number_of_.resize(model.particles());
+    for (int i = 0; i < model.particles(); ++i)
+        if (model.is_fluid(i)) number_of_[i] = view_.fluid++;
+    for (int i = 0; i < model.particles(); ++i)
+        if (!model.is_fluid(i)) number_of_[i] = view_.fluid + view_.solids++;
+
+    std::vector<Real> inverse_mass(model.particles());
+    std::vector<std::uint32_t> phase(model.particles());
+    std::vector<Vec3<Real>> rest(model.rest_position.size());
+    for (int i = 0; i < model.particles(); ++i) {
+        inverse_mass[number_of_[i]] = static_cast<Real>(model.inverse_mass[i]);
+        phase[number_of_[i]] = model.phase[i];
+        if (!rest.empty()) rest[number_of_[i]] = vec3<Real>(model.rest_position[i]);
+    }
+    view_.inverse_mass = keep(inverse_mass_, inverse_mass);
+    view_.phase = keep(phase_, phase);
+    view_.rest_position = keep(rest_position_, rest);
+    upload_solids(model);
+    lay_grid(model);
+}
+
+template <class Real>
+void DeviceModel<Real>::upload_solids(const Model& model) {
+    const auto solid = [this](int i) { return number_of_[i] - view_.fluid; };
+    std::vector<std::vector<Share>> spring_shares(view_.solids), cluster_shares(view_.solids);
+    std::vector<SpringView<Real>> springs;
+    for (const Spring& spring : model.springs) {
+        const int index = static_cast<int>(springs.size());
+        const int a = solid(spring.a), b = solid(spring.b);
+        if (a < 0 || b < 0) throw InputError("backend cuda: a spring on a fluid particle; must be on solids");
+        springs.push_back({a, b, static_cast<Real>(spring.rest_length), static_cast<Real>(spring.stiffness)});
+        spring_shares[a].push_back({index, b});
+        spring_shares[b].push_back({index, a});
+    }
+    std::vector<MuscleView> muscles;
+    for (const Muscle& muscle : model.muscles)
+        muscles.push_back({muscle.spring, muscle.actuator, model.springs[muscle.spring].rest_length, muscle.lateral});
+
+    std::vector<ClusterView<Real>> clusters;
+    std::vector<int> members;
+    std::vector<Vec3<Real>> offsets;
+    for (const Cluster& cluster : model.clusters) {
+        const int index = static_cast<int>(clusters.size());
+        const int begin = static_cast<int>(members.size());
+        for (std::size_t m = 0; m < cluster.particles.size(); ++m) {
+            const int s = solid(cluster.particles[m]);
+            if (s < 0) throw InputError("backend cuda: a cluster with a fluid particle; must be of solids");
+            cluster_shares[s].push_back({index, static_cast<int>(members.size())});
+            members.push_back(s);
+            offsets.push_back(vec3<Real>(cluster.rest_offset[m]));
+        }
+        clusters.push_back({begin, static_cast<int>(members.size()), static_cast<Real>(cluster.stiffness)});
+    }
+    std::vector<int> body;
+    for (const int i : model.body.particles) body.push_back(solid(i));
+
+    const Lists spring_lists(spring_shares), cluster_lists(cluster_shares);
+    view_.springs = static_cast<int>(springs.size());
+    view_.muscles = static_cast<int>(muscles.size());
+    view_.clusters = static_cast<int>(clusters.size());
+    view_.actuators = model.actuators;
+    view_.body = static_cast<int>(body.size());
+    view_.spring = keep(spring_, springs);
+    view_.muscle = keep(muscle_, muscles);
+    view_.cluster = keep(cluster_, clusters);
+    view_.member = keep(member_, members);
+    view_.offset = keep(offset_, offsets);
+    view_.spring_shares_begin = keep(spring_shares_begin_, spring_lists.begin);
+    view_.spring_share = keep(spring_share_, spring_lists.shares);
+    view_.cluster_shares_begin = keep(cluster_shares_begin_, cluster_lists.begin);
+    view_.cluster_share = keep(cluster_share_, cluster_lists.shares);
+    view_.body_particle = keep(body_particle_, body);
+}
+
+/// Over the box of the start positions, extended to the planes that face an axis. The tables of the fluid's and the
+/// solids' cells and the sort's keys must fit where a buffer of positions does: 16 bytes a particle.
+template <class Real>
+void DeviceModel<Real>::lay_grid(const Model& model) {
+    std::array<Real, 3> low{}, high{};
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::numeric_limits<Real>::max();
+        high[axis] = std::numeric_limits<Real>::lowest();
+        for (const Eigen::Vector3d& x : model.position) {
+            low[axis] = std::min(low[axis], static_cast<Real>(x[axis]));
+            high[axis] = std::max(high[axis], static_cast<Real>(x[axis]));
+        }
+        for (const Plane& plane : model.planes) {
+            if (plane.normal[axis] == 1) low[axis] = std::max(low[axis] - view_.radius, Real(-plane.offset));
+            if (plane.normal[axis] == -1) high[axis] = std::min(high[axis] + 100 * view_.radius, Real(plane.offset));
+        }
+    }
+    const int most_cells = std::max(64, (model.particles() * 12 - 64) / 8);
+    cpu::CellGrid<Real> grid;
+    grid.cover(low, high, view_.search_distance, most_cells);
+    const auto box = grid.box();
+    for (int axis = 0; axis < 3; ++axis) {
+        view_.grid.low[axis] = box.low[axis];
+        view_.grid.inverse_size[axis] = box.inverse_size[axis];
+        view_.grid.count[axis] = box.count[axis];
+    }
+    view_.grid.cells = grid.cells();
+}
+
+template class DeviceModel<float>;
+template class DeviceModel<double>;
+
+}  // namespace natator::cuda

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "device_buffer.h"
+#include "model_view.h"
+#include "natator/model.h"
+
+namespace natator::cuda {
+
+/// Owns the device's copy of a Model.
+template <class Real>
+class DeviceModel {
+public:
+    /// At most `most_planes` planes. Throws InputError for springs or clusters of fluid, std::bad_alloc without memory.
+    explicit DeviceModel(const Model& model);
+
+    const ModelView<Real>& view() const { return view_; }
+    /// Device number of each particle of the Model.
+    const std::vector<int>& number_of() const { return number_of_; }
+
+private:
+    template <class T>
+    const T* keep(DeviceBuffer<T>& buffer, const std::vector<T>& values) {
+        buffer = DeviceBuffer<T>(values);
+        return buffer.data();
+    }
+    void upload_solids(const Model& model);
+    void lay_grid(const Model& model);
+
+    ModelView<Real> view_{};
+    std::vector<int> number_of_;
+    DeviceBuffer<Real> inverse_mass_;
+    DeviceBuffer<std::uint32_t> phase_;
+    DeviceBuffer<Vec3<Real>> rest_position_, offset_;
+    DeviceBuffer<SpringView<Real>> spring_;
+    DeviceBuffer<MuscleView> muscle_;
+    DeviceBuffer<ClusterView<Real>> cluster_;
+    DeviceBuffer<int> member_, spring_shares_begin_, cluster_shares_begin_, body_particle_;
+    DeviceBuffer<Share> spring_share_, cluster_share_;
+};
+
+}  // namespace natator::cuda

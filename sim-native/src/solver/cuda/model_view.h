@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+
+#include "natator/plan.h"
+#include "vec3.cuh"
+
+namespace natator::cuda {
+
+/// Cells as in the CPU's CellGrid, laid once over the scene's box: positions outside belong to its border cells.
+template <class Real>
+struct GridView {
+    Real low[3], inverse_size[3];
+    int count[3];
+    int cells;
+
+    static constexpr int reach_x = 4;
+
+    __device__ int coordinate(Real value, int axis) const {
+        const Real cells_from_low = (value - low[axis]) * inverse_size[axis];
+        if (!(cells_from_low > 0)) return 0;  // also for NaN
+        const Real last = static_cast<Real>(count[axis] - 1);
+        return cells_from_low < last ? static_cast<int>(cells_from_low) : count[axis] - 1;
+    }
+    __device__ int cell(const Vec3<Real>& x) const {
+        return (coordinate(x.z, 2) * count[1] + coordinate(x.y, 1)) * count[0] + coordinate(x.x, 0);
+    }
+
+    /// Calls visit(first_cell, last_cell) for each run of cells that may hold particles within the search distance.
+    template <class Visit>
+    __device__ void for_each_run(const Vec3<Real>& x, const Visit& visit) const {
+        const int cx = coordinate(x.x, 0), cy = coordinate(x.y, 1), cz = coordinate(x.z, 2);
+        const int first_x = max(cx - reach_x, 0);
+        const int last_x = min(cx + reach_x, count[0] - 1);
+        for (int iz = max(cz - 1, 0); iz <= min(cz + 1, count[2] - 1); ++iz)
+            for (int iy = max(cy - 1, 0); iy <= min(cy + 1, count[1] - 1); ++iy) {
+                const int row = (iz * count[1] + iy) * count[0];
+                visit(row + first_x, row + last_x);
+            }
+    }
+};
+
+template <class Real>
+struct PlaneView {
+    Vec3<Real> normal;
+    Real offset;
+    double normal_d[3], offset_d;  ///< for the measurement
+};
+
+template <class Real>
+struct SpringView {
+    int a, b;  ///< solid ids
+    Real rest_length, stiffness;
+};
+
+struct MuscleView {
+    int spring, actuator;
+    double rest_length, lateral;
+};
+
+template <class Real>
+struct ClusterView {
+    int begin, end;  ///< of its members
+    Real stiffness;
+};
+
+/// One entry of what acts on a solid particle: a spring with its other end, or a cluster with a member's rest offset.
+struct Share {
+    int constraint;
+    int other;  ///< spring: solid id of the other end; cluster: index of the member
+};
+
+inline constexpr int most_planes = 16;
+
+/// A Model in device memory. Particles are numbered anew: first the fluid, then the solids, each in the Model's order.
+template <class Real>
+struct ModelView {
+    Plan plan;
+    int particles, fluid, solids;
+
+    Real radius, inverse_radius, search_distance, solid_rest_distance, density_scale;
+    Real dynamic_friction, static_friction, particle_friction, collision_distance, plane_search_distance;
+    Real viscosity, damping, max_acceleration, max_speed, relaxation_factor, solid_pressure;
+    bool local_relaxation;
+    Vec3<Real> gravity, fluid_gravity;
+    int iterations, most_neighbours;
+
+    GridView<Real> grid;
+    int planes;
+    PlaneView<Real> plane[most_planes];
+
+    const Real* inverse_mass;         ///< by particle
+    const std::uint32_t* phase;       ///< by particle
+    const Vec3<Real>* rest_position;  ///< by particle; null if no particle filters its collisions
+
+    int springs, clusters, muscles, actuators;
+    const SpringView<Real>* spring;
+    const MuscleView* muscle;
+    const ClusterView<Real>* cluster;
+    const int* member;               ///< solid ids, cluster by cluster
+    const Vec3<Real>* offset;        ///< rest position minus mean of the rest positions, by member
+    const int* spring_shares_begin;  ///< by solid, one more at the end
+    const Share* spring_share;
+    const int* cluster_shares_begin;  ///< by solid, one more at the end
+    const Share* cluster_share;
+
+    int body;                  ///< particles of the swimmer
+    const int* body_particle;  ///< solid ids
+};
+
+}  // namespace natator::cuda

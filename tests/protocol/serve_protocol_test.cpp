@@ -1,0 +1,87 @@
+// natator-sim serve: a stream of requests, each answered once by its id.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "child_process.h"
+
+namespace natator::test {
+namespace {
+
+using nlohmann::json;
+
+std::string request(int id, const std::string& more = "") {
+    return R"({"id":)" + std::to_string(id) +
+           R"(,"scene":"thesis/creature-1-vacuum","duration":0.1,"gait":{"frequency":1,"amplitude":[0.5,0.)" +
+           std::to_string(id % 10) + R"(],"phase":[0,0.25]})" + more + "}\n";
+}
+
+/// The answers by id; -1 stands for null.
+std::map<int, json> answers(const Outcome& outcome) {
+    std::map<int, json> by_id;
+    std::istringstream text(outcome.out);
+    for (std::string line; std::getline(text, line);) {
+        const json answer = json::parse(line);
+        by_id[answer["id"].is_null() ? -1 : answer["id"].get<int>()] = answer;
+    }
+    return by_id;
+}
+
+TEST(ServeProtocolTest, EveryRequestIsAnsweredAsEvaluateAnswersIt) {
+    const Outcome served = run_simulator({"serve"}, request(1) + "\n" + request(2) + request(3));
+    EXPECT_EQ(served.exit_code, 0) << served.err;
+    EXPECT_EQ(served.err, "");
+    EXPECT_EQ(lines(served.out), 3);
+    const auto by_id = answers(served);
+    for (const int id : {1, 2, 3}) {
+        ASSERT_TRUE(by_id.contains(id));
+        EXPECT_EQ(by_id.at(id), json::parse(run_simulator({"evaluate"}, request(id)).out));
+    }
+    EXPECT_NE(by_id.at(1)["hash"], by_id.at(2)["hash"]);
+}
+
+TEST(ServeProtocolTest, ABadRequestSpoilsNoOther) {
+    const Outcome served = run_simulator(
+        {"serve"}, request(1) + "{half a li\n" + request(2, R"(,"speed":9)") + request(3) + "[]\n");
+    EXPECT_EQ(served.exit_code, 0) << served.err;
+    const auto by_id = answers(served);
+    EXPECT_EQ(by_id.at(1)["status"], "ok");
+    EXPECT_EQ(by_id.at(3)["status"], "ok");
+    EXPECT_EQ(by_id.at(2)["status"], "error");
+    EXPECT_NE(by_id.at(2)["error"].get<std::string>().find("speed"), std::string::npos);
+    EXPECT_EQ(by_id.at(-1)["status"], "error");
+    EXPECT_EQ(lines(served.out), 5);
+}
+
+TEST(ServeProtocolTest, TheLastLineNeedsNoEnd) {
+    std::string text = request(1);
+    text.pop_back();
+    EXPECT_EQ(lines(run_simulator({"serve"}, text).out), 1);
+    const Outcome nothing = run_simulator({"serve"}, "");
+    EXPECT_EQ(nothing.exit_code, 0);
+    EXPECT_EQ(nothing.out, "");
+}
+
+TEST(ServeProtocolTest, AnsweringIntoAFullDiskIsAFailure) {
+    EXPECT_EQ(run_simulator({"serve"}, request(1), "/dev/full").exit_code, 1);
+}
+
+/// Device 1023 is nowhere, so these hold on machines with a GPU too.
+TEST(BackendTest, AMissingGpuIsSaidOnceAndHasAnExitCode) {
+    const Outcome cuda = run_simulator({"serve", "--backend", "cuda", "--device", "1023"}, request(1));
+    EXPECT_EQ(cuda.exit_code, 4);
+    EXPECT_EQ(cuda.out, "");
+    EXPECT_EQ(lines(cuda.err), 1);
+    EXPECT_NE(cuda.err.find("device 1023"), std::string::npos) << cuda.err;
+
+    const Outcome automatic = run_simulator({"serve", "--backend", "auto", "--device", "1023"}, request(1) + request(2));
+    EXPECT_EQ(automatic.exit_code, 0);
+    EXPECT_EQ(lines(automatic.out), 2);
+    EXPECT_EQ(lines(automatic.err), 1);
+    EXPECT_NE(automatic.err.find("using the CPU"), std::string::npos) << automatic.err;
+}
+
+}  // namespace
+}  // namespace natator::test
