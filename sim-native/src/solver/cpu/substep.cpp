@@ -29,7 +29,8 @@ Substep<Real>::Substep(const Model& model)
       plan_(make_plan(model)),
       constants_(model.parameters),
       ws_(model),
-      kernels_(&fluid_kernels<Real>(instruction_set())) {
+      kernels_(&fluid_kernels<Real>(instruction_set())),
+      neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())) {
     new_velocity_.resize(model.particles());
     if (plan_.dissipation || plan_.fluid_forces) velocity_change_.resize(model.particles());
     if (plan_.dissipation) overlaps_.resize(ws_.slots);

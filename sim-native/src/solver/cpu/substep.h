@@ -7,6 +7,7 @@
 #include "fluid_kernels.h"
 #include "natator/plan.h"
 #include "natator/solver.h"
+#include "neighbour_kernels.h"
 #include "workspace.h"
 
 namespace natator::cpu {
@@ -111,6 +112,7 @@ protected:
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep
     std::vector<Vector3<Real>> cluster_centre_;
     const FluidKernels<Real>* kernels_;
+    const NeighbourKernels<Real>* neighbour_kernels_;
 
 private:
     void add_surface_tension();

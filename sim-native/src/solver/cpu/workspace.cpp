@@ -23,6 +23,8 @@ Workspace<Real>::Workspace(const Model& model) : particles(model.particles()) {
     constraint_count.resize(all);
     inverse_mass.resize(all);
     for (auto* array : {&solid_density, &density, &compression}) array->resize(fluid > 0 ? all : 0);
+    packed.resize(fluid > 0 ? 4 * all : 0);
+    packed_velocity.resize(packed.size());
     row_begin.assign(blocks() + 1, 0);
     neighbour_count.assign(fluid > 0 ? solid_begin : 0, 0);
 

@@ -55,8 +55,11 @@ struct Workspace {
 
     // Fluid neighbours in sliced ELLPACK: block b holds rows [row_begin[b], row_begin[b+1]) of 16 slots each.
     std::vector<int> row_begin;
-    AlignedVector<std::int32_t> neighbour;
+    AlignedVector<std::int32_t> neighbour;  ///< longer than the rows need
     std::vector<int> neighbour_count;  ///< by slot
+
+    // Room for the fluid kernels, see FluidView.
+    AlignedVector<Real> packed, packed_velocity, distance;
 
     // Contacts, pairs that are not both fluid: neighbours of touched[k] are contact[contact_begin[k] .. [k+1]).
     std::vector<int> touched;
