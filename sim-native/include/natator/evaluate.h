@@ -45,6 +45,7 @@ using FrameObserver = std::function<void(double time, const std::vector<Eigen::V
 /// Settles the scene and runs it with a gait until its duration or an early stop.
 /// Throws InputError when the gait does not fit the scene.
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision = Precision::single_precision,
-                    const Perturbation& perturbation = {}, const FrameObserver& on_frame = {});
+                    const Perturbation& perturbation = {}, const FrameObserver& on_frame = {},
+                    const Execution& execution = {});
 
 }  // namespace natator

@@ -50,12 +50,13 @@ LawFigures law_figures(const Model& model, const State<Real>& state, Solver<Real
 
 /// Runs frame by frame to the duration or an early stop.
 template <class Real>
-Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const FrameObserver& on_frame) {
+Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const FrameObserver& on_frame,
+                       const Execution& execution) {
     const bool swims = !model.body.particles.empty();
     const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
     const double window = swims ? std::round(scene.stopping.no_progress_after / scene.time_step) : 0;
 
-    Solver<Real> solver(model);
+    Solver<Real> solver(model, execution);
     State<Real> state = initial_state<Real>(model);
     Evaluation result;
     result.instability = settle(scene.settling, solver, state);
@@ -88,12 +89,12 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
 }  // namespace
 
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision, const Perturbation& perturbation,
-                    const FrameObserver& on_frame) {
+                    const FrameObserver& on_frame, const Execution& execution) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
     Model model = build_model(scene);
     perturb(perturbation, model);
-    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame)
-                                                    : evaluate_as<float>(scene, model, gait, on_frame);
+    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame, execution)
+                                                    : evaluate_as<float>(scene, model, gait, on_frame, execution);
 }
 
 }  // namespace natator
