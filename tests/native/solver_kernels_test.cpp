@@ -1,10 +1,13 @@
 // The vector kernels against the plain loops that define them.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
 #include <random>
 
 #include "solver/cpu/aligned.h"
 #include "solver/cpu/fluid_kernels.h"
+#include "solver/cpu/motion_kernels.h"
 #include "solver/cpu/neighbour_kernels.h"
 
 namespace natator::cpu {
@@ -119,22 +122,31 @@ TEST_P(SolverKernels, Viscosity) {
     expect_near(fluid.correction.z, expected.correction.z);
 }
 
-/// Runs of all lengths, also empty ones, from all places.
+/// Runs of all lengths, from all places; the longest are those of a pile of particles in one cell.
 TEST_P(SolverKernels, NeighboursOfRuns) {
-    Fluid fluid;
-    const FluidView<float> view = fluid.view();
-    const SlotRun runs[] = {{0, 1}, {2, 2}, {3, 10}, {11, 27}, {27, 44}, {50, 80}};
-    std::vector<std::int32_t> found(200), expected(200);
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<float> place(0, 0.4f);
+    constexpr int slots = 900, longest = 600;
+    Vector3Array<float> x;
+    x.resize(slots + block_size);
+    for (int slot = 0; slot < slots; ++slot) x.set(slot, {place(random), place(random), place(random)});
+    const float* const position[3] = {x.x.data(), x.y.data(), x.z.data()};
+    SlotRuns runs;
+    for (const auto& [begin, end] :
+         {std::pair{0, 1}, {2, 2}, {3, 10}, {11, 27}, {27, 44}, {44, 44 + 256}, {300, 300 + longest}}) {
+        runs.begin[runs.count] = begin;
+        runs.end[runs.count++] = end;
+    }
+    std::vector<std::int32_t> found(slots + block_size), expected(slots + block_size);
     int all = 0;
-    for (int slot = 0; slot < Fluid::far_slot; ++slot) {
-        const int n = neighbour_kernels<float>(GetParam())
-                          .find(view.position, slot, runs, std::size(runs), radius * radius, found.data());
+    for (int slot = 0; slot < slots; slot += 7) {
+        const int n = neighbour_kernels<float>(GetParam()).find(position, slot, runs, radius * radius, found.data());
         ASSERT_EQ(n, scalar_neighbour_kernels<float>(GetParam())
-                         .find(view.position, slot, runs, std::size(runs), radius * radius, expected.data()));
+                         .find(position, slot, runs, radius * radius, expected.data()));
         for (int k = 0; k < n; ++k) EXPECT_EQ(found[k], expected[k]);
         all += n;
     }
-    EXPECT_GT(all, 100);
+    EXPECT_GT(all, 1000);
 }
 
 TEST_P(SolverKernels, ListsSideBySide) {
@@ -154,6 +166,74 @@ TEST_P(SolverKernels, ListsSideBySide) {
     for (int k = 0; k < rows * block_size; ++k) EXPECT_EQ(to[k], expected[k]) << k;
     EXPECT_EQ(expected[block_size * 6 + 1], 1006);
     EXPECT_EQ(expected[block_size * 7 + 1], -1);
+}
+
+/// No product is fused, so these agree to the last bit with the portable set.
+TEST_P(SolverKernels, MotionIsTheSameInAllSets) {
+    const MotionKernels<float>& motion = motion_kernels<float>(GetParam());
+    const MotionKernels<float>& portable = scalar_motion_kernels<float>(InstructionSet::portable);
+    Fluid fluid, expected;
+    for (const auto& [set, particles] : {std::pair{&motion, &fluid}, {&portable, &expected}}) {
+        Vector3Array<float> start = particles->position, predicted = particles->velocity;
+        for (int slot = 0; slot < Fluid::far_slot; ++slot) {
+            particles->correction.set(slot, 0.1f * particles->velocity.at(slot));
+            particles->constraint_count[slot] = static_cast<float>(slot % 5);
+        }
+        const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
+        const auto x = pointers(particles->position), x0 = pointers(start), v0 = pointers(predicted),
+                   dx = pointers(particles->correction), v = pointers(particles->velocity);
+        const MotionView<float> slots{.blocks = Fluid::blocks,
+                                      .position = {x[0], x[1], x[2]},
+                                      .start = {x0[0], x0[1], x0[2]},
+                                      .predicted = {v0[0], v0[1], v0[2]},
+                                      .correction = {dx[0], dx[1], dx[2]},
+                                      .constraint_count = particles->constraint_count.data(),
+                                      .velocity = {v[0], v[1], v[2]}};
+        set->relax(slots, 2, true);
+        set->relax(slots, 0.1f, false);
+        PlaneView<float> plane{.normal = {0.6f, 0, 0.8f},
+                               .offset = -0.2f,
+                               .distance = 0.05f,
+                               .friction = false,
+                               .static_friction = 0.3f,
+                               .dynamic_friction = 0.2f};
+        int pushed = 0;
+        for (int block = 0; block < Fluid::blocks; ++block) {
+            plane.friction = block % 2 == 0;
+            const unsigned near = set->near_plane(slots, block, plane);
+            pushed += std::popcount(near);
+            set->push_from_plane(slots, block, near & 0xbfffu, plane);
+        }
+        EXPECT_GT(pushed, 10);
+        set->displacement_velocity(slots, 240);
+        EXPECT_TRUE(set->finite(v[0], Fluid::far_slot));
+        set->finish_velocity(slots, {.viscous_blocks = 3,
+                                         .viscosity_step = 0.1f,
+                                         .damping = true,
+                                         .damping_step = 0.01f,
+                                         .clamp_acceleration = true,
+                                         .most_change = 5,
+                                         .clamp_speed = true,
+                                         .max_speed = 4.5f});
+    }
+    EXPECT_EQ(fluid.position.x, expected.position.x);
+    EXPECT_EQ(fluid.position.y, expected.position.y);
+    EXPECT_EQ(fluid.position.z, expected.position.z);
+    EXPECT_EQ(fluid.velocity.x, expected.velocity.x);
+    EXPECT_EQ(fluid.velocity.y, expected.velocity.y);
+    EXPECT_EQ(fluid.velocity.z, expected.velocity.z);
+}
+
+TEST_P(SolverKernels, FiniteSeesEveryValue) {
+    std::vector<float> values(37, 1);
+    EXPECT_TRUE(motion_kernels<float>(GetParam()).finite(values.data(), 37));
+    for (const int place : {0, 15, 16, 36}) {
+        for (const float bad : {std::nanf(""), -INFINITY}) {
+            std::vector<float> with_bad = values;
+            with_bad[place] = bad;
+            EXPECT_FALSE(motion_kernels<float>(GetParam()).finite(with_bad.data(), 37)) << place;
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(AllSets, SolverKernels,

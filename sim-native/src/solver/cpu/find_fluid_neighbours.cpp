@@ -38,6 +38,8 @@ void Substep<Real>::find_fluid_neighbours() {
     const Real* const position[3] = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()};
     const Real distance_squared = constants_.search_distance * constants_.search_distance;
     const int most = model_.parameters.maxNeighborsPerParticle;
+    int row = -1;
+    typename CellGrid<Real>::Rows rows_around;
     std::size_t end = 0;
     for (int block = 0; block < ws_.blocks(); ++block) {
         int rows = 0;
@@ -46,18 +48,16 @@ void Substep<Real>::find_fluid_neighbours() {
         for (int lane = 0; lane < lanes; ++lane) {
             const int slot = block * lanes + lane;
             if (slot >= ws_.fluid) continue;
-            std::array<SlotRun, 9> runs;
-            int run_count = 0;
-            int candidates = 0;
-            ws_.grid.for_each_run(position[0][slot], position[1][slot], position[2][slot], [&](int first, int last) {
-                const SlotRun run{ws_.fluid_cell_begin[first], ws_.fluid_cell_begin[last + 1]};
-                if (run.begin == run.end) return;
-                candidates += run.end - run.begin;
-                runs[run_count++] = run;
-            });
+            const int cell = ws_.cell_of[ws_.particle_of[slot]];
+            if (ws_.grid.row(cell) != row) {
+                row = ws_.grid.row(cell);
+                rows_around = ws_.grid.rows_around(row);
+            }
+            SlotRuns runs;
+            const int candidates = add_runs(rows_around, cell, ws_.fluid_cell_begin, runs);
             std::vector<std::int32_t>& found = found_[lane];
             if (static_cast<int>(found.size()) < candidates + lanes) found.resize(2 * candidates + lanes);
-            int n = neighbour_kernels_->find(position, slot, runs.data(), run_count, distance_squared, found.data());
+            int n = neighbour_kernels_->find(position, slot, runs, distance_squared, found.data());
             if (!plan_.uniform_fluid) {
                 const int i = ws_.particle_of[slot];
                 const auto unfelt = [&](int j) { return !collides(i, ws_.particle_of[j]); };

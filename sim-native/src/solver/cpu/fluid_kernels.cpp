@@ -58,22 +58,19 @@ void compute_density(const FluidView<Real>& fluid) {
     }
 }
 
-/// Lays the positions of the fluid and of the far slot out as quadruples (x, y, z, 0).
-void pack_positions(const FluidView<float>& fluid) {
-    const auto pack = [&](int slot) {
-        float* const to = fluid.packed + 4 * slot;
-        to[0] = fluid.position[0][slot];
-        to[1] = fluid.position[1][slot];
-        to[2] = fluid.position[2][slot];
-        to[3] = 0;
+/// Lays three arrays out as quadruples (x, y, z, w), also for the far slot.
+void pack(const FluidView<float>& fluid, const float* const from[3], const float* w, float* to) {
+    const auto pack_group = [&](int slot) {
+        store_quadruples(to + 4 * slot,
+                         {load(from[0] + slot), load(from[1] + slot), load(from[2] + slot), load(w + slot)});
     };
-    for (int slot = 0; slot < fluid.blocks * lanes; ++slot) pack(slot);
-    pack(fluid.far_slot);
+    for (int slot = 0; slot < fluid.blocks * lanes; slot += width) pack_group(slot);
+    pack_group(fluid.far_slot / width * width);
 }
 
 /// Also keeps each pair's distance for solve_density_constraint.
 void compute_density(const FluidView<float>& fluid) {
-    pack_positions(fluid);
+    pack(fluid, fluid.position, fluid.compression, fluid.packed);
     const std::int32_t* const neighbours = fluid.neighbour;
     const float* const packed = fluid.packed;
     float* const distance = fluid.distance;
@@ -137,7 +134,7 @@ void solve_density_constraint(const FluidView<Real>& fluid) {
 
 /// At the positions and with the distances that compute_density has left.
 void solve_density_constraint(const FluidView<float>& fluid) {
-    for (int slot = 0; slot < fluid.blocks * lanes; ++slot) fluid.packed[4 * slot + 3] = fluid.compression[slot];
+    pack(fluid, fluid.position, fluid.compression, fluid.packed);
     const std::int32_t* const neighbours = fluid.neighbour;
     const float* const packed = fluid.packed;
     const float* const distance = fluid.distance;
@@ -204,9 +201,8 @@ void smooth_velocities(const FluidView<Real>& fluid) {
 }
 
 void smooth_velocities(const FluidView<float>& fluid) {
-    pack_positions(fluid);
-    for (int slot = 0; slot < fluid.blocks * lanes; ++slot)
-        for (int axis = 0; axis < 3; ++axis) fluid.packed_velocity[4 * slot + axis] = fluid.velocity[axis][slot];
+    pack(fluid, fluid.position, fluid.compression, fluid.packed);
+    pack(fluid, fluid.velocity, fluid.compression, fluid.packed_velocity);
     const std::int32_t* const neighbours = fluid.neighbour;
     const float* const packed = fluid.packed;
     const float* const packed_velocity = fluid.packed_velocity;

@@ -6,6 +6,7 @@
 
 #include "conserving/density_kernels.h"
 #include "fluid_kernels.h"
+#include "motion_kernels.h"
 #include "natator/error.h"
 #include "neighbour_kernels.h"
 
@@ -107,6 +108,8 @@ struct KernelTables {
 
 NATATOR_CHOICE(FluidKernels, fluid_kernels)
 NATATOR_CHOICE(FluidKernels, scalar_fluid_kernels)
+NATATOR_CHOICE(MotionKernels, motion_kernels)
+NATATOR_CHOICE(MotionKernels, scalar_motion_kernels)
 NATATOR_CHOICE(NeighbourKernels, neighbour_kernels)
 NATATOR_CHOICE(NeighbourKernels, scalar_neighbour_kernels)
 NATATOR_CHOICE(DensityKernels, density_kernels)

@@ -65,6 +65,11 @@ inline Floats count_positive(Floats counter, Floats v) {
     return _mm512_mask_add_ps(counter, positive, counter, _mm512_set1_ps(1));
 }
 
+/// 1 in the lanes whose bit is set, else 0.
+inline Floats ones(unsigned bits) {
+    return _mm512_maskz_mov_ps(static_cast<__mmask16>(bits), _mm512_set1_ps(1));
+}
+
 /// Four particles, 4 lanes apart, as the 128-bit parts of one vector.
 inline __m512 four_apart(const float* packed, const std::int32_t* index) {
     const auto particle = [&](int lane) { return _mm_load_ps(packed + 4 * static_cast<std::int64_t>(index[lane])); };
@@ -96,22 +101,23 @@ inline Ints consecutive(int first) {
     return _mm512_add_epi32(_mm512_set1_epi32(first),
                             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
 }
-/// Bit per lane: the first `count` lanes, count >= 1.
+/// Bit per lane: the first `count` lanes, or all, count >= 0.
 inline unsigned first_lanes(int count) {
-    return _bzhi_u32(0xffff, static_cast<unsigned>(count));
+    return _bzhi_u32(0xffff, static_cast<unsigned>(count < width ? count : width));
 }
 /// Bit per lane: 0 < v < limit.
 inline unsigned positive_and_below(Floats v, Floats limit) {
     const __mmask16 below = _mm512_cmp_ps_mask(v, limit, _CMP_LT_OQ);
     return _mm512_mask_cmp_ps_mask(below, v, _mm512_setzero_ps(), _CMP_GT_OQ);
 }
-/// Writes the chosen lanes one behind the other, and anything into the rest of `width` entries.
-inline void store_chosen(std::int32_t* to, Ints values, unsigned chosen) {
+/// Writes the chosen lanes one behind the other, and anything into the rest of `width` entries. Returns their number.
+inline int store_chosen(std::int32_t* to, Ints values, unsigned chosen) {
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), values));
+    return __builtin_popcount(chosen);
 }
 /// from[0 .. count) and the filler behind; reads nothing there.
 inline Ints load_first(const std::int32_t* from, int count, std::int32_t filler) {
-    const auto wanted = static_cast<__mmask16>(count < 0 ? 0 : first_lanes(count > width ? width : count));
+    const auto wanted = static_cast<__mmask16>(first_lanes(count < 0 ? 0 : count));
     return _mm512_mask_loadu_epi32(_mm512_set1_epi32(filler), wanted, from);
 }
 /// Entry k of vector m becomes entry m of vector k.
@@ -139,6 +145,25 @@ inline void transpose(Ints (&rows)[width]) {
     }
 }
 
+/// Writes (x, y, z, w) lane by lane.
+inline void store_quadruples(float* to, Floats4 v) {
+    const __m512 xy_low = _mm512_unpacklo_ps(v.x, v.y), zw_low = _mm512_unpacklo_ps(v.z, v.w);
+    const __m512 xy_high = _mm512_unpackhi_ps(v.x, v.y), zw_high = _mm512_unpackhi_ps(v.z, v.w);
+    const auto joined = [](__m512 xy, __m512 zw, bool second) {
+        const __m512d a = _mm512_castps_pd(xy), b = _mm512_castps_pd(zw);
+        return _mm512_castpd_ps(second ? _mm512_unpackhi_pd(a, b) : _mm512_unpacklo_pd(a, b));
+    };
+    // Quadruple k holds the lanes k, k + 4, k + 8, k + 12.
+    const __m512 quadruple[4] = {joined(xy_low, zw_low, false), joined(xy_low, zw_low, true),
+                                 joined(xy_high, zw_high, false), joined(xy_high, zw_high, true)};
+    for (int k = 0; k < 4; ++k) {
+        _mm_store_ps(to + 4 * k, _mm512_castps512_ps128(quadruple[k]));
+        _mm_store_ps(to + 4 * (k + 4), _mm512_extractf32x4_ps(quadruple[k], 1));
+        _mm_store_ps(to + 4 * (k + 8), _mm512_extractf32x4_ps(quadruple[k], 2));
+        _mm_store_ps(to + 4 * (k + 12), _mm512_extractf32x4_ps(quadruple[k], 3));
+    }
+}
+
 #elif defined(__AVX2__)
 
 /// a b + c with one rounding.
@@ -160,6 +185,13 @@ inline Floats positive_square(Floats v) {
 inline Floats count_positive(Floats counter, Floats v) {
     const __m256 positive = _mm256_cmp_ps(v, _mm256_setzero_ps(), _CMP_GT_OQ);
     return counter + _mm256_and_ps(positive, _mm256_set1_ps(1));
+}
+
+/// 1 in the lanes whose bit is set, else 0.
+inline Floats ones(unsigned bits) {
+    const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), bit);
+    return _mm256_and_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, bit)), _mm256_set1_ps(1));
 }
 
 /// Two particles, 4 lanes apart, as the 128-bit parts of one vector.
@@ -188,9 +220,9 @@ inline void store(std::int32_t* to, Ints value) {
 inline Ints consecutive(int first) {
     return _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
 }
-/// Bit per lane: the first `count` lanes, count >= 1.
+/// Bit per lane: the first `count` lanes, or all, count >= 0.
 inline unsigned first_lanes(int count) {
-    return _bzhi_u32(0xff, static_cast<unsigned>(count));
+    return _bzhi_u32(0xff, static_cast<unsigned>(count < width ? count : width));
 }
 /// Bit per lane: 0 < v < limit.
 inline unsigned positive_and_below(Floats v, Floats limit) {
@@ -212,11 +244,12 @@ constexpr LaneLists list_lanes() {
 }
 constexpr LaneLists lane_lists = list_lanes();
 
-/// Writes the chosen lanes one behind the other, and anything into the rest of `width` entries.
-inline void store_chosen(std::int32_t* to, Ints values, unsigned chosen) {
+/// Writes the chosen lanes one behind the other, and anything into the rest of `width` entries. Returns their number.
+inline int store_chosen(std::int32_t* to, Ints values, unsigned chosen) {
     const __m128i order = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(lane_lists.lane[chosen]));
     const Ints packed = _mm256_permutevar8x32_epi32(values, _mm256_cvtepu8_epi32(order));
     _mm256_storeu_si256(reinterpret_cast<__m256i_u*>(to), packed);
+    return __builtin_popcount(chosen);
 }
 /// from[0 .. count) and the filler behind; reads nothing there.
 inline Ints load_first(const std::int32_t* from, int count, std::int32_t filler) {
@@ -239,6 +272,23 @@ inline void transpose(Ints (&rows)[width]) {
     for (int c = 0; c < 4; ++c) {
         rows[c] = _mm256_permute2x128_si256(quads[c], quads[c + 4], 0x20);
         rows[c + 4] = _mm256_permute2x128_si256(quads[c], quads[c + 4], 0x31);
+    }
+}
+
+/// Writes (x, y, z, w) lane by lane.
+inline void store_quadruples(float* to, Floats4 v) {
+    const __m256 xy_low = _mm256_unpacklo_ps(v.x, v.y), zw_low = _mm256_unpacklo_ps(v.z, v.w);
+    const __m256 xy_high = _mm256_unpackhi_ps(v.x, v.y), zw_high = _mm256_unpackhi_ps(v.z, v.w);
+    const auto joined = [](__m256 xy, __m256 zw, bool second) {
+        const __m256d a = _mm256_castps_pd(xy), b = _mm256_castps_pd(zw);
+        return _mm256_castpd_ps(second ? _mm256_unpackhi_pd(a, b) : _mm256_unpacklo_pd(a, b));
+    };
+    // Quadruple k holds the lanes k and k + 4.
+    const __m256 quadruple[4] = {joined(xy_low, zw_low, false), joined(xy_low, zw_low, true),
+                                 joined(xy_high, zw_high, false), joined(xy_high, zw_high, true)};
+    for (int k = 0; k < 4; ++k) {
+        _mm_store_ps(to + 4 * k, _mm256_castps256_ps128(quadruple[k]));
+        _mm_store_ps(to + 4 * (k + 4), _mm256_extractf128_ps(quadruple[k], 1));
     }
 }
 
@@ -265,6 +315,13 @@ inline Floats count_positive(Floats counter, Floats v) {
     return counter + (v > 0 ? all_lanes(1) : Floats{});
 }
 
+/// 1 in the lanes whose bit is set, else 0.
+inline Floats ones(unsigned bits) {
+    Floats v{};
+    for (int lane = 0; lane < width; ++lane) v[lane] = static_cast<float>(bits >> lane & 1u);
+    return v;
+}
+
 /// (x, y, z, w) of the particles index[0 .. width) out of an array of such quadruples: one load per particle and a
 /// transposition.
 inline Floats4 gather(const float* packed, const std::int32_t* index) {
@@ -274,6 +331,11 @@ inline Floats4 gather(const float* packed, const std::int32_t* index) {
     const Floats zw_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7), zw_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
     return {__builtin_shufflevector(xy_ab, xy_cd, 0, 1, 4, 5), __builtin_shufflevector(xy_ab, xy_cd, 2, 3, 6, 7),
             __builtin_shufflevector(zw_ab, zw_cd, 0, 1, 4, 5), __builtin_shufflevector(zw_ab, zw_cd, 2, 3, 6, 7)};
+}
+
+/// Writes (x, y, z, w) lane by lane.
+inline void store_quadruples(float* to, Floats4 v) {
+    for (int lane = 0; lane < width; ++lane) store(to + 4 * lane, Floats{v.x[lane], v.y[lane], v.z[lane], v.w[lane]});
 }
 
 #endif

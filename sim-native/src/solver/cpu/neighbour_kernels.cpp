@@ -10,15 +10,15 @@ namespace {
 constexpr int lanes = 16;
 
 template <class Real>
-int find(const Real* const position[3], int slot, const SlotRun* runs, int run_count, Real distance_squared,
-         std::int32_t* found) {
+int find(const Real* const position[3], int slot, const SlotRuns& runs, Real distance_squared, std::int32_t* found) {
     const Real* const x = position[0];
     const Real* const y = position[1];
     const Real* const z = position[2];
     const Real xi = x[slot], yi = y[slot], zi = z[slot];
     int n = 0;
-    for (int k = 0; k < run_count; ++k) {
-        for (int j = runs[k].begin; j < runs[k].end; ++j) {
+    for (int k = 0; k < runs.count; ++k) {
+        const int end = runs.end[k];
+        for (int j = runs.begin[k]; j < end; ++j) {
             const Real dx = xi - x[j], dy = yi - y[j], dz = zi - z[j];
             const Real r2 = dx * dx + dy * dy + dz * dz;
             found[n] = j;  // always written and only sometimes kept: no branch to mispredict
@@ -36,22 +36,22 @@ void interleave(const std::int32_t* const* list, const int* count, int rows, std
 #if defined(__AVX2__)
 
 /// `width` slots at a time; the nearer ones move to the front of their vector, which is written as a whole.
-int find_by_vectors(const float* const position[3], int slot, const SlotRun* runs, int run_count,
-                    float distance_squared, std::int32_t* found) {
-    const Floats xi = all_lanes(position[0][slot]);
-    const Floats yi = all_lanes(position[1][slot]);
-    const Floats zi = all_lanes(position[2][slot]);
+int find_by_vectors(const float* const position[3], int slot, const SlotRuns& runs, float distance_squared,
+                    std::int32_t* found) {
+    const float* const x = position[0];
+    const float* const y = position[1];
+    const float* const z = position[2];
+    const Floats xi = all_lanes(x[slot]), yi = all_lanes(y[slot]), zi = all_lanes(z[slot]);
     const Floats limit = all_lanes(distance_squared);
     int n = 0;
-    for (int k = 0; k < run_count; ++k) {
-        for (int j = runs[k].begin; j < runs[k].end; j += width) {
-            const Floats dx = xi - load_unaligned(position[0] + j);
-            const Floats dy = yi - load_unaligned(position[1] + j);
-            const Floats dz = zi - load_unaligned(position[2] + j);
-            const Floats r2 = square(dx, dy, dz);
-            const unsigned near = positive_and_below(r2, limit) & first_lanes(runs[k].end - j);
-            store_chosen(found + n, consecutive(j), near);
-            n += __builtin_popcount(near);
+    for (int k = 0; k < runs.count; ++k) {
+        const int end = runs.end[k];
+        for (int j = runs.begin[k]; j < end; j += width) {
+            const Floats dx = xi - load_unaligned(x + j);
+            const Floats dy = yi - load_unaligned(y + j);
+            const Floats dz = zi - load_unaligned(z + j);
+            const unsigned near = positive_and_below(square(dx, dy, dz), limit) & first_lanes(end - j);
+            n += store_chosen(found + n, consecutive(j), near);
         }
     }
     return n;

@@ -6,10 +6,13 @@
 
 namespace natator::cpu {
 
-/// A run of slots [begin, end).
-struct SlotRun {
-    int begin;
-    int end;
+/// Runs of slots [begin[k], end[k]). Two arrays, so that what was written as two numbers is not read as one, which
+/// would have to wait for the stores.
+struct SlotRuns {
+    static constexpr int most = 18;
+    int count = 0;
+    int begin[most];
+    int end[most];
 };
 
 /// How the lists of fluid neighbours are built, in one instruction set.
@@ -18,7 +21,7 @@ struct NeighbourKernels {
     /// Writes to `found` the slots of the runs that are nearer to `slot` than sqrt(distance_squared), without those at
     /// distance 0. Returns their number. `found` must have room for 16 entries more than the runs have slots, and the
     /// positions must go on for 16 slots behind each run.
-    int (*find)(const Real* const position[3], int slot, const SlotRun* runs, int run_count, Real distance_squared,
+    int (*find)(const Real* const position[3], int slot, const SlotRuns& runs, Real distance_squared,
                 std::int32_t* found);
     /// Lays 16 lists side by side: entry `lane` of row k is list[lane][k], or `filler` from count[lane] on. Writes
     /// `rows` rows; `to` must have room for the next multiple of 16 rows.

@@ -16,10 +16,9 @@ Workspace<Real>::Workspace(const Model& model) : particles(model.particles()) {
     cell_of.resize(particles);
 
     constexpr Real far_away = Real(1e9);
-    const std::size_t all = round_up_to_block(slots + 1);
+    const std::size_t all = round_up_to_block(slots + 1) + lanes;  // what searches may read behind the last slot
     position.resize(all, far_away);
-    for (auto* array : {&start, &predicted, &correction}) array->resize(all);
-    velocity.resize(fluid > 0 ? all : 0);
+    for (auto* array : {&start, &predicted, &correction, &velocity}) array->resize(all);
     constraint_count.resize(all);
     inverse_mass.resize(all);
     for (auto* array : {&solid_density, &density, &compression}) array->resize(fluid > 0 ? all : 0);
