@@ -8,6 +8,7 @@
 #include "natator/error.h"
 #include "natator/strict_json.h"
 #include "precision.h"
+#include "speed.h"
 #include "stability.h"
 #include "validation.h"
 
@@ -237,6 +238,35 @@ void add_validation(CLI::App* bench, int& status) {
     });
 }
 
+void add_speed(CLI::App* bench, int& status) {
+    struct Options {
+        Common common;
+        std::vector<std::string> scenes = speed_scene_names();
+        int repeats = 3;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = bench->add_subcommand(
+        "speed", "Run time of whole evaluations, with a state hash, peak memory and the share of every stage.");
+    add_common(command, options->common, {"float"});
+    command->add_option("--scene", options->scenes, "Scenes.")
+        ->check(CLI::IsMember(speed_scene_names()))
+        ->capture_default_str();
+    command->add_option("--repeats", options->repeats, "Runs of each; the fastest counts.")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        const SpeedStudy study{options->scenes, common.chosen_schemes(), common.chosen_precisions(), options->repeats,
+                               common.quick};
+        ResultTable table(common.output, speed_columns(), speed_key_columns);
+        ResultTable profile(common.output.empty() ? "" : path_beside(common.output, "profile"), speed_profile_columns(),
+                            speed_key_columns);
+        run_speed_study(study, table, profile, report);
+        if (common.output.empty()) print(table.text() + profile.text());
+        status = ok;
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app, int& status) {
@@ -244,6 +274,7 @@ void add_bench(CLI::App& app, int& status) {
     bench->require_subcommand(1);
     add_precision(bench, status);
     add_ensemble(bench, status);
+    add_speed(bench, status);
     add_stability(bench, status);
     add_validation(bench, status);
 }

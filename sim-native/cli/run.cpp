@@ -89,7 +89,7 @@ int run_scene(const Options& options) {
 
     const std::optional<StartCache> starts = options.no_cache ? std::nullopt : StartCache::of_user();
     const auto start = std::chrono::steady_clock::now();
-    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame, starts ? &*starts : nullptr);
+    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame, {.starts = starts ? &*starts : nullptr});
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));

@@ -6,14 +6,17 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "ensemble.h"
 #include "front_error.h"
 #include "natator/error.h"
 #include "natator/momentum.h"
+#include "natator/scene_json.h"
 #include "physical_bounds.h"
 #include "precision.h"
 #include "references.h"
+#include "speed.h"
 #include "stability.h"
 #include "statistics.h"
 #include "validation.h"
@@ -159,6 +162,39 @@ TEST(EnsembleTest, SummaryIsTheMeanOfTheSeeds) {
     ASSERT_EQ(summary.rows().size(), 1u);
     EXPECT_NEAR(std::stod(summary.rows()[0][6]), (std::stod(table.rows()[0][7]) + std::stod(table.rows()[1][7])) / 2,
                 1e-6);
+}
+
+TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
+    const SpeedStudy study{{"creature-1", "vacuum"},
+                           {Scheme::flex, Scheme::conserving},
+                           {Precision::single_precision},
+                           2,
+                           true};
+    ResultTable table("", speed_columns(), speed_key_columns);
+    ResultTable profile("", speed_profile_columns(), speed_key_columns);
+    run_speed_study(study, table, profile, ignore);
+    ASSERT_EQ(table.rows().size(), 4u);
+    for (const Row& row : table.rows()) {
+        for (const std::size_t column : {10u, 11u, 12u, 13u}) EXPECT_GT(std::stod(row[column]), 0) << joined(row, " ");
+        EXPECT_EQ(row[14].size(), 16u);
+        double share = 0;
+        for (const Row& stage : profile.rows())
+            if (std::equal(row.begin(), row.begin() + speed_key_columns, stage.begin())) share += std::stod(stage[8]);
+        EXPECT_NEAR(share, 1, 1e-4) << joined(row, " ");
+    }
+    EXPECT_EQ(table.rows()[0][6], "5660");
+    EXPECT_EQ(table.rows()[2][6], "0");
+    EXPECT_NE(table.rows()[0][14], table.rows()[1][14]);
+}
+
+TEST(SpeedTest, ProfilingChangesNoBit) {
+    Scene scene = load_scene("thesis/creature-1", {{"duration", 0.02}});
+    StageProfile profile;
+    const Evaluation plain = evaluate(scene, thesis_gait(1));
+    const Evaluation profiled = evaluate(scene, thesis_gait(1), {}, {}, {}, {.profile = &profile});
+    EXPECT_EQ(plain.hash, profiled.hash);
+    EXPECT_GT(profile.seconds(), 0);
+    EXPECT_EQ(profile.entries().front().stage, "predict");
 }
 
 /// Shocks, extremes and the calm case: each run ends, with finite figures, as one of the three verdicts.

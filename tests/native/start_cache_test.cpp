@@ -38,7 +38,7 @@ protected:
     }
     std::uint64_t hash(const Scene& scene, const StartCache* starts,
                        Precision precision = Precision::single_precision) {
-        return evaluate(scene, short_swimmer_gait(), precision, {}, {}, starts).hash;
+        return evaluate(scene, short_swimmer_gait(), precision, {}, {}, {.starts = starts}).hash;
     }
     std::size_t files() const {
         std::size_t count = 0;
@@ -106,7 +106,7 @@ TEST_F(StartCacheTest, AFolderThatCannotBeMadeChangesNothing) {
 }
 
 TEST_F(StartCacheTest, ShiftedStartsAreNotKept) {
-    evaluate(scene(), short_swimmer_gait(), Precision::single_precision, {1e-4, 3}, {}, &cache_);
+    evaluate(scene(), short_swimmer_gait(), Precision::single_precision, {1e-4, 3}, {}, {.starts = &cache_});
     EXPECT_EQ(files(), 0u);
 }
 

@@ -43,11 +43,11 @@ struct Evaluation {
 /// One body position per frame, for callers that want a trajectory.
 using FrameObserver = std::function<void(double time, const std::vector<Eigen::Vector3d>& body_positions)>;
 
-/// Settles the scene, or takes its settled start from `starts`, and runs it with a gait until its duration or an early
-/// stop. The result is the same, bit by bit, with and without `starts`.
+/// Settles the scene, or takes its settled start from the cache, and runs it with a gait until its duration or an early
+/// stop. The result is the same, bit by bit, with and without it.
 /// Throws InputError when the gait does not fit the scene.
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision = Precision::single_precision,
                     const Perturbation& perturbation = {}, const FrameObserver& on_frame = {},
-                    const StartCache* starts = nullptr);
+                    const Execution& execution = {});
 
 }  // namespace natator

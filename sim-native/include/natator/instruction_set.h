@@ -9,6 +9,9 @@ enum class InstructionSet { portable, avx2, avx512 };
 /// avx512). Throws InputError when it names none or one that this machine lacks.
 InstructionSet instruction_set();
 
+/// Whether this machine and this build have it.
+bool available(InstructionSet set);
+
 const char* to_string(InstructionSet set);
 
 }  // namespace natator

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/instruction_set.h"
 #include "natator/model.h"
@@ -32,7 +33,8 @@ public:
 template <class Real>
 class Solver {
 public:
-    explicit Solver(const Model& model);
+    /// `execution.profile`, if there is one, must live as long as the Solver.
+    explicit Solver(const Model& model, const Execution& execution = {});
     ~Solver();
     Solver(Solver&&) noexcept;
     Solver& operator=(Solver&&) noexcept;

@@ -43,12 +43,13 @@ State<Real> settled_start(const Model& model, const Settling& settling, Solver<R
 /// Runs frame by frame to the duration or an early stop.
 template <class Real>
 Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const FrameObserver& on_frame,
-                       const StartCache* starts) {
+                       const Execution& execution) {
     const bool swims = !model.body.particles.empty();
     const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
     const double window = swims ? std::round(scene.stopping.no_progress_after / scene.time_step) : 0;
 
-    Solver<Real> solver(model);
+    Solver<Real> solver(model, execution);
+    const StartCache* starts = execution.starts;
     Evaluation result;
     if (frames == 0) starts = nullptr;  // the figures of a run without frames are those of settling
     State<Real> state = settled_start(model, scene.settling, solver, starts, result.instability);
@@ -81,13 +82,14 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
 }  // namespace
 
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision, const Perturbation& perturbation,
-                    const FrameObserver& on_frame, const StartCache* starts) {
+                    const FrameObserver& on_frame, const Execution& execution) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
     Model model = build_model(scene);
     perturb(perturbation, model);
-    if (perturbation.amplitude != 0) starts = nullptr;  // such starts are as many as seeds
-    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame, starts)
-                                                    : evaluate_as<float>(scene, model, gait, on_frame, starts);
+    Execution own = execution;
+    if (perturbation.amplitude != 0) own.starts = nullptr;  // such starts are as many as seeds
+    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame, own)
+                                                    : evaluate_as<float>(scene, model, gait, on_frame, own);
 }
 
 }  // namespace natator

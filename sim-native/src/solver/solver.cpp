@@ -1,5 +1,6 @@
 #include "natator/solver.h"
 
+#include <chrono>
 #include <string_view>
 #include <variant>
 
@@ -34,6 +35,23 @@ struct Tell {
     }
 };
 
+/// Books the time since the last stage, or since its making, on the stage that has ended.
+class Timer {
+public:
+    explicit Timer(StageProfile& profile) : profile_(profile) {}
+    void operator()(const char* stage) const {
+        if (std::string_view(stage) == "iteration") return;  // ends with another stage
+        const auto now = Clock::now();
+        profile_.add(stage, std::chrono::duration<double>(now - last_).count());
+        last_ = now;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    StageProfile& profile_;
+    mutable Clock::time_point last_ = Clock::now();
+};
+
 /// Does nothing behind a stage.
 struct Ignore {
     void operator()(const char*) const {}
@@ -60,7 +78,8 @@ State<Real> initial_state(const Model& model) {
 template <class Real>
 class Solver<Real>::Implementation {
 public:
-    explicit Implementation(const Model& model) : model_(model), stages_(stages_for(model)) {}
+    Implementation(const Model& model, const Execution& execution)
+        : model_(model), execution_(execution), stages_(stages_for(model)) {}
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
                                       const Gait* gait) {
@@ -94,23 +113,30 @@ private:
         return std::make_unique<cpu::FlexStages<Real>>(model);
     }
 
+    /// One substep; false if its outcome is not finite: the state is as it was then.
+    template <class Stages, class AfterStage>
+    bool advance(Stages& stages, const AfterStage& after) {
+        substep(stages, stages.plan(), model_.parameters.numIterations, after);
+        if (!stages.finite()) return false;
+        stages.commit();
+        after("commit");
+        return true;
+    }
+
     /// `gait`: sets the muscles for the end of each substep; null leaves them as they are.
     template <class Stages>
     std::optional<Instability> run(Stages& stages, State<Real>& state, double time_step, int substeps,
                                    StepObserver<Real>* observer, const Gait* gait) {
         const Real h = static_cast<Real>(time_step) / static_cast<Real>(substeps);
         const double start = state.time;
-        const int iterations = model_.parameters.numIterations;
         for (int k = 0; k < substeps; ++k) {
             const double end = start + time_step * (k + 1) / substeps;
             if (gait) actuate(model_, *gait, end, state);
             stages.begin_substep(state, h);
-            if (observer)
-                substep(stages, stages.plan(), iterations, Tell<Real, Stages>{*observer, stages});
-            else
-                substep(stages, stages.plan(), iterations, Ignore{});
-            if (!stages.finite()) return locate_instability(stages, model_, state.time);
-            stages.commit();
+            const bool finite = observer             ? advance(stages, Tell<Real, Stages>{*observer, stages})
+                                : execution_.profile ? advance(stages, Timer(*execution_.profile))
+                                                     : advance(stages, Ignore{});
+            if (!finite) return locate_instability(stages, model_, state.time);
             state.time = end;
             if (observer) observer->substep_ended(state.velocity);
         }
@@ -118,11 +144,13 @@ private:
     }
 
     const Model& model_;
+    Execution execution_;
     AnyStages stages_;
 };
 
 template <class Real>
-Solver<Real>::Solver(const Model& model) : implementation_(std::make_unique<Implementation>(model)) {}
+Solver<Real>::Solver(const Model& model, const Execution& execution)
+    : implementation_(std::make_unique<Implementation>(model, execution)) {}
 template <class Real>
 Solver<Real>::~Solver() = default;
 template <class Real>

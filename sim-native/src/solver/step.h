@@ -92,7 +92,11 @@ void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage&
     after("predict");
     if (plan.fluid || plan.contacts) stages.sort_into_cells();
     stages.gather_slots();
-    if (plan.fluid) stages.find_fluid_neighbours();
+    after("cells");
+    if (plan.fluid) {
+        stages.find_fluid_neighbours();
+        after("fluid neighbours");
+    }
     if (plan.contacts) stages.find_contacts();
     if (plan.planes) stages.find_plane_contacts();
     if constexpr (Stages::scheme == Scheme::conserving) stages.begin_iterations();

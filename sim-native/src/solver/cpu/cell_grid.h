@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -31,15 +32,30 @@ public:
     int cell_z(Real z) const { return coordinate(z, 2); }
     int cell(Real x, Real y, Real z) const { return index(cell_x(x), cell_y(y), cell_z(z)); }
 
-    /// Calls visit(first_cell, last_cell) for each run of cells that may hold particles within the search distance.
-    template <class Visit>
-    void for_each_run(Real x, Real y, Real z, const Visit& visit) const {
-        const int cx = cell_x(x), cy = cell_y(y), cz = cell_z(z);
-        const int first_x = cx > reach_x ? cx - reach_x : 0;
-        const int last_x = cx + reach_x < count_[0] ? cx + reach_x : count_[0] - 1;
+    /// The row of cells along x that a cell is in.
+    int row(int cell) const { return cell / count_[0]; }
+
+    /// The rows of cells that may hold particles within the search distance of those in one row.
+    struct Rows {
+        std::array<int, 9> first_cell;
+        int count = 0;
+    };
+    Rows rows_around(int row) const {
+        const int cz = row / count_[1], cy = row % count_[1];
+        Rows rows;
         for (int iz = cz > 0 ? cz - 1 : 0; iz <= cz + 1 && iz < count_[2]; ++iz)
             for (int iy = cy > 0 ? cy - 1 : 0; iy <= cy + 1 && iy < count_[1]; ++iy)
-                visit(index(first_x, iy, iz), index(last_x, iy, iz));
+                rows.first_cell[rows.count++] = index(0, iy, iz);
+        return rows;
+    }
+
+    /// Of these rows the cells [first, last] along x that may hold particles within the search distance of `cell`.
+    struct Range {
+        int first, last;
+    };
+    Range range_around(int cell) const {
+        const int cx = cell % count_[0];
+        return {std::max(cx - reach_x, 0), std::min(cx + reach_x, count_[0] - 1)};
     }
 
 private:

@@ -2,16 +2,16 @@
 
 namespace natator::cpu {
 
-/// The new velocities depend on every other value of the substep, and a sum of differences of a value with itself is
-/// not 0 as soon as one is not finite.
+/// The new velocities depend on every other value of the substep. The difference of a value with itself is not 0 if the
+/// value is not finite.
 template <class Real>
 bool Substep<Real>::finite() const {
-    Real difference = 0;
-    for (int i = 0; i < ws_.particles; ++i) {
-        const Vector3<Real> x = position_of_slot(ws_.slot_of[i]);
-        difference += (new_velocity_[i] - new_velocity_[i]).sum() + (x - x).sum();
-    }
-    return difference == 0;
+    const auto finite = [this](const Real* values, std::size_t count) {
+        return motion_kernels_->finite(values, static_cast<int>(count));
+    };
+    const auto& [x, y, z] = ws_.position;
+    return finite(new_velocity_[0].data(), 3 * new_velocity_.size()) && finite(x.data(), x.size()) &&
+           finite(y.data(), y.size()) && finite(z.data(), z.size());
 }
 
 template <class Real>

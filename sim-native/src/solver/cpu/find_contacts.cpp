@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 
 #include "substep.h"
 
@@ -9,25 +10,23 @@ namespace natator::cpu {
 template <class Real>
 void Substep<Real>::find_contacts() {
     const Real distance_squared = constants_.search_distance * constants_.search_distance;
+    const Real* const position[3] = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()};
     std::vector<std::pair<int, int>>& pairs = pairs_;
     pairs.clear();
-    const auto visit_run = [&](int slot, int begin, int end, bool both_directions) {
-        const int i = ws_.particle_of[slot];
-        for (int other = begin; other < end; ++other) {
-            const Real r2 = (position_of_slot(slot) - position_of_slot(other)).squaredNorm();
-            if (!(r2 > 0) || !(r2 < distance_squared)) continue;
-            const int j = ws_.particle_of[other];
+    for (int slot = ws_.solid_begin; slot < ws_.slots; ++slot) {
+        const int i = ws_.particle_of[slot], cell = ws_.cell_of[i];
+        const auto rows = ws_.grid.rows_around(ws_.grid.row(cell));
+        SlotRuns runs;
+        int candidates = add_runs(rows, cell, ws_.fluid_cell_begin, runs);
+        candidates += add_runs(rows, cell, ws_.solid_cell_begin, runs);
+        if (static_cast<int>(found_contacts_.size()) < candidates + lanes) found_contacts_.resize(2 * candidates + lanes);
+        const int n = neighbour_kernels_->find(position, slot, runs, distance_squared, found_contacts_.data());
+        for (int k = 0; k < n; ++k) {
+            const int other = found_contacts_[k], j = ws_.particle_of[other];
             const bool mutual = plan_.mutual_contacts && (collides(i, j) || collides(j, i));
             if (mutual || collides(i, j)) pairs.emplace_back(slot, other);
-            if (both_directions && (mutual || collides(j, i))) pairs.emplace_back(other, slot);
+            if (other < ws_.solid_begin && (mutual || collides(j, i))) pairs.emplace_back(other, slot);
         }
-    };
-    for (int slot = ws_.solid_begin; slot < ws_.slots; ++slot) {
-        ws_.grid.for_each_run(ws_.position.x[slot], ws_.position.y[slot], ws_.position.z[slot],
-                              [&](int first, int last) {
-                                  visit_run(slot, ws_.fluid_cell_begin[first], ws_.fluid_cell_begin[last + 1], true);
-                                  visit_run(slot, ws_.solid_cell_begin[first], ws_.solid_cell_begin[last + 1], false);
-                              });
     }
     std::sort(pairs.begin(), pairs.end());
 
@@ -48,17 +47,22 @@ void Substep<Real>::find_contacts() {
 template <class Real>
 void Substep<Real>::find_plane_contacts() {
     ws_.plane_contacts.clear();
+    ws_.plane_groups.clear();
+    const MotionView<Real> slots = motion_view();
     for (int plane = static_cast<int>(model_.planes.size()) - 1; plane >= 0; --plane) {
-        const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
-        const Real offset = static_cast<Real>(model_.planes[plane].offset);
-        const auto visit = [&](int begin, int end) {
-            for (int slot = begin; slot < end; ++slot)
-                if (normal.dot(position_of_slot(slot)) + offset <= constants_.plane_search_distance &&
-                    ws_.inverse_mass[slot] > 0)
-                    ws_.plane_contacts.push_back({slot, plane});
-        };
-        visit(0, ws_.fluid);
-        visit(ws_.solid_begin, ws_.slots);
+        PlaneView<Real> view = plane_view(plane);
+        view.distance = constants_.plane_search_distance;
+        for (int block = 0; block < slots.blocks; ++block) {
+            const unsigned near = motion_kernels_->near_plane(slots, block, view);
+            unsigned chosen = 0;
+            for (unsigned rest = near; rest != 0; rest &= rest - 1) {
+                const int lane = std::countr_zero(rest), slot = block * lanes + lane;
+                if (!(ws_.inverse_mass[slot] > 0)) continue;  // held in place, or no particle's slot
+                chosen |= 1u << lane;
+                ws_.plane_contacts.push_back({slot, plane});
+            }
+            if (chosen != 0) ws_.plane_groups.push_back({plane, block, chosen});
+        }
     }
 }
 

@@ -1,7 +1,9 @@
 // Compiled once per instruction set: NATATOR_ISA names the namespace, the compiler's flags choose the instructions.
-// A block of 16 particles is worked on lane by lane, each lane with its own sums, so that the loops over `lane`
-// vectorise without changing the order of any sum. Include nothing here that has inline functions.
+// A block of 16 particles is worked on lane by lane, each lane with its own sums. The templates over Real are the
+// definition, and what double runs; beside each stands the same for vectors of floats, which changes the order of no
+// sum. Include nothing here that has inline functions with linkage.
 #include "fluid_kernels.h"
+#include "lanes.h"
 
 namespace natator::cpu::NATATOR_ISA {
 namespace {
@@ -19,23 +21,12 @@ double square_root(double v) {
 template <class Real>
 constexpr Real tiny = Real(1e-30);
 
-template <class Real>
-int append_neighbours(const FluidView<Real>& fluid, int slot, const SlotRun* runs, int run_count, Real distance_squared,
-                      std::int32_t* found) {
-    const Real* const x = fluid.position[0];
-    const Real* const y = fluid.position[1];
-    const Real* const z = fluid.position[2];
-    const Real xi = x[slot], yi = y[slot], zi = z[slot];
-    int n = 0;
-    for (int k = 0; k < run_count; ++k) {
-        for (int j = runs[k].begin; j < runs[k].end; ++j) {
-            const Real dx = xi - x[j], dy = yi - y[j], dz = zi - z[j];
-            const Real r2 = dx * dx + dy * dy + dz * dz;
-            found[n] = j;  // always written and only sometimes kept: no branch to mispredict
-            n += (r2 < distance_squared) & (r2 > 0);
-        }
-    }
-    return n;
+/// Calls work(first slot, first row, last row, offset in each row) for each group of `width` slots.
+template <class Work>
+void for_each_group(const FluidView<float>& fluid, const Work& work) {
+    for (int block = 0; block < fluid.blocks; ++block)
+        for (int lane = 0; lane < lanes; lane += width)
+            work(block * lanes + lane, fluid.row_begin[block], fluid.row_begin[block + 1], lane);
 }
 
 template <class Real>
@@ -65,6 +56,42 @@ void compute_density(const FluidView<Real>& fluid) {
             fluid.compression[first + lane] = density > 1 ? density - 1 : 0;
         }
     }
+}
+
+/// Lays three arrays out as quadruples (x, y, z, w), also for the far slot.
+void pack(const FluidView<float>& fluid, const float* const from[3], const float* w, float* to) {
+    const auto pack_group = [&](int slot) {
+        store_quadruples(to + 4 * slot,
+                         {load(from[0] + slot), load(from[1] + slot), load(from[2] + slot), load(w + slot)});
+    };
+    for (int slot = 0; slot < fluid.blocks * lanes; slot += width) pack_group(slot);
+    pack_group(fluid.far_slot / width * width);
+}
+
+/// Also keeps each pair's distance for solve_density_constraint.
+void compute_density(const FluidView<float>& fluid) {
+    pack(fluid, fluid.position, fluid.compression, fluid.packed);
+    const std::int32_t* const neighbours = fluid.neighbour;
+    const float* const packed = fluid.packed;
+    float* const distance = fluid.distance;
+    const float inverse_radius = fluid.inverse_radius;
+    for_each_group(fluid, [&](int first, int row_begin, int row_end, int lane) {
+        const Floats x = load(fluid.position[0] + first);
+        const Floats y = load(fluid.position[1] + first);
+        const Floats z = load(fluid.position[2] + first);
+        Floats sum{};
+        for (int row = row_begin; row < row_end; ++row) {
+            const int entry = row * lanes + lane;
+            const Floats4 other = gather(packed, neighbours + entry);
+            const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
+            const Floats r = square_root(square(dx, dy, dz) + tiny<float>);
+            store(distance + entry, r);
+            sum += positive_square(1 - r * inverse_radius);
+        }
+        const Floats density = (sum + load(fluid.solid_density + first)) * fluid.density_scale;
+        store(fluid.density + first, density);
+        store(fluid.compression + first, positive_part(density - 1));
+    });
 }
 
 template <class Real>
@@ -105,6 +132,40 @@ void solve_density_constraint(const FluidView<Real>& fluid) {
     }
 }
 
+/// At the positions and with the distances that compute_density has left.
+void solve_density_constraint(const FluidView<float>& fluid) {
+    pack(fluid, fluid.position, fluid.compression, fluid.packed);
+    const std::int32_t* const neighbours = fluid.neighbour;
+    const float* const packed = fluid.packed;
+    const float* const distance = fluid.distance;
+    const float inverse_radius = fluid.inverse_radius;
+    for_each_group(fluid, [&](int first, int row_begin, int row_end, int lane) {
+        const Floats x = load(fluid.position[0] + first);
+        const Floats y = load(fluid.position[1] + first);
+        const Floats z = load(fluid.position[2] + first);
+        const Floats c = load(fluid.compression + first);
+        Floats sum_x{}, sum_y{}, sum_z{}, count{};
+        for (int row = row_begin; row < row_end; ++row) {
+            const int entry = row * lanes + lane;
+            const Floats4 other = gather(packed, neighbours + entry);
+            const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
+            const Floats r2 = square(dx, dy, dz);
+            const Floats inverse_r = 1 / load(distance + entry);
+            const Floats t = positive_part(1 - r2 * inverse_r * inverse_radius);
+            const Floats s = (c + other.w) * t * inverse_r;
+            sum_x += s * dx;
+            sum_y += s * dy;
+            sum_z += s * dz;
+            count = count_positive(count, t);
+        }
+        const Floats scale = load(fluid.inverse_mass + first) * fluid.radius * 0.5f;
+        store(fluid.correction[0] + first, scale * sum_x);
+        store(fluid.correction[1] + first, scale * sum_y);
+        store(fluid.correction[2] + first, scale * sum_z);
+        store(fluid.constraint_count + first, count);
+    });
+}
+
 template <class Real>
 void smooth_velocities(const FluidView<Real>& fluid) {
     const Real* const x = fluid.position[0];
@@ -139,15 +200,55 @@ void smooth_velocities(const FluidView<Real>& fluid) {
     }
 }
 
+void smooth_velocities(const FluidView<float>& fluid) {
+    pack(fluid, fluid.position, fluid.compression, fluid.packed);
+    pack(fluid, fluid.velocity, fluid.compression, fluid.packed_velocity);
+    const std::int32_t* const neighbours = fluid.neighbour;
+    const float* const packed = fluid.packed;
+    const float* const packed_velocity = fluid.packed_velocity;
+    const float inverse_radius = fluid.inverse_radius;
+    for_each_group(fluid, [&](int first, int row_begin, int row_end, int lane) {
+        const Floats x = load(fluid.position[0] + first);
+        const Floats y = load(fluid.position[1] + first);
+        const Floats z = load(fluid.position[2] + first);
+        const Floats u = load(fluid.velocity[0] + first);
+        const Floats v = load(fluid.velocity[1] + first);
+        const Floats w = load(fluid.velocity[2] + first);
+        Floats sum_u{}, sum_v{}, sum_w{};
+        for (int row = row_begin; row < row_end; ++row) {
+            const std::int32_t* const neighbour = neighbours + row * lanes + lane;
+            const Floats4 other = gather(packed, neighbour);
+            const Floats4 moves = gather(packed_velocity, neighbour);
+            const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
+            const Floats t2 = positive_square(1 - square_root(square(dx, dy, dz)) * inverse_radius);
+            sum_u += t2 * (moves.x - u);
+            sum_v += t2 * (moves.y - v);
+            sum_w += t2 * (moves.z - w);
+        }
+        store(fluid.velocity_change[0] + first, fluid.density_scale * sum_u);
+        store(fluid.velocity_change[1] + first, fluid.density_scale * sum_v);
+        store(fluid.velocity_change[2] + first, fluid.density_scale * sum_w);
+    });
+}
+
 }  // namespace
 
 template <class Real>
-FluidKernels<Real> fluid_kernels() {
-    return {&append_neighbours<Real>, &compute_density<Real>, &solve_density_constraint<Real>,
-            &smooth_velocities<Real>};
+FluidKernels<Real> scalar_fluid_kernels() {
+    return {&compute_density<Real>, &solve_density_constraint<Real>, &smooth_velocities<Real>};
 }
 
-template FluidKernels<float> fluid_kernels<float>();
-template FluidKernels<double> fluid_kernels<double>();
+template FluidKernels<float> scalar_fluid_kernels<float>();
+template FluidKernels<double> scalar_fluid_kernels<double>();
+
+template <>
+FluidKernels<double> fluid_kernels<double>() {
+    return scalar_fluid_kernels<double>();
+}
+
+template <>
+FluidKernels<float> fluid_kernels<float>() {
+    return {&compute_density, &solve_density_constraint, &smooth_velocities};
+}
 
 }  // namespace natator::cpu::NATATOR_ISA

@@ -6,18 +6,19 @@
 
 #include "conserving/density_kernels.h"
 #include "fluid_kernels.h"
+#include "motion_kernels.h"
 #include "natator/error.h"
+#include "neighbour_kernels.h"
 
 namespace natator {
-namespace {
 
-bool machine_has(InstructionSet set) {
+bool available(InstructionSet set) {
 #if defined(NATATOR_X86_KERNELS)
     switch (set) {
         case InstructionSet::portable:
             return true;
         case InstructionSet::avx2:
-            return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+            return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
         case InstructionSet::avx512:
             return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
@@ -29,13 +30,15 @@ bool machine_has(InstructionSet set) {
 #endif
 }
 
+namespace {
+
 constexpr std::array best_first{InstructionSet::avx512, InstructionSet::avx2, InstructionSet::portable};
 
 InstructionSet choose() {
     const char* wanted = std::getenv("NATATOR_ISA");
     for (const InstructionSet set : best_first) {
-        if (wanted ? std::string(wanted) != to_string(set) : !machine_has(set)) continue;
-        if (machine_has(set)) return set;
+        if (wanted ? std::string(wanted) != to_string(set) : !available(set)) continue;
+        if (available(set)) return set;
         throw InputError(std::string("environment variable NATATOR_ISA: ") + wanted +
                          " is not available on this machine");
     }
@@ -93,22 +96,23 @@ struct KernelTables {
 
 }  // namespace
 
-template <class Real>
-const FluidKernels<Real>& fluid_kernels(InstructionSet set) {
-    static const KernelTables<FluidKernels<Real>> tables NATATOR_TABLES(fluid_kernels<Real>);
-    return tables.of(set);
-}
+// A function that gives the kernels of this name for an instruction set.
+#define NATATOR_CHOICE(Kernels, make)                                \
+    template <class Real>                                            \
+    const Kernels<Real>& make(InstructionSet set) {                  \
+        static const KernelTables<Kernels<Real>> tables NATATOR_TABLES(make<Real>); \
+        return tables.of(set);                                       \
+    }                                                                \
+    template const Kernels<float>& make<float>(InstructionSet);      \
+    template const Kernels<double>& make<double>(InstructionSet);
 
-template <class Real>
-const DensityKernels<Real>& density_kernels(InstructionSet set) {
-    static const KernelTables<DensityKernels<Real>> tables NATATOR_TABLES(density_kernels<Real>);
-    return tables.of(set);
-}
-
-template const FluidKernels<float>& fluid_kernels<float>(InstructionSet);
-template const FluidKernels<double>& fluid_kernels<double>(InstructionSet);
-template const DensityKernels<float>& density_kernels<float>(InstructionSet);
-template const DensityKernels<double>& density_kernels<double>(InstructionSet);
+NATATOR_CHOICE(FluidKernels, fluid_kernels)
+NATATOR_CHOICE(FluidKernels, scalar_fluid_kernels)
+NATATOR_CHOICE(MotionKernels, motion_kernels)
+NATATOR_CHOICE(MotionKernels, scalar_motion_kernels)
+NATATOR_CHOICE(NeighbourKernels, neighbour_kernels)
+NATATOR_CHOICE(NeighbourKernels, scalar_neighbour_kernels)
+NATATOR_CHOICE(DensityKernels, density_kernels)
 
 }  // namespace cpu
 }  // namespace natator

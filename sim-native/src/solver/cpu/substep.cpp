@@ -30,7 +30,9 @@ Substep<Real>::Substep(const Model& model)
       constants_(model.parameters),
       ws_(model),
       most_neighbours_(model.parameters.maxNeighborsPerParticle),
-      kernels_(&fluid_kernels<Real>(instruction_set())) {
+      kernels_(&fluid_kernels<Real>(instruction_set())),
+      neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())),
+      motion_kernels_(&motion_kernels<Real>(instruction_set())) {
     new_velocity_.resize(model.particles());
     if (plan_.dissipation || plan_.fluid_forces) velocity_change_.resize(model.particles());
     if (plan_.dissipation) overlaps_.resize(ws_.slots);
@@ -48,13 +50,39 @@ template <class Real>
 void Substep<Real>::gather_slots() {
     cluster_rotation_ = state_->cluster_rotation;
     cluster_centre_ = state_->cluster_centre;
-    for (int i = 0; i < ws_.particles; ++i) {
-        const int slot = ws_.slot_of[i];
-        ws_.position.set(slot, ws_.predicted_position[i]);
-        ws_.start.set(slot, state_->position[i]);
-        ws_.predicted.set(slot, ws_.predicted_velocity[i]);
-        ws_.inverse_mass[slot] = inverse_mass_[i];
-    }
+    const auto gather = [this](int begin, int end) {
+        for (int slot = begin; slot < end; ++slot) {
+            const int i = ws_.particle_of[slot];
+            ws_.position.set(slot, ws_.predicted_position[i]);
+            ws_.start.set(slot, state_->position[i]);
+            ws_.predicted.set(slot, ws_.predicted_velocity[i]);
+            ws_.inverse_mass[slot] = inverse_mass_[i];
+        }
+    };
+    gather(0, ws_.fluid);
+    gather(ws_.solid_begin, ws_.slots);
+}
+
+template <class Real>
+MotionView<Real> Substep<Real>::motion_view() {
+    return {.blocks = ws_.all_blocks(),
+            .position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
+            .start = {ws_.start.x.data(), ws_.start.y.data(), ws_.start.z.data()},
+            .predicted = {ws_.predicted.x.data(), ws_.predicted.y.data(), ws_.predicted.z.data()},
+            .correction = {ws_.correction.x.data(), ws_.correction.y.data(), ws_.correction.z.data()},
+            .constraint_count = ws_.constraint_count.data(),
+            .velocity = {ws_.velocity.x.data(), ws_.velocity.y.data(), ws_.velocity.z.data()}};
+}
+
+template <class Real>
+PlaneView<Real> Substep<Real>::plane_view(int plane) const {
+    const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
+    return {.normal = {normal.x(), normal.y(), normal.z()},
+            .offset = static_cast<Real>(model_.planes[plane].offset),
+            .distance = constants_.collision_distance,
+            .friction = plan_.plane_friction,
+            .static_friction = constants_.static_friction,
+            .dynamic_friction = constants_.dynamic_friction};
 }
 
 /// Does particle i feel particle j? Pairs of different groups always; pairs of one group if i has self_collide, and

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "fluid_kernels.h"
+#include "motion_kernels.h"
 #include "natator/plan.h"
 #include "natator/solver.h"
+#include "neighbour_kernels.h"
 #include "workspace.h"
 
 namespace natator::cpu {
@@ -81,7 +83,25 @@ public:
 protected:
     /// Does particle i feel particle j?
     bool collides(int i, int j) const;
+    /// Adds the runs of slots, out of those that begin at `cell_begin`, with all particles near those of a cell. Returns
+    /// how many slots they hold.
+    int add_runs(const typename CellGrid<Real>::Rows& rows, int cell, const std::vector<int>& cell_begin,
+                 SlotRuns& runs) const {
+        const auto range = ws_.grid.range_around(cell);
+        int slots = 0;
+        for (int k = 0; k < rows.count; ++k) {
+            const int begin = cell_begin[rows.first_cell[k] + range.first];
+            const int end = cell_begin[rows.first_cell[k] + range.last + 1];
+            runs.begin[runs.count] = begin;  // always written and only sometimes kept: no branch to mispredict
+            runs.end[runs.count] = end;
+            runs.count += begin != end;
+            slots += end - begin;
+        }
+        return slots;
+    }
     FluidView<Real> fluid_view();
+    MotionView<Real> motion_view();
+    PlaneView<Real> plane_view(int plane) const;
     /// Densities of the fluid by particle as the last density stage left them; 0 for solids and infinite masses.
     std::vector<Real> densities_by_particle() const;
     Vector3<Real> position_of_slot(int slot) const { return ws_.position.at(slot); }
@@ -112,6 +132,8 @@ protected:
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep
     std::vector<Vector3<Real>> cluster_centre_;
     const FluidKernels<Real>* kernels_;
+    const NeighbourKernels<Real>* neighbour_kernels_;
+    const MotionKernels<Real>* motion_kernels_;
 
 private:
     void add_surface_tension();
@@ -122,6 +144,7 @@ private:
     std::vector<Vector3<Real>> normal_, curl_;            ///< by fluid slot; empty unless an effect needs them
     std::vector<int> overlaps_;                           ///< by slot; empty unless an effect needs it
     std::array<std::vector<std::int32_t>, lanes> found_;  ///< room for the neighbours of one block
+    std::vector<std::int32_t> found_contacts_;            ///< room for the contacts of one particle
     std::vector<std::pair<int, int>> pairs_;              ///< room for the contacts of one substep
 };
 

@@ -16,13 +16,14 @@ Workspace<Real>::Workspace(const Model& model) : particles(model.particles()) {
     cell_of.resize(particles);
 
     constexpr Real far_away = Real(1e9);
-    const std::size_t all = round_up_to_block(slots + 1);
+    const std::size_t all = round_up_to_block(slots + 1) + lanes;  // what searches may read behind the last slot
     for (auto* array : {&position, &start}) array->resize(all, far_away);
-    for (auto* array : {&predicted, &correction}) array->resize(all);
-    velocity.resize(fluid > 0 ? all : 0);
+    for (auto* array : {&predicted, &correction, &velocity}) array->resize(all);
     constraint_count.resize(all);
     inverse_mass.resize(all);
     for (auto* array : {&solid_density, &density, &compression}) array->resize(fluid > 0 ? all : 0);
+    packed.resize(fluid > 0 ? 4 * all : 0);
+    packed_velocity.resize(packed.size());
     row_begin.assign(blocks() + 1, 0);
     neighbour_count.assign(fluid > 0 ? solid_begin : 0, 0);
 

@@ -27,7 +27,8 @@ struct Workspace {
     int fluid = 0;        ///< fluid particles are in slots [0, fluid)
     int solid_begin = 0;  ///< solid particles are in slots [solid_begin, slots)
     int slots = 0;        ///< the far slot is slots itself
-    int blocks() const { return solid_begin / lanes; }
+    int blocks() const { return solid_begin / lanes; }  ///< of fluid
+    int all_blocks() const { return round_up_to_block(slots + 1) / lanes; }
 
     std::vector<int> fluid_ids, solid_ids;  ///< particle indices by kind, ascending
     std::vector<int> slot_of;               ///< particle -> slot
@@ -41,7 +42,7 @@ struct Workspace {
     Vector3Array<Real> start;              ///< at the start of the substep
     Vector3Array<Real> predicted;          ///< velocity v* after external forces
     Vector3Array<Real> correction;         ///< sum of the constraints' corrections
-    Vector3Array<Real> velocity;           ///< (x - x_start) / h, input of the viscosity
+    Vector3Array<Real> velocity;           ///< (x - x_start) / h, input of the viscosity; then the outcome
     AlignedVector<Real> constraint_count;  ///< n of the relaxation
     AlignedVector<Real> inverse_mass;
     AlignedVector<Real> solid_density;  ///< what solids add to the fluid's density
@@ -55,8 +56,11 @@ struct Workspace {
 
     // Fluid neighbours in sliced ELLPACK: block b holds rows [row_begin[b], row_begin[b+1]) of 16 slots each.
     std::vector<int> row_begin;
-    AlignedVector<std::int32_t> neighbour;
+    AlignedVector<std::int32_t> neighbour;  ///< longer than the rows need
     std::vector<int> neighbour_count;  ///< by slot
+
+    // Room for the fluid kernels, see FluidView.
+    AlignedVector<Real> packed, packed_velocity, distance;
 
     // Contacts, pairs that are not both fluid: neighbours of touched[k] are contact[contact_begin[k] .. [k+1]).
     std::vector<int> touched;
@@ -67,7 +71,15 @@ struct Workspace {
         int slot;
         int plane;
     };
-    std::vector<PlaneContact> plane_contacts;  ///< last plane first
+    std::vector<PlaneContact> plane_contacts;  ///< last plane first, then by slot
+
+    /// The same by blocks: bit k of `chosen` stands for slot 16 block + k.
+    struct PlaneGroup {
+        int plane;
+        int block;
+        unsigned chosen;
+    };
+    std::vector<PlaneGroup> plane_groups;
 };
 
 }  // namespace natator::cpu

@@ -49,6 +49,7 @@ private:
     using Substep<Real>::cluster_rotation_;
     using Substep<Real>::cluster_centre_;
     using Substep<Real>::kernels_;
+    using Substep<Real>::motion_kernels_;
     using Substep<Real>::fluid_view;
     using Substep<Real>::position_of_slot;
     using Substep<Real>::start_of_slot;

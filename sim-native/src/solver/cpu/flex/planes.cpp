@@ -7,16 +7,13 @@ namespace natator::cpu {
 /// m < staticFriction * e). Not pooled with other constraints.
 template <class Real>
 void FlexStages<Real>::solve_planes() {
-    for (const auto& [slot, plane] : ws_.plane_contacts) {
-        const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
-        const Real offset = static_cast<Real>(model_.planes[plane].offset);
-        Vector3<Real> x = position_of_slot(slot);
-        const Real depth = constants_.collision_distance - (normal.dot(x) + offset);
-        if (!(depth > 0)) continue;
-        x += depth * normal;
-        if (plan_.plane_friction)
-            x -= this->friction(x - start_of_slot(slot), normal, depth, constants_.dynamic_friction);
-        ws_.position.set(slot, x);
+    const MotionView<Real> slots = this->motion_view();
+    PlaneView<Real> view{};
+    int viewed = -1;
+    for (const auto& [plane, block, chosen] : ws_.plane_groups) {
+        if (plane != viewed) view = this->plane_view(plane);
+        viewed = plane;
+        motion_kernels_->push_from_plane(slots, block, chosen, view);
     }
 }
 

@@ -8,17 +8,7 @@ template <class Real>
 void FlexStages<Real>::relax_and_apply() {
     const bool local = model_.parameters.relaxationMode == RelaxationMode::local;
     const Real omega = constants_.relaxation_factor;
-    const auto apply = [&](int begin, int end) {
-        for (int slot = begin; slot < end; ++slot) {
-            const Real n = std::max(ws_.constraint_count[slot], Real(1));
-            const Real scale = local ? std::min(Real(1), (1 + omega) / n) : omega;
-            ws_.position.x[slot] += scale * ws_.correction.x[slot];
-            ws_.position.y[slot] += scale * ws_.correction.y[slot];
-            ws_.position.z[slot] += scale * ws_.correction.z[slot];
-        }
-    };
-    apply(0, ws_.fluid);
-    apply(ws_.solid_begin, ws_.slots);
+    motion_kernels_->relax(this->motion_view(), local ? 1 + omega : omega, local);
 }
 
 /// The density constraint sets the corrections of the fluid; those of the solids start from 0.

@@ -1,0 +1,177 @@
+#include "speed.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "bench_scenes.h"
+#include "machine.h"
+#include "natator/error.h"
+#include "natator/model_builder.h"
+#include "natator/protocol.h"
+#include "natator/scene_json.h"
+#include "statistics.h"
+
+namespace natator::bench {
+namespace {
+
+struct NamedScene {
+    const char* name;
+    const char* scene;
+    int scale;            ///< of the fluid block along each axis
+    double duration;      ///< s
+    int settling;         ///< updates, each about a substep's work
+};
+
+constexpr std::array scenes = {
+    NamedScene{"creature-1", "thesis/creature-1", 1, 4, 100},
+    NamedScene{"creature-2", "thesis/creature-2", 1, 4, 100},
+    NamedScene{"creature-3", "thesis/creature-3", 1, 4, 100},
+    NamedScene{"creature-4", "thesis/creature-4", 1, 4, 100},
+    NamedScene{"vacuum", "thesis/creature-1-vacuum", 1, 4, 0},
+    NamedScene{"fluid-x8", "thesis/creature-1", 2, 0.5, 12},
+    NamedScene{"fluid-x64", "thesis/creature-1", 4, 0.1, 2},
+};
+
+/// Count `count` along an axis of the thesis' tank, times `scale`, and the wall behind it.
+double wall(int scale, int count) {
+    constexpr double spacing = 0.09, margin = 0.05;
+    return 2 * margin + spacing * (scale * count - 1);
+}
+
+Scene make_scene(const NamedScene& named, bool quick) {
+    nlohmann::json overrides = {{"duration", quick ? 1.0 / 60 : named.duration},
+                                {"settling", {{"updates", quick ? 1 : named.settling}}},
+                                {"stopping", {{"planeContact", false}, {"noProgressAfter", 0}}}};
+    if (named.scale > 1) {
+        constexpr std::array count{50, 7, 17};
+        const int scale = named.scale;
+        overrides["fluid"]["count"] = {scale * count[0], scale * count[1], scale * count[2]};
+        overrides["planes"] = {{0, 1, 0, 0},
+                               {0, 0, 1, 0},
+                               {1, 0, 0, 0},
+                               {-1, 0, 0, wall(scale, count[0])},
+                               {0, 0, -1, wall(scale, count[2])}};
+    }
+    return load_scene(named.scene, overrides);
+}
+
+/// The thesis' gait where it found one, else all muscles in a travelling wave.
+Gait gait_for(const Scene& scene) {
+    if (scene.creature->name == "creature-1") return thesis_gait(1);
+    if (scene.creature->name == "creature-2") return thesis_gait(2);
+    Gait gait;
+    gait.frequency = 1;
+    const auto actuators = static_cast<std::size_t>(scene.creature->actuators());
+    gait.amplitude.assign(actuators, 0.5);
+    for (std::size_t k = 0; k < actuators; ++k)
+        gait.phase.push_back(static_cast<double>(k) / static_cast<double>(actuators));
+    return gait;
+}
+
+/// One scene as it is computed, with what was measured so far.
+struct TimedScene {
+    Row key;
+    Scene scene;
+    Precision precision;
+    std::vector<double> seconds{};
+    std::string hash{};
+    double peak_mb = 0;
+    StageProfile profile{};
+};
+
+void measure(TimedScene& one) {
+    using Clock = std::chrono::steady_clock;
+    one.profile = {};
+    forget_peak_memory();
+    const auto start = Clock::now();
+    const Evaluation result = evaluate(one.scene, gait_for(one.scene), one.precision, {}, {},
+                                       {.profile = &one.profile});
+    one.seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    one.peak_mb = std::max(one.peak_mb, peak_memory_mb());
+    const std::string hash = hash_text(result.hash);
+    if (!one.hash.empty() && one.hash != hash)
+        throw std::runtime_error(joined(one.key, " ") + ": two runs differ: " + one.hash + " and " + hash);
+    one.hash = hash;
+}
+
+Row figures(const TimedScene& one) {
+    const Scene& scene = one.scene;
+    const Model model = build_model(scene);
+    int fluid = 0;
+    for (int i = 0; i < model.particles(); ++i) fluid += model.is_fluid(i);
+    const double substeps = std::round(scene.duration / scene.time_step) * scene.solver.substeps;
+    const double work = (fluid > 0 ? fluid : model.particles()) * substeps * scene.solver.numIterations;
+    const double least = *std::min_element(one.seconds.begin(), one.seconds.end());
+    return {std::to_string(model.particles()),
+            std::to_string(fluid),
+            number_text(substeps),
+            std::to_string(scene.solver.numIterations),
+            std::to_string(one.seconds.size()),
+            measured_text(least),
+            measured_text(median(one.seconds)),
+            measured_text(1e-6 * work / least),
+            measured_text(one.peak_mb),
+            one.hash};
+}
+
+Row row_of(const TimedScene& one, const Row& rest) {
+    Row row = one.key;
+    row.insert(row.end(), rest.begin(), rest.end());
+    return row;
+}
+
+const NamedScene& find_scene(const std::string& name) {
+    const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.name == name; });
+    if (found != scenes.end()) return *found;
+    throw InputError("unknown speed scene \"" + name + "\": must be one of " + joined(speed_scene_names(), ", "));
+}
+
+}  // namespace
+
+std::vector<std::string> speed_scene_names() {
+    std::vector<std::string> names;
+    for (const NamedScene& scene : scenes) names.emplace_back(scene.name);
+    return names;
+}
+
+Row speed_columns() {
+    return {"scene",    "scheme",     "precision",  "instruction_set", "machine",
+            "particles", "fluid_particles", "substeps", "iterations",   "repeats",
+            "seconds_least", "seconds_median", "million_particle_iterations_per_second", "peak_mb", "hash"};
+}
+
+Row speed_profile_columns() {
+    return {"scene", "scheme", "precision", "instruction_set", "machine", "stage", "calls", "seconds", "share"};
+}
+
+void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& profile,
+                     const std::function<void(const std::string&)>& report) {
+    const std::string machine = machine_text();
+    for (const std::string& name : study.scenes) {
+        std::vector<TimedScene> timed;
+        for (const Scheme scheme : study.schemes) {
+            for (const Precision precision : study.precisions) {
+                const Row key{name, to_string(scheme), to_string(precision), to_string(instruction_set()), machine};
+                if (table.has(key)) continue;
+                Scene scene = make_scene(find_scene(name), study.quick);
+                scene.scheme = scheme;
+                timed.push_back({.key = key, .scene = std::move(scene), .precision = precision});
+            }
+        }
+        for (int repeat = 0; repeat < study.repeats; ++repeat)
+            for (TimedScene& one : timed) measure(one);
+        for (const TimedScene& one : timed) {
+            table.add(row_of(one, figures(one)));
+            report(joined(table.rows().back(), " "));
+            for (const StageProfile::Entry& entry : one.profile.entries())
+                profile.add(row_of(one, {entry.stage, std::to_string(entry.calls), measured_text(entry.seconds),
+                                             measured_text(entry.seconds / one.profile.seconds())}));
+        }
+    }
+}
+
+}  // namespace natator::bench

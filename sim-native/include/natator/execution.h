@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace natator {
+
+class StartCache;
+
+/// Wall time by stage of a step, see solver/step.h.
+class StageProfile {
+public:
+    struct Entry {
+        std::string stage;
+        long calls = 0;
+        double seconds = 0;
+    };
+
+    void add(const char* stage, double seconds);
+    /// In the order in which stages first ran.
+    const std::vector<Entry>& entries() const { return entries_; }
+    double seconds() const;
+
+private:
+    std::vector<Entry> entries_;
+};
+
+/// How a scene is run, without a say in what comes out.
+struct Execution {
+    StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
+    const StartCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
+};
+
+}  // namespace natator

@@ -1,0 +1,187 @@
+// Compiled once per instruction set, like fluid_kernels.cpp and by the same rules, but without fused products: every set
+// gives the same bits. The compiler makes vectors of all loops but one.
+#include "motion_kernels.h"
+
+#include "lanes.h"
+
+namespace natator::cpu::NATATOR_ISA {
+namespace {
+
+constexpr int lanes = 16;
+
+inline float square_root(float v) {
+    return __builtin_sqrtf(v);
+}
+inline double square_root(double v) {
+    return __builtin_sqrt(v);
+}
+
+/// In the order of a fixed-size vector's dot product elsewhere in the program. Of numbers, or of vectors of them.
+template <class Lane, class Other>
+inline Lane dot(Lane ax, Lane ay, Lane az, Other bx, Other by, Other bz) {
+    return ax * bx + (ay * by + az * bz);
+}
+
+template <class Lane>
+inline Lane length(Lane x, Lane y, Lane z) {
+    return square_root(dot(x, y, z, x, y, z));
+}
+
+template <class Real>
+void relax(const MotionView<Real>& slots, Real most, bool local) {
+    constexpr int stretch = 16 * lanes;
+    Real scale[stretch];
+    for (int first = 0; first < slots.blocks * lanes; first += stretch) {
+        const int rest = slots.blocks * lanes - first;
+        const int size = rest < stretch ? rest : stretch;
+        const Real* __restrict const count = slots.constraint_count + first;
+        for (int k = 0; k < size; ++k) {
+            const Real share = most / (count[k] > 1 ? count[k] : Real(1));
+            scale[k] = share < 1 ? share : Real(1);
+        }
+        for (int k = 0; k < size && !local; ++k) scale[k] = most;
+        for (int axis = 0; axis < 3; ++axis) {
+            Real* __restrict const x = slots.position[axis] + first;
+            const Real* __restrict const correction = slots.correction[axis] + first;
+            for (int k = 0; k < size; ++k) x[k] += scale[k] * correction[k];
+        }
+    }
+}
+
+template <class Real>
+void displacement_velocity(const MotionView<Real>& slots, Real inverse_h) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real* __restrict const x = slots.position[axis];
+        const Real* __restrict const start = slots.start[axis];
+        Real* __restrict const velocity = slots.velocity[axis];
+        for (int slot = 0; slot < slots.blocks * lanes; ++slot) velocity[slot] = (x[slot] - start[slot]) * inverse_h;
+    }
+}
+
+/// Shortens the vectors that are longer than `longest`.
+template <class Real>
+inline void clamp(Real (&x)[lanes], Real (&y)[lanes], Real (&z)[lanes], Real longest) {
+    for (int lane = 0; lane < lanes; ++lane) {
+        const Real size = length(x[lane], y[lane], z[lane]);
+        const Real scale = size > longest ? longest / size : Real(1);
+        x[lane] *= scale;
+        y[lane] *= scale;
+        z[lane] *= scale;
+    }
+}
+
+template <class Real>
+void finish_velocity(const MotionView<Real>& slots, const VelocityRule<Real>& rule) {
+    for (int block = 0; block < slots.blocks; ++block) {
+        const int first = block * lanes;
+        Real v[3][lanes];
+        for (int axis = 0; axis < 3; ++axis) {
+            const Real* const u = slots.velocity[axis] + first;
+            const Real* const change = slots.correction[axis] + first;
+            for (int lane = 0; lane < lanes; ++lane) v[axis][lane] = u[lane];
+            if (block < rule.viscous_blocks)
+                for (int lane = 0; lane < lanes; ++lane) v[axis][lane] += rule.viscosity_step * change[lane];
+            if (rule.damping)
+                for (int lane = 0; lane < lanes; ++lane) v[axis][lane] -= rule.damping_step * u[lane];
+        }
+        if (rule.clamp_acceleration) {
+            for (int axis = 0; axis < 3; ++axis)
+                for (int lane = 0; lane < lanes; ++lane) v[axis][lane] -= slots.predicted[axis][first + lane];
+            clamp(v[0], v[1], v[2], rule.most_change);
+            for (int axis = 0; axis < 3; ++axis)
+                for (int lane = 0; lane < lanes; ++lane)
+                    v[axis][lane] = slots.predicted[axis][first + lane] + v[axis][lane];
+        }
+        if (rule.clamp_speed) clamp(v[0], v[1], v[2], rule.max_speed);
+        for (int axis = 0; axis < 3; ++axis)
+            for (int lane = 0; lane < lanes; ++lane) slots.velocity[axis][first + lane] = v[axis][lane];
+    }
+}
+
+template <class Real>
+bool finite(const Real* values, int count) {
+    int bad = 0;
+    for (int k = 0; k < count; ++k) bad |= values[k] - values[k] == 0 ? 0 : 1;
+    return bad == 0;
+}
+
+template <class Real>
+unsigned near_plane(const MotionView<Real>& slots, int block, const PlaneView<Real>& plane) {
+    const Real* const x = slots.position[0] + block * lanes;
+    const Real* const y = slots.position[1] + block * lanes;
+    const Real* const z = slots.position[2] + block * lanes;
+    const Real nx = plane.normal[0], ny = plane.normal[1], nz = plane.normal[2];
+    unsigned near[lanes];
+    for (int lane = 0; lane < lanes; ++lane)
+        near[lane] = dot(nx, ny, nz, x[lane], y[lane], z[lane]) + plane.offset <= plane.distance ? 1u << lane : 0;
+    unsigned all = 0;
+    for (int lane = 0; lane < lanes; ++lane) all |= near[lane];
+    return all;
+}
+
+/// Moves x out of the plane where `chosen` is 1 and not 0: one particle, or a vector of them.
+template <class Lane, class Real>
+inline void push(Lane& x, Lane& y, Lane& z, Lane x0, Lane y0, Lane z0, Lane chosen, const PlaneView<Real>& plane) {
+    const Real nx = plane.normal[0], ny = plane.normal[1], nz = plane.normal[2];
+    const Lane depth = chosen * (plane.distance - (dot(x, y, z, nx, ny, nz) + plane.offset));
+    Lane px = x + depth * nx, py = y + depth * ny, pz = z + depth * nz;
+    if (plane.friction) {
+        const Lane mx = px - x0, my = py - y0, mz = pz - z0;
+        const Lane along = dot(mx, my, mz, nx, ny, nz);
+        const Lane tx = mx - along * nx, ty = my - along * ny, tz = mz - along * nz;
+        const Lane m = length(tx, ty, tz);
+        const Lane sliding = plane.dynamic_friction * depth;
+        const Lane held = m < plane.static_friction * depth ? m : (m < sliding ? m : sliding);
+        const Lane part = held / (m > 0 ? m : Lane{} + 1);
+        px -= part * tx;
+        py -= part * ty;
+        pz -= part * tz;
+    }
+    x = depth > 0 ? px : x;
+    y = depth > 0 ? py : y;
+    z = depth > 0 ? pz : z;
+}
+
+template <class Real>
+void push_from_plane(const MotionView<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
+    for (int lane = 0; lane < lanes; ++lane) {
+        const int slot = block * lanes + lane;
+        push(slots.position[0][slot], slots.position[1][slot], slots.position[2][slot], slots.start[0][slot],
+             slots.start[1][slot], slots.start[2][slot], static_cast<Real>(chosen >> lane & 1u), plane);
+    }
+}
+
+void push_from_plane(const MotionView<float>& slots, int block, unsigned chosen, const PlaneView<float>& plane) {
+    for (int slot = block * lanes; slot < (block + 1) * lanes; slot += width, chosen >>= width) {
+        Floats x = load(slots.position[0] + slot), y = load(slots.position[1] + slot), z = load(slots.position[2] + slot);
+        push(x, y, z, load(slots.start[0] + slot), load(slots.start[1] + slot), load(slots.start[2] + slot),
+             ones(chosen), plane);
+        store(slots.position[0] + slot, x);
+        store(slots.position[1] + slot, y);
+        store(slots.position[2] + slot, z);
+    }
+}
+
+}  // namespace
+
+template <class Real>
+MotionKernels<Real> scalar_motion_kernels() {
+    return {&relax<Real>, &displacement_velocity<Real>, &finish_velocity<Real>, &finite<Real>,
+            &near_plane<Real>, &push_from_plane<Real>};
+}
+template MotionKernels<float> scalar_motion_kernels<float>();
+template MotionKernels<double> scalar_motion_kernels<double>();
+
+template <>
+MotionKernels<double> motion_kernels<double>() {
+    return scalar_motion_kernels<double>();
+}
+
+template <>
+MotionKernels<float> motion_kernels<float>() {
+    MotionKernels<float> kernels = scalar_motion_kernels<float>();
+    kernels.push_from_plane = &push_from_plane;
+    return kernels;
+}
+
+}  // namespace natator::cpu::NATATOR_ISA

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+
+#include "natator/instruction_set.h"
+
+namespace natator::cpu {
+
+/// Runs of slots [begin[k], end[k]). Two arrays, so that what was written as two numbers is not read as one, which
+/// would have to wait for the stores.
+struct SlotRuns {
+    static constexpr int most = 18;
+    int count = 0;
+    int begin[most];
+    int end[most];
+};
+
+/// How the lists of fluid neighbours are built, in one instruction set.
+template <class Real>
+struct NeighbourKernels {
+    /// Writes to `found` the slots of the runs that are nearer to `slot` than sqrt(distance_squared), without those at
+    /// distance 0. Returns their number. `found` must have room for 16 entries more than the runs have slots, and the
+    /// positions must go on for 16 slots behind each run.
+    int (*find)(const Real* const position[3], int slot, const SlotRuns& runs, Real distance_squared,
+                std::int32_t* found);
+    /// Lays 16 lists side by side: entry `lane` of row k is list[lane][k], or `filler` from count[lane] on. Writes
+    /// `rows` rows; `to` must have room for the next multiple of 16 rows.
+    void (*interleave)(const std::int32_t* const* list, const int* count, int rows, std::int32_t filler,
+                       std::int32_t* to);
+};
+
+namespace portable {
+template <class Real>
+NeighbourKernels<Real> neighbour_kernels();
+template <class Real>
+NeighbourKernels<Real> scalar_neighbour_kernels();
+}
+namespace avx2 {
+template <class Real>
+NeighbourKernels<Real> neighbour_kernels();
+template <class Real>
+NeighbourKernels<Real> scalar_neighbour_kernels();
+}
+namespace avx512 {
+template <class Real>
+NeighbourKernels<Real> neighbour_kernels();
+template <class Real>
+NeighbourKernels<Real> scalar_neighbour_kernels();
+}
+
+/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give the portable ones.
+template <class Real>
+const NeighbourKernels<Real>& neighbour_kernels(InstructionSet set);
+template <class Real>
+const NeighbourKernels<Real>& scalar_neighbour_kernels(InstructionSet set);
+
+}  // namespace natator::cpu
