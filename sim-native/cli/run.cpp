@@ -20,6 +20,7 @@ struct Options {
     std::string precision = "float";
     std::optional<double> duration;
     bool particles = false;
+    int threads = 1;
 };
 
 /// JSON given on the command line, or in a file if it does not begin with '{'.
@@ -87,7 +88,7 @@ int run_scene(const Options& options) {
     }
 
     const auto start = std::chrono::steady_clock::now();
-    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame);
+    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame, {.threads = options.threads});
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));
@@ -109,6 +110,11 @@ void add_run(CLI::App& app, int& status) {
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
+    command
+        ->add_option("--threads", options->threads,
+                     "Threads, for scenes of many thousand particles; the same bits for any number.")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
     auto* trajectory =
         command->add_option("--trajectory", options->trajectory,
                             "CSV file for the centre of every slice in every frame: frame,time,slice,x,y,z.");

@@ -25,6 +25,7 @@ private:
 
 /// How a scene is run, without a say in what comes out.
 struct Execution {
+    int threads = 1;                  ///< for scenes of many thousand particles; small ones use one all the same
     StageProfile* profile = nullptr;  ///< where the time goes; null costs nothing
 };
 
