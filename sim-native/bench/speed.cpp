@@ -77,6 +77,7 @@ struct TimedScene {
     Row key;
     Scene scene;
     Precision precision;
+    int threads;
     std::vector<double> seconds{};
     std::string hash{};
     double peak_mb = 0;
@@ -89,7 +90,7 @@ void measure(TimedScene& one) {
     forget_peak_memory();
     const auto start = Clock::now();
     const Evaluation result = evaluate(one.scene, gait_for(one.scene), one.precision, {}, {},
-                                       {.profile = &one.profile});
+                                       {.threads = one.threads, .profile = &one.profile});
     one.seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     one.peak_mb = std::max(one.peak_mb, peak_memory_mb());
     const std::string hash = hash_text(result.hash);
@@ -139,13 +140,13 @@ std::vector<std::string> speed_scene_names() {
 }
 
 Row speed_columns() {
-    return {"scene",    "scheme",     "precision",  "instruction_set", "machine",
+    return {"scene",    "scheme",     "precision",  "instruction_set", "threads", "machine",
             "particles", "fluid_particles", "substeps", "iterations",   "repeats",
             "seconds_least", "seconds_median", "million_particle_iterations_per_second", "peak_mb", "hash"};
 }
 
 Row speed_profile_columns() {
-    return {"scene", "scheme", "precision", "instruction_set", "machine", "stage", "calls", "seconds", "share"};
+    return {"scene", "scheme", "precision", "instruction_set", "threads", "machine", "stage", "calls", "seconds", "share"};
 }
 
 void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& profile,
@@ -155,11 +156,14 @@ void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& p
         std::vector<TimedScene> timed;
         for (const Scheme scheme : study.schemes) {
             for (const Precision precision : study.precisions) {
-                const Row key{name, to_string(scheme), to_string(precision), to_string(instruction_set()), machine};
-                if (table.has(key)) continue;
-                Scene scene = make_scene(find_scene(name), study.quick);
-                scene.scheme = scheme;
-                timed.push_back({.key = key, .scene = std::move(scene), .precision = precision});
+                for (const int threads : study.threads) {
+                    const Row key{name, to_string(scheme), to_string(precision), to_string(instruction_set()),
+                                  std::to_string(threads), machine};
+                    if (table.has(key)) continue;
+                    Scene scene = make_scene(find_scene(name), study.quick);
+                    scene.scheme = scheme;
+                    timed.push_back({key, std::move(scene), precision, threads});
+                }
             }
         }
         for (int repeat = 0; repeat < study.repeats; ++repeat)

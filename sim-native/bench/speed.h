@@ -14,6 +14,7 @@ struct SpeedStudy {
     std::vector<std::string> scenes;  ///< speed_scene_names()
     std::vector<Scheme> schemes;
     std::vector<Precision> precisions;
+    std::vector<int> threads{1};
     int repeats = 3;
     bool quick = false;  ///< a few frames of each scene
 };
@@ -21,18 +22,18 @@ struct SpeedStudy {
 /// The thesis' creatures in their tank, 4 s each, creature 1 in vacuum, and its tank with 8 and 64 times the fluid.
 std::vector<std::string> speed_scene_names();
 
-/// Columns scene, scheme, precision, instruction_set, machine (these are the key); particles, fluid_particles,
+/// Columns scene, scheme, precision, instruction_set, threads, machine (these are the key); particles, fluid_particles,
 /// substeps (of all frames, without settling), iterations; repeats; seconds_least, seconds_median;
 /// million_particle_iterations_per_second: (fluid particles, or all without fluid) x substeps x iterations over
 /// seconds_least; peak_mb; hash.
 Row speed_columns();
 /// The key of speed_columns, then stage, calls, seconds, share (of the time in all stages): of the last repeat.
 Row speed_profile_columns();
-inline constexpr std::size_t speed_key_columns = 5;
+inline constexpr std::size_t speed_key_columns = 6;
 
-/// Runs what `table` does not hold yet; `profile` gets a row per stage of each. The schemes and precisions of a scene
-/// take turns, so that a slow spell of the machine hits all alike. `report` gets a line per row. Throws
-/// std::runtime_error when two runs of the same thing differ in a bit.
+/// Runs what `table` does not hold yet; `profile` gets a row per stage of each. The settings of a scene take
+/// turns, so that a slow spell of the machine hits all alike. `report` gets a line per row. Throws
+/// std::runtime_error when two runs of a scene, scheme and precision differ in a bit.
 void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& profile,
                      const std::function<void(const std::string&)>& report);
 

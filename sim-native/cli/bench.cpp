@@ -242,6 +242,7 @@ void add_speed(CLI::App* bench, int& status) {
     struct Options {
         Common common;
         std::vector<std::string> scenes = speed_scene_names();
+        std::vector<int> threads{1};
         int repeats = 3;
     };
     const auto options = std::make_shared<Options>();
@@ -251,13 +252,16 @@ void add_speed(CLI::App* bench, int& status) {
     command->add_option("--scene", options->scenes, "Scenes.")
         ->check(CLI::IsMember(speed_scene_names()))
         ->capture_default_str();
+    command->add_option("--threads", options->threads, "Threads inside one evaluation.")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
     command->add_option("--repeats", options->repeats, "Runs of each; the fastest counts.")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
-        const SpeedStudy study{options->scenes, common.chosen_schemes(), common.chosen_precisions(), options->repeats,
-                               common.quick};
+        const SpeedStudy study{options->scenes, common.chosen_schemes(), common.chosen_precisions(), options->threads,
+                               options->repeats, common.quick};
         ResultTable table(common.output, speed_columns(), speed_key_columns);
         ResultTable profile(common.output.empty() ? "" : path_beside(common.output, "profile"), speed_profile_columns(),
                             speed_key_columns);

@@ -15,6 +15,7 @@ using nlohmann::json;
 struct Options {
     BackendChoice backend;
     bool plain = false, no_cache = false;
+    int threads = 1;
 };
 
 /// Evaluates one request. Sets `id` as soon as it is known, for messages.
@@ -22,7 +23,7 @@ int evaluate_request(const std::string& text, const Options& options, const Star
     const json value = parse_json(text, "request");
     id = request_id(value);
     const Job job = read_job(value, options.backend);
-    const Evaluation evaluation = evaluate_job(job, starts);
+    const Evaluation evaluation = evaluate_job(job, {.starts = starts, .threads = options.threads});
     const auto result = result_json(id, evaluation, job.scene.scheme, job.request.precision);
     print((options.plain ? result.at("fitness") : result).dump() + "\n");
     if (!evaluation.instability) return ok;
@@ -55,6 +56,11 @@ void add_evaluate(CLI::App& app, int& status) {
     command->add_flag("--plain", options->plain, "Write only the fitness, as a number.");
     command->add_flag("--no-cache", options->no_cache,
                       "Settle the start anew instead of keeping it for the next time.");
+    command
+        ->add_option("--threads", options->threads,
+                     "Threads, for scenes of many thousand particles; the same bits for any number.")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
     command->callback([options, &status] { status = run_evaluate(*options); });
 }
 

@@ -25,10 +25,10 @@ Job read_job(const nlohmann::json& value, const BackendChoice& backend) {
     return job;
 }
 
-Evaluation evaluate_job(const Job& job, const StartCache* starts) {
+Evaluation evaluate_job(const Job& job, const Execution& execution) {
     const Request& request = job.request;
     if (!on_gpu(job.backend, job.scene))
-        return evaluate(job.scene, job.gait, request.precision, request.perturbation, {}, {.starts = starts});
+        return evaluate(job.scene, job.gait, request.precision, request.perturbation, {}, execution);
     return evaluate_on_gpu(job.scene, {{job.gait, request.perturbation}}, request.precision, job.backend.device)
         .front();
 }

@@ -17,6 +17,6 @@ struct Job {
 Job read_job(const nlohmann::json& value, const BackendChoice& backend);
 
 /// Evaluates one job by itself.
-Evaluation evaluate_job(const Job& job, const StartCache* starts);
+Evaluation evaluate_job(const Job& job, const Execution& execution);
 
 }  // namespace natator::cli

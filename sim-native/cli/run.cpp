@@ -21,6 +21,7 @@ struct Options {
     std::optional<double> duration;
     bool particles = false;
     bool no_cache = false;
+    int threads = 1;
 };
 
 /// JSON given on the command line, or in a file if it does not begin with '{'.
@@ -89,7 +90,8 @@ int run_scene(const Options& options) {
 
     const std::optional<StartCache> starts = options.no_cache ? std::nullopt : StartCache::of_user();
     const auto start = std::chrono::steady_clock::now();
-    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame, {.starts = starts ? &*starts : nullptr});
+    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame,
+                                       {.starts = starts ? &*starts : nullptr, .threads = options.threads});
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));
@@ -111,6 +113,11 @@ void add_run(CLI::App& app, int& status) {
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
+    command
+        ->add_option("--threads", options->threads,
+                     "Threads, for scenes of many thousand particles; the same bits for any number.")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
     auto* trajectory =
         command->add_option("--trajectory", options->trajectory,
                             "CSV file for the centre of every slice in every frame: frame,time,slice,x,y,z.");

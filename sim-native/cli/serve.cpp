@@ -60,7 +60,7 @@ void serve_batch(const std::vector<std::string>& lines, const Options& options, 
                 const Request& request = job.request;
                 groups[{request.scene, request.overrides.dump(), request.precision, job.backend.device}].push_back(job);
             } else {
-                answer(job, evaluate_job(job, starts));
+                answer(job, evaluate_job(job, {.starts = starts}));
             }
         } catch (const InputError& error) {
             answer(error_json(id, error.what()));

@@ -168,6 +168,7 @@ TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
     const SpeedStudy study{{"creature-1", "vacuum"},
                            {Scheme::flex, Scheme::conserving},
                            {Precision::single_precision},
+                           {1},
                            2,
                            true};
     ResultTable table("", speed_columns(), speed_key_columns);
@@ -175,16 +176,16 @@ TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
     run_speed_study(study, table, profile, ignore);
     ASSERT_EQ(table.rows().size(), 4u);
     for (const Row& row : table.rows()) {
-        for (const std::size_t column : {10u, 11u, 12u, 13u}) EXPECT_GT(std::stod(row[column]), 0) << joined(row, " ");
-        EXPECT_EQ(row[14].size(), 16u);
+        for (const std::size_t column : {11u, 12u, 13u, 14u}) EXPECT_GT(std::stod(row[column]), 0) << joined(row, " ");
+        EXPECT_EQ(row[15].size(), 16u);
         double share = 0;
         for (const Row& stage : profile.rows())
-            if (std::equal(row.begin(), row.begin() + speed_key_columns, stage.begin())) share += std::stod(stage[8]);
+            if (std::equal(row.begin(), row.begin() + speed_key_columns, stage.begin())) share += std::stod(stage[9]);
         EXPECT_NEAR(share, 1, 1e-4) << joined(row, " ");
     }
-    EXPECT_EQ(table.rows()[0][6], "5660");
-    EXPECT_EQ(table.rows()[2][6], "0");
-    EXPECT_NE(table.rows()[0][14], table.rows()[1][14]);
+    EXPECT_EQ(table.rows()[0][7], "5660");
+    EXPECT_EQ(table.rows()[2][7], "0");
+    EXPECT_NE(table.rows()[0][15], table.rows()[1][15]);
 }
 
 TEST(SpeedTest, ProfilingChangesNoBit) {

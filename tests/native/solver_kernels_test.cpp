@@ -54,7 +54,8 @@ struct Fluid {
     FluidView<float> view() {
         const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
         const auto x = pointers(position), u = pointers(velocity), dx = pointers(correction);
-        return {.blocks = blocks,
+        return {.first_block = 0,
+                .end_block = blocks,
                 .row_begin = row_begin.data(),
                 .neighbour = neighbour.data(),
                 .far_slot = far_slot,
@@ -101,10 +102,12 @@ protected:
 
 TEST_P(SolverKernels, DensityAndItsConstraint) {
     Fluid fluid, expected;
+    kernels.pack(fluid.view());
     kernels.compute_density(fluid.view());
     scalar.compute_density(expected.view());
     expect_near(fluid.density, expected.density);
     expect_near(fluid.compression, expected.compression);
+    kernels.pack(fluid.view());
     kernels.solve_density_constraint(fluid.view());
     scalar.solve_density_constraint(expected.view());
     expect_near(fluid.correction.x, expected.correction.x);
@@ -115,6 +118,8 @@ TEST_P(SolverKernels, DensityAndItsConstraint) {
 
 TEST_P(SolverKernels, Viscosity) {
     Fluid fluid, expected;
+    kernels.pack(fluid.view());
+    kernels.pack_velocity(fluid.view());
     kernels.smooth_velocities(fluid.view());
     scalar.smooth_velocities(expected.view());
     expect_near(fluid.correction.x, expected.correction.x);
@@ -182,7 +187,8 @@ TEST_P(SolverKernels, MotionIsTheSameInAllSets) {
         const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
         const auto x = pointers(particles->position), x0 = pointers(start), v0 = pointers(predicted),
                    dx = pointers(particles->correction), v = pointers(particles->velocity);
-        const MotionView<float> slots{.blocks = Fluid::blocks,
+        const MotionView<float> slots{.first_block = 0,
+                                      .end_block = Fluid::blocks,
                                       .position = {x[0], x[1], x[2]},
                                       .start = {x0[0], x0[1], x0[2]},
                                       .predicted = {v0[0], v0[1], v0[2]},

@@ -29,6 +29,7 @@ private:
 struct Execution {
     StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
     const StartCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
+    int threads = 1;                     ///< for scenes of many thousand particles; small ones use one all the same
 };
 
 }  // namespace natator

@@ -79,7 +79,9 @@ template <class Real>
 class Solver<Real>::Implementation {
 public:
     Implementation(const Model& model, const Execution& execution)
-        : model_(model), execution_(execution), stages_(stages_for(model)) {}
+        : model_(model), execution_(execution), stages_(stages_for(model)) {
+        std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
+    }
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
                                       const Gait* gait) {

@@ -36,11 +36,12 @@ std::optional<int> Substep<Real>::first_not_finite() const {
 
 template <class Real>
 void Substep<Real>::commit() {
-    for (int i = 0; i < ws_.particles; ++i) {
-        if (inverse_mass_[i] == 0) continue;
-        state_->position[i] = position_of_slot(ws_.slot_of[i]);
+    for_each_slot([this](int slot) {
+        const int i = ws_.particle_of[slot];
+        if (inverse_mass_[i] == 0) return;
+        state_->position[i] = position_of_slot(slot);
         state_->velocity[i] = new_velocity_[i];
-    }
+    });
     state_->cluster_rotation = cluster_rotation_;
     state_->cluster_centre = cluster_centre_;
 }

@@ -52,7 +52,7 @@ void Substep<Real>::find_plane_contacts() {
     for (int plane = static_cast<int>(model_.planes.size()) - 1; plane >= 0; --plane) {
         PlaneView<Real> view = plane_view(plane);
         view.distance = constants_.plane_search_distance;
-        for (int block = 0; block < slots.blocks; ++block) {
+        for (int block = 0; block < slots.end_block; ++block) {
             const unsigned near = motion_kernels_->near_plane(slots, block, view);
             unsigned chosen = 0;
             for (unsigned rest = near; rest != 0; rest &= rest - 1) {

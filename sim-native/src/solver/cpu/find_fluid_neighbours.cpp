@@ -10,7 +10,8 @@ FluidView<Real> Substep<Real>::fluid_view() {
     const auto position = pointers(ws_.position);
     const auto correction = pointers(ws_.correction);
     const auto velocity = pointers(ws_.velocity);
-    return {.blocks = ws_.blocks(),
+    return {.first_block = 0,
+            .end_block = ws_.blocks(),
             .row_begin = ws_.row_begin.data(),
             .neighbour = ws_.neighbour.data(),
             .far_slot = ws_.slots,
@@ -33,14 +34,16 @@ FluidView<Real> Substep<Real>::fluid_view() {
 
 /// Lists for each fluid particle the fluid particles closer than the radius plus margin at the predicted positions,
 /// in the order of their slots per run of cells, at most most_neighbours_. Pairs at distance 0 are left out.
+/// Writes the rows of these blocks to the front of `rows`; row_begin counts from there.
 template <class Real>
-void Substep<Real>::find_fluid_neighbours() {
+void Substep<Real>::list_fluid_neighbours(int first_block, int end_block, ListRoom& room,
+                                          AlignedVector<std::int32_t>& all_rows) {
     const Real* const position[3] = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()};
     const Real distance_squared = constants_.search_distance * constants_.search_distance;
     int row = -1;
     typename CellGrid<Real>::Rows rows_around;
     std::size_t end = 0;
-    for (int block = 0; block < ws_.blocks(); ++block) {
+    for (int block = first_block; block < end_block; ++block) {
         int rows = 0;
         std::array<int, lanes> count{};
         std::array<const std::int32_t*, lanes> list{};
@@ -54,7 +57,7 @@ void Substep<Real>::find_fluid_neighbours() {
             }
             SlotRuns runs;
             const int candidates = add_runs(rows_around, cell, ws_.fluid_cell_begin, runs);
-            std::vector<std::int32_t>& found = found_[lane];
+            std::vector<std::int32_t>& found = room.found[lane];
             if (static_cast<int>(found.size()) < candidates + lanes) found.resize(2 * candidates + lanes);
             int n = neighbour_kernels_->find(position, slot, runs, distance_squared, found.data());
             if (!plan_.uniform_fluid) {
@@ -68,13 +71,36 @@ void Substep<Real>::find_fluid_neighbours() {
             rows = std::max(rows, count[lane]);
         }
         const std::size_t needed = end + static_cast<std::size_t>(round_up_to_block(rows)) * lanes;
-        if (ws_.neighbour.size() < needed) ws_.neighbour.resize(needed + needed / 2);
-        neighbour_kernels_->interleave(list.data(), count.data(), rows, ws_.slots, ws_.neighbour.data() + end);
+        if (all_rows.size() < needed) all_rows.resize(needed + needed / 2);
+        neighbour_kernels_->interleave(list.data(), count.data(), rows, ws_.slots, all_rows.data() + end);
         ws_.row_begin[block] = static_cast<int>(end / lanes);
         end += static_cast<std::size_t>(rows) * lanes;
     }
-    ws_.row_begin[ws_.blocks()] = static_cast<int>(end / lanes);
-    ws_.distance.resize(ws_.neighbour.size());
+    room.size = end;
+}
+
+/// The first thread writes its rows in place, the others theirs into room of their own, to be appended in order.
+template <class Real>
+void Substep<Real>::find_fluid_neighbours() {
+    list_room_.resize(team_->size());
+    for (ListRoom& room : list_room_) room.size = 0;
+    team_->for_parts(ws_.blocks(), shortest_part, [this](int part, int begin, int end) {
+        ListRoom& room = list_room_[part];
+        list_fluid_neighbours(begin, end, room, part == 0 ? ws_.neighbour : room.rows);
+    });
+    std::size_t size = 0;
+    for (const ListRoom& room : list_room_) size += room.size;
+    if (ws_.neighbour.size() < size) ws_.neighbour.resize(size + size / 2);
+    team_->for_parts(ws_.blocks(), shortest_part, [this](int part, int begin, int end) {
+        std::size_t before = 0;
+        for (int k = 0; k < part; ++k) before += list_room_[k].size;
+        if (part == 0) return;
+        const ListRoom& room = list_room_[part];
+        std::copy_n(room.rows.begin(), room.size, ws_.neighbour.begin() + static_cast<std::ptrdiff_t>(before));
+        for (int block = begin; block < end; ++block) ws_.row_begin[block] += static_cast<int>(before / lanes);
+    });
+    ws_.row_begin[ws_.blocks()] = static_cast<int>(size / lanes);
+    if (model_.scheme == Scheme::flex && ws_.distance.size() < size) ws_.distance.resize(ws_.neighbour.size());
 }
 
 template FluidView<float> Substep<float>::fluid_view();

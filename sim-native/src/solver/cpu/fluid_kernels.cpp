@@ -24,7 +24,7 @@ constexpr Real tiny = Real(1e-30);
 /// Calls work(first slot, first row, last row, offset in each row) for each group of `width` slots.
 template <class Work>
 void for_each_group(const FluidView<float>& fluid, const Work& work) {
-    for (int block = 0; block < fluid.blocks; ++block)
+    for (int block = fluid.first_block; block < fluid.end_block; ++block)
         for (int lane = 0; lane < lanes; lane += width)
             work(block * lanes + lane, fluid.row_begin[block], fluid.row_begin[block + 1], lane);
 }
@@ -35,7 +35,7 @@ void compute_density(const FluidView<Real>& fluid) {
     const Real* const y = fluid.position[1];
     const Real* const z = fluid.position[2];
     const Real inverse_radius = fluid.inverse_radius;
-    for (int block = 0; block < fluid.blocks; ++block) {
+    for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum[lanes] = {};
         for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
@@ -59,18 +59,29 @@ void compute_density(const FluidView<Real>& fluid) {
 }
 
 /// Lays three arrays out as quadruples (x, y, z, w), also for the far slot.
-void pack(const FluidView<float>& fluid, const float* const from[3], const float* w, float* to) {
+void pack_arrays(const FluidView<float>& fluid, const float* const from[3], const float* w, float* to) {
     const auto pack_group = [&](int slot) {
         store_quadruples(to + 4 * slot,
                          {load(from[0] + slot), load(from[1] + slot), load(from[2] + slot), load(w + slot)});
     };
-    for (int slot = 0; slot < fluid.blocks * lanes; slot += width) pack_group(slot);
-    pack_group(fluid.far_slot / width * width);
+    for (int slot = fluid.first_block * lanes; slot < fluid.end_block * lanes; slot += width) pack_group(slot);
+    if (fluid.first_block == 0) pack_group(fluid.far_slot / width * width);
 }
+
+void pack(const FluidView<float>& fluid) {
+    pack_arrays(fluid, fluid.position, fluid.compression, fluid.packed);
+}
+
+void pack_velocity(const FluidView<float>& fluid) {
+    pack_arrays(fluid, fluid.velocity, fluid.compression, fluid.packed_velocity);
+}
+
+/// The plain loops read the arrays as they are.
+template <class Real>
+void pack_nothing(const FluidView<Real>&) {}
 
 /// Also keeps each pair's distance for solve_density_constraint.
 void compute_density(const FluidView<float>& fluid) {
-    pack(fluid, fluid.position, fluid.compression, fluid.packed);
     const std::int32_t* const neighbours = fluid.neighbour;
     const float* const packed = fluid.packed;
     float* const distance = fluid.distance;
@@ -101,7 +112,7 @@ void solve_density_constraint(const FluidView<Real>& fluid) {
     const Real* const z = fluid.position[2];
     const Real* const c = fluid.compression;
     const Real inverse_radius = fluid.inverse_radius;
-    for (int block = 0; block < fluid.blocks; ++block) {
+    for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum_x[lanes] = {}, sum_y[lanes] = {}, sum_z[lanes] = {}, count[lanes] = {};
         for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
@@ -134,7 +145,6 @@ void solve_density_constraint(const FluidView<Real>& fluid) {
 
 /// At the positions and with the distances that compute_density has left.
 void solve_density_constraint(const FluidView<float>& fluid) {
-    pack(fluid, fluid.position, fluid.compression, fluid.packed);
     const std::int32_t* const neighbours = fluid.neighbour;
     const float* const packed = fluid.packed;
     const float* const distance = fluid.distance;
@@ -175,7 +185,7 @@ void smooth_velocities(const FluidView<Real>& fluid) {
     const Real* const v = fluid.velocity[1];
     const Real* const w = fluid.velocity[2];
     const Real inverse_radius = fluid.inverse_radius;
-    for (int block = 0; block < fluid.blocks; ++block) {
+    for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum_u[lanes] = {}, sum_v[lanes] = {}, sum_w[lanes] = {};
         for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
@@ -201,8 +211,6 @@ void smooth_velocities(const FluidView<Real>& fluid) {
 }
 
 void smooth_velocities(const FluidView<float>& fluid) {
-    pack(fluid, fluid.position, fluid.compression, fluid.packed);
-    pack(fluid, fluid.velocity, fluid.compression, fluid.packed_velocity);
     const std::int32_t* const neighbours = fluid.neighbour;
     const float* const packed = fluid.packed;
     const float* const packed_velocity = fluid.packed_velocity;
@@ -235,7 +243,8 @@ void smooth_velocities(const FluidView<float>& fluid) {
 
 template <class Real>
 FluidKernels<Real> scalar_fluid_kernels() {
-    return {&compute_density<Real>, &solve_density_constraint<Real>, &smooth_velocities<Real>};
+    return {&pack_nothing<Real>, &pack_nothing<Real>, &compute_density<Real>, &solve_density_constraint<Real>,
+            &smooth_velocities<Real>};
 }
 
 template FluidKernels<float> scalar_fluid_kernels<float>();
@@ -248,7 +257,7 @@ FluidKernels<double> fluid_kernels<double>() {
 
 template <>
 FluidKernels<float> fluid_kernels<float>() {
-    return {&compute_density, &solve_density_constraint, &smooth_velocities};
+    return {&pack, &pack_velocity, &compute_density, &solve_density_constraint, &smooth_velocities};
 }
 
 }  // namespace natator::cpu::NATATOR_ISA

@@ -10,7 +10,7 @@ namespace natator::cpu {
 /// and must not share inline code with the rest of the program. Arrays are by slot unless said otherwise.
 template <class Real>
 struct FluidView {
-    int blocks;
+    int first_block, end_block;     ///< the blocks to work on
     const int* row_begin;           ///< by block
     const std::int32_t* neighbour;  ///< rows of 16 slots
     int far_slot;                   ///< what unused entries of the rows hold
@@ -30,19 +30,24 @@ struct FluidView {
     Real* velocity_change[3];
 
     // Room for the kernels.
-    Real* packed;           ///< 4 per slot: the position, and a value of the kernel's own
-    Real* packed_velocity;  ///< 4 per slot
+    Real* packed;           ///< 4 per slot: position and compression
+    Real* packed_velocity;  ///< 4 per slot: velocity and anything
     Real* distance;         ///< one per entry of the rows
 };
 
-/// The hot loops of the solver in one instruction set.
+/// The hot loops of the solver in one instruction set. Each particle's sums are computed apart, so blocks may be worked
+/// on side by side once the packing that a loop needs is done for all.
 template <class Real>
 struct FluidKernels {
-    /// density_i = (sum_j (1 - r/R)^2 + solid_density_i) / S and compression C_i = max(density_i - 1, 0).
+    /// Lays positions and compressions out for the other loops.
+    void (*pack)(const FluidView<Real>& fluid);
+    /// The same for velocities.
+    void (*pack_velocity)(const FluidView<Real>& fluid);
+    /// Needs packed positions. density_i = (sum_j (1 - r/R)^2 + solid_density_i) / S and compression C_i = max(density_i - 1, 0).
     void (*compute_density)(const FluidView<Real>& fluid);
-    /// correction_i = w_i R sum_j 1/2 (C_i + C_j) (1 - r/R) n; constraint_count_i = neighbours with r < R.
+    /// Needs compute_density, and positions and compressions packed anew. correction_i = w_i R sum_j 1/2 (C_i + C_j) (1 - r/R) n; constraint_count_i = neighbours with r < R.
     void (*solve_density_constraint)(const FluidView<Real>& fluid);
-    /// velocity_change_i = sum_j W_ij (u_j - u_i), W = (1 - r/R)^2 / S.
+    /// Needs packed positions and velocities. velocity_change_i = sum_j W_ij (u_j - u_i), W = (1 - r/R)^2 / S.
     void (*smooth_velocities)(const FluidView<Real>& fluid);
 };
 

@@ -31,8 +31,8 @@ template <class Real>
 void relax(const MotionView<Real>& slots, Real most, bool local) {
     constexpr int stretch = 16 * lanes;
     Real scale[stretch];
-    for (int first = 0; first < slots.blocks * lanes; first += stretch) {
-        const int rest = slots.blocks * lanes - first;
+    for (int first = slots.first_block * lanes; first < slots.end_block * lanes; first += stretch) {
+        const int rest = slots.end_block * lanes - first;
         const int size = rest < stretch ? rest : stretch;
         const Real* __restrict const count = slots.constraint_count + first;
         for (int k = 0; k < size; ++k) {
@@ -54,7 +54,8 @@ void displacement_velocity(const MotionView<Real>& slots, Real inverse_h) {
         const Real* __restrict const x = slots.position[axis];
         const Real* __restrict const start = slots.start[axis];
         Real* __restrict const velocity = slots.velocity[axis];
-        for (int slot = 0; slot < slots.blocks * lanes; ++slot) velocity[slot] = (x[slot] - start[slot]) * inverse_h;
+        for (int slot = slots.first_block * lanes; slot < slots.end_block * lanes; ++slot)
+            velocity[slot] = (x[slot] - start[slot]) * inverse_h;
     }
 }
 
@@ -72,7 +73,7 @@ inline void clamp(Real (&x)[lanes], Real (&y)[lanes], Real (&z)[lanes], Real lon
 
 template <class Real>
 void finish_velocity(const MotionView<Real>& slots, const VelocityRule<Real>& rule) {
-    for (int block = 0; block < slots.blocks; ++block) {
+    for (int block = slots.first_block; block < slots.end_block; ++block) {
         const int first = block * lanes;
         Real v[3][lanes];
         for (int axis = 0; axis < 3; ++axis) {

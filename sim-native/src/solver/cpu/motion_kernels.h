@@ -7,7 +7,7 @@ namespace natator::cpu {
 /// Arrays by slot for the kernels below, which work on whole blocks of 16 slots.
 template <class Real>
 struct MotionView {
-    int blocks;  ///< of all slots, solids too
+    int first_block, end_block;  ///< the blocks to work on
     Real* position[3];
     const Real* start[3];
     const Real* predicted[3];

@@ -39,8 +39,10 @@ void Substep<Real>::sort_into_cells() {
             high[axis] = std::max(high[axis], x[axis]);
         }
     ws_.grid.cover(low, high, constants_.search_distance, 4096 + 16 * ws_.particles);
-    for (int i = 0; i < ws_.particles; ++i)
-        ws_.cell_of[i] = ws_.grid.cell(position[i].x(), position[i].y(), position[i].z());
+    team_->for_parts(ws_.particles, shortest_part * lanes, [&](int, int begin, int end) {
+        for (int i = begin; i < end; ++i)
+            ws_.cell_of[i] = ws_.grid.cell(position[i].x(), position[i].y(), position[i].z());
+    });
     sort_by_cell(ws_, ws_.fluid_ids, 0, ws_.fluid_cell_begin);
     sort_by_cell(ws_, ws_.solid_ids, ws_.solid_begin, ws_.solid_cell_begin);
 }

@@ -50,22 +50,19 @@ template <class Real>
 void Substep<Real>::gather_slots() {
     cluster_rotation_ = state_->cluster_rotation;
     cluster_centre_ = state_->cluster_centre;
-    const auto gather = [this](int begin, int end) {
-        for (int slot = begin; slot < end; ++slot) {
-            const int i = ws_.particle_of[slot];
-            ws_.position.set(slot, ws_.predicted_position[i]);
-            ws_.start.set(slot, state_->position[i]);
-            ws_.predicted.set(slot, ws_.predicted_velocity[i]);
-            ws_.inverse_mass[slot] = inverse_mass_[i];
-        }
-    };
-    gather(0, ws_.fluid);
-    gather(ws_.solid_begin, ws_.slots);
+    for_each_slot([this](int slot) {
+        const int i = ws_.particle_of[slot];
+        ws_.position.set(slot, ws_.predicted_position[i]);
+        ws_.start.set(slot, state_->position[i]);
+        ws_.predicted.set(slot, ws_.predicted_velocity[i]);
+        ws_.inverse_mass[slot] = inverse_mass_[i];
+    });
 }
 
 template <class Real>
 MotionView<Real> Substep<Real>::motion_view() {
-    return {.blocks = ws_.all_blocks(),
+    return {.first_block = 0,
+            .end_block = ws_.all_blocks(),
             .position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
             .start = {ws_.start.x.data(), ws_.start.y.data(), ws_.start.z.data()},
             .predicted = {ws_.predicted.x.data(), ws_.predicted.y.data(), ws_.predicted.z.data()},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "natator/plan.h"
 #include "natator/solver.h"
 #include "neighbour_kernels.h"
+#include "thread_team.h"
 #include "workspace.h"
 
 namespace natator::cpu {
@@ -44,6 +46,9 @@ public:
 
     const Plan& plan() const { return plan_; }
     const Workspace<Real>& workspace() const { return ws_; }
+
+    /// Shares the loops over many particles among this many threads; the bits that come out are the same.
+    void use_threads(int threads) { team_ = std::make_unique<ThreadTeam>(threads); }
 
     /// Takes the state that the coming substep of length h (s) starts from and writes back to.
     void begin_substep(State<Real>& state, Real h) {
@@ -99,8 +104,29 @@ protected:
         }
         return slots;
     }
-    FluidView<Real> fluid_view();
+    FluidView<Real> fluid_view();  ///< of all blocks
     MotionView<Real> motion_view();
+
+    /// Calls work(view of some blocks) until all blocks of the view are done, on all threads.
+    template <class View, class Work>
+    void on_all_threads(View view, const Work& work) {
+        team_->for_parts(view.end_block, shortest_part, [&](int, int begin, int end) {
+            View part = view;
+            part.first_block = begin;
+            part.end_block = end;
+            work(part);
+        });
+    }
+    /// Calls work(slot) for all slots in use, on all threads.
+    template <class Work>
+    void for_each_slot(const Work& work) {
+        team_->for_parts(ws_.all_blocks(), shortest_part, [&](int, int begin, int end) {
+            for (int slot = begin * lanes; slot < std::min(end * lanes, ws_.fluid); ++slot) work(slot);
+            for (int slot = std::max(begin * lanes, ws_.solid_begin); slot < std::min(end * lanes, ws_.slots); ++slot)
+                work(slot);
+        });
+    }
+    static constexpr int shortest_part = 512;  ///< blocks; fewer are done before another thread is awake
     PlaneView<Real> plane_view(int plane) const;
     /// Densities of the fluid by particle as the last density stage left them; 0 for solids and infinite masses.
     std::vector<Real> densities_by_particle() const;
@@ -131,6 +157,7 @@ protected:
     std::vector<std::vector<Vector3<Real>>> cluster_offset_;
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep
     std::vector<Vector3<Real>> cluster_centre_;
+    std::unique_ptr<ThreadTeam> team_ = std::make_unique<ThreadTeam>(1);
     const FluidKernels<Real>* kernels_;
     const NeighbourKernels<Real>* neighbour_kernels_;
     const MotionKernels<Real>* motion_kernels_;
@@ -143,7 +170,15 @@ private:
     std::vector<Vector3<Real>> velocity_change_;          ///< by particle; empty unless an effect needs it
     std::vector<Vector3<Real>> normal_, curl_;            ///< by fluid slot; empty unless an effect needs them
     std::vector<int> overlaps_;                           ///< by slot; empty unless an effect needs it
-    std::array<std::vector<std::int32_t>, lanes> found_;  ///< room for the neighbours of one block
+
+    /// Room for the neighbours of one block, and for the rows of the blocks that another than the first thread did.
+    struct ListRoom {
+        std::array<std::vector<std::int32_t>, lanes> found;
+        AlignedVector<std::int32_t> rows;
+        std::size_t size = 0;  ///< of the rows
+    };
+    void list_fluid_neighbours(int first_block, int end_block, ListRoom& room, AlignedVector<std::int32_t>& rows);
+    std::vector<ListRoom> list_room_{1};  ///< by thread
     std::vector<std::int32_t> found_contacts_;            ///< room for the contacts of one particle
     std::vector<std::pair<int, int>> pairs_;              ///< room for the contacts of one substep
 };

@@ -20,13 +20,17 @@ void FlexStages<Real>::compute_density() {
             ws_.solid_density[slot] = weight * sum;
         }
     }
-    kernels_->compute_density(fluid_view());
+    const FluidView<Real> fluid = fluid_view();
+    this->on_all_threads(fluid, kernels_->pack);
+    this->on_all_threads(fluid, kernels_->compute_density);
 }
 
 /// Dx_i = w_i R sum over fluid j of 1/2 (C_i + C_j) (1 - r/R) n, n from j to i. The weight is w_i itself, not a share.
 template <class Real>
 void FlexStages<Real>::solve_density_constraint() {
-    kernels_->solve_density_constraint(fluid_view());
+    const FluidView<Real> fluid = fluid_view();
+    this->on_all_threads(fluid, kernels_->pack);
+    this->on_all_threads(fluid, kernels_->solve_density_constraint);
 }
 
 template void FlexStages<float>::compute_density();

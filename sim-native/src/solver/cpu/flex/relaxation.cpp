@@ -8,7 +8,9 @@ template <class Real>
 void FlexStages<Real>::relax_and_apply() {
     const bool local = model_.parameters.relaxationMode == RelaxationMode::local;
     const Real omega = constants_.relaxation_factor;
-    motion_kernels_->relax(this->motion_view(), local ? 1 + omega : omega, local);
+    this->on_all_threads(this->motion_view(), [&](const MotionView<Real>& slots) {
+        motion_kernels_->relax(slots, local ? 1 + omega : omega, local);
+    });
 }
 
 /// The density constraint sets the corrections of the fluid; those of the solids start from 0.

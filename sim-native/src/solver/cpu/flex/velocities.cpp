@@ -7,18 +7,26 @@ namespace natator::cpu {
 template <class Real>
 void FlexStages<Real>::update_velocities() {
     const SolverParameters& p = model_.parameters;
-    const MotionView<Real> slots = this->motion_view();
-    motion_kernels_->displacement_velocity(slots, 1 / h_);
-    if (plan_.viscosity) kernels_->smooth_velocities(fluid_view());
-    motion_kernels_->finish_velocity(slots, {.viscous_blocks = plan_.viscosity ? ws_.blocks() : 0,
-                                             .viscosity_step = h_ * static_cast<Real>(p.viscosity),
-                                             .damping = plan_.damping,
-                                             .damping_step = h_ * static_cast<Real>(p.damping),
-                                             .clamp_acceleration = plan_.clamp_acceleration,
-                                             .most_change = static_cast<Real>(p.maxAcceleration) * h_,
-                                             .clamp_speed = plan_.clamp_speed,
-                                             .max_speed = constants_.max_speed});
-    for (int i = 0; i < ws_.particles; ++i) this->new_velocity_[i] = ws_.velocity.at(ws_.slot_of[i]);
+    const MotionView<Real> all = this->motion_view();
+    this->on_all_threads(all, [this](const MotionView<Real>& slots) {
+        motion_kernels_->displacement_velocity(slots, 1 / h_);
+    });
+    if (plan_.viscosity) {
+        const FluidView<Real> fluid = fluid_view();
+        this->on_all_threads(fluid, kernels_->pack);
+        this->on_all_threads(fluid, kernels_->pack_velocity);
+        this->on_all_threads(fluid, kernels_->smooth_velocities);
+    }
+    const VelocityRule<Real> rule{.viscous_blocks = plan_.viscosity ? ws_.blocks() : 0,
+                                  .viscosity_step = h_ * static_cast<Real>(p.viscosity),
+                                  .damping = plan_.damping,
+                                  .damping_step = h_ * static_cast<Real>(p.damping),
+                                  .clamp_acceleration = plan_.clamp_acceleration,
+                                  .most_change = static_cast<Real>(p.maxAcceleration) * h_,
+                                  .clamp_speed = plan_.clamp_speed,
+                                  .max_speed = constants_.max_speed};
+    this->on_all_threads(all, [&](const MotionView<Real>& slots) { motion_kernels_->finish_velocity(slots, rule); });
+    this->for_each_slot([this](int slot) { this->new_velocity_[ws_.particle_of[slot]] = ws_.velocity.at(slot); });
 }
 
 template void FlexStages<float>::update_velocities();
