@@ -36,11 +36,12 @@ std::optional<int> Substep<Real>::first_not_finite() const {
 
 template <class Real>
 void Substep<Real>::commit() {
-    for_each_slot([this](int slot) {
-        const int i = ws_.particle_of[slot];
-        if (inverse_mass_[i] == 0) return;
-        state_->position[i] = position_of_slot(slot);
-        state_->velocity[i] = new_velocity_[i];
+    team_->for_parts(ws_.particles, shortest_part * lanes, [this](int, int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            if (inverse_mass_[i] == 0) continue;
+            state_->position[i] = position_of_slot(ws_.slot_of[i]);
+            state_->velocity[i] = new_velocity_[i];
+        }
     });
     state_->cluster_rotation = cluster_rotation_;
     state_->cluster_centre = cluster_centre_;
