@@ -1,3 +1,5 @@
+#include <atomic>
+
 #include "substep.h"
 
 namespace natator::cpu {
@@ -6,12 +8,16 @@ namespace natator::cpu {
 /// value is not finite.
 template <class Real>
 bool Substep<Real>::finite() const {
-    const auto finite = [this](const Real* values, std::size_t count) {
-        return motion_kernels_->finite(values, static_cast<int>(count));
+    std::atomic<bool> all_finite = true;
+    const auto check = [&](const Real* values, std::size_t count) {
+        team_->for_parts(static_cast<int>(count), shortest_part * lanes, [&](int, int begin, int end) {
+            if (!motion_kernels_->finite(values + begin, end - begin)) all_finite = false;
+        });
     };
     const auto& [x, y, z] = ws_.position;
-    return finite(new_velocity_[0].data(), 3 * new_velocity_.size()) && finite(x.data(), x.size()) &&
-           finite(y.data(), y.size()) && finite(z.data(), z.size());
+    check(new_velocity_[0].data(), 3 * new_velocity_.size());
+    for (const auto* coordinate : {&x, &y, &z}) check(coordinate->data(), coordinate->size());
+    return all_finite;
 }
 
 template <class Real>

@@ -166,6 +166,9 @@ private:
     void add_vorticity_confinement();
     void add_cohesion();
 
+    void sort_by_cell(const std::vector<int>& ids, int first_slot, std::vector<int>& cell_begin);
+    std::vector<std::vector<int>> next_slot_;  ///< by part of the particles and cell, room for the sort
+
     std::vector<Vector3<Real>> velocity_change_;          ///< by particle; empty unless an effect needs it
     std::vector<Vector3<Real>> normal_, curl_;            ///< by fluid slot; empty unless an effect needs them
     std::vector<int> overlaps_;                           ///< by slot; empty unless an effect needs it
