@@ -27,7 +27,7 @@ std::vector<std::string> speed_scene_names();
 /// million_particle_iterations_per_second: (fluid particles, or all without fluid) x substeps x iterations over
 /// seconds_least; peak_mb; hash.
 Row speed_columns();
-/// The key of speed_columns, then stage, calls, seconds, share (of the time in all stages): of the last repeat.
+/// The key of speed_columns, then stage, calls, seconds, share (of the time in all stages): of the fastest repeat.
 Row speed_profile_columns();
 inline constexpr std::size_t speed_key_columns = 6;
 

@@ -1,6 +1,7 @@
 // Threads inside one evaluation: no bit of the result depends on their number.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
@@ -17,13 +18,13 @@ TEST(ThreadTeamTest, PartsCoverTheLoopOnce) {
         cpu::ThreadTeam team(threads);
         for (const int count : {0, 1, 9, 10, 20, 1001}) {
             std::vector<int> visits(count, 0);
-            std::vector<int> parts(threads, 0);
+            std::vector<int> parts(team.most_parts(), 0);
             team.for_parts(count, 10, [&](int part, int begin, int end) {
                 parts[part] = 1;
                 for (int k = begin; k < end; ++k) ++visits[k];
             });
             EXPECT_EQ(visits, std::vector<int>(count, 1)) << threads << " " << count;
-            const int expected = std::max(1, std::min(threads, count / 10));
+            const int expected = std::max(1, std::min(team.most_parts(), count / 10));
             EXPECT_EQ(std::accumulate(parts.begin(), parts.end(), 0), expected) << threads << " " << count;
         }
     }

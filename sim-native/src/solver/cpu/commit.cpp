@@ -1,3 +1,5 @@
+#include <atomic>
+
 #include "substep.h"
 
 namespace natator::cpu {
@@ -6,12 +8,16 @@ namespace natator::cpu {
 /// value is not finite.
 template <class Real>
 bool Substep<Real>::finite() const {
-    const auto finite = [this](const Real* values, std::size_t count) {
-        return motion_kernels_->finite(values, static_cast<int>(count));
+    std::atomic<bool> all_finite = true;
+    const auto check = [&](const Real* values, std::size_t count) {
+        team_->for_parts(static_cast<int>(count), shortest_part * lanes, [&](int, int begin, int end) {
+            if (!motion_kernels_->finite(values + begin, end - begin)) all_finite = false;
+        });
     };
     const auto& [x, y, z] = ws_.position;
-    return finite(new_velocity_[0].data(), 3 * new_velocity_.size()) && finite(x.data(), x.size()) &&
-           finite(y.data(), y.size()) && finite(z.data(), z.size());
+    check(new_velocity_[0].data(), 3 * new_velocity_.size());
+    for (const auto* coordinate : {&x, &y, &z}) check(coordinate->data(), coordinate->size());
+    return all_finite;
 }
 
 template <class Real>
@@ -36,11 +42,12 @@ std::optional<int> Substep<Real>::first_not_finite() const {
 
 template <class Real>
 void Substep<Real>::commit() {
-    for_each_slot([this](int slot) {
-        const int i = ws_.particle_of[slot];
-        if (inverse_mass_[i] == 0) return;
-        state_->position[i] = position_of_slot(slot);
-        state_->velocity[i] = new_velocity_[i];
+    team_->for_parts(ws_.particles, shortest_part * lanes, [this](int, int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            if (inverse_mass_[i] == 0) continue;
+            state_->position[i] = position_of_slot(ws_.slot_of[i]);
+            state_->velocity[i] = new_velocity_[i];
+        }
     });
     state_->cluster_rotation = cluster_rotation_;
     state_->cluster_centre = cluster_centre_;

@@ -29,7 +29,7 @@ FluidView<Real> Substep<Real>::fluid_view() {
             .velocity_change = {correction[0], correction[1], correction[2]},
             .packed = ws_.packed.data(),
             .packed_velocity = ws_.packed_velocity.data(),
-            .distance = ws_.distance.data()};
+            .distance = ws_.distance.empty() ? nullptr : ws_.distance.data()};
 }
 
 /// Lists for each fluid particle the fluid particles closer than the radius plus margin at the predicted positions,
@@ -79,10 +79,13 @@ void Substep<Real>::list_fluid_neighbours(int first_block, int end_block, ListRo
     room.size = end;
 }
 
-/// The first thread writes its rows in place, the others theirs into room of their own, to be appended in order.
+/// More distances than fit into a processor's cache are dearer to fetch than to compute.
+constexpr std::size_t most_distances = 1 << 20;
+
+/// The first part of the blocks has its rows written in place, the others into room of their own, to be appended.
 template <class Real>
 void Substep<Real>::find_fluid_neighbours() {
-    list_room_.resize(team_->size());
+    list_room_.resize(team_->most_parts());
     for (ListRoom& room : list_room_) room.size = 0;
     team_->for_parts(ws_.blocks(), shortest_part, [this](int part, int begin, int end) {
         ListRoom& room = list_room_[part];
@@ -100,7 +103,8 @@ void Substep<Real>::find_fluid_neighbours() {
         for (int block = begin; block < end; ++block) ws_.row_begin[block] += static_cast<int>(before / lanes);
     });
     ws_.row_begin[ws_.blocks()] = static_cast<int>(size / lanes);
-    if (model_.scheme == Scheme::flex && ws_.distance.size() < size) ws_.distance.resize(ws_.neighbour.size());
+    const bool keep = model_.scheme == Scheme::flex && size <= most_distances;
+    ws_.distance.resize(keep ? std::max(size, ws_.distance.size()) : 0);
 }
 
 template FluidView<float> Substep<float>::fluid_view();

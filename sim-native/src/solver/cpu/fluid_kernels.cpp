@@ -80,8 +80,9 @@ void pack_velocity(const FluidView<float>& fluid) {
 template <class Real>
 void pack_nothing(const FluidView<Real>&) {}
 
-/// Also keeps each pair's distance for solve_density_constraint.
-void compute_density(const FluidView<float>& fluid) {
+/// keep_distances: also keeps each pair's distance for solve_density_constraint.
+template <bool keep_distances>
+void density_by_vectors(const FluidView<float>& fluid) {
     const std::int32_t* const neighbours = fluid.neighbour;
     const float* const packed = fluid.packed;
     float* const distance = fluid.distance;
@@ -96,7 +97,7 @@ void compute_density(const FluidView<float>& fluid) {
             const Floats4 other = gather(packed, neighbours + entry);
             const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
             const Floats r = square_root(square(dx, dy, dz) + tiny<float>);
-            store(distance + entry, r);
+            if constexpr (keep_distances) store(distance + entry, r);
             sum += positive_square(1 - r * inverse_radius);
         }
         const Floats density = (sum + load(fluid.solid_density + first)) * fluid.density_scale;
@@ -143,8 +144,13 @@ void solve_density_constraint(const FluidView<Real>& fluid) {
     }
 }
 
-/// At the positions and with the distances that compute_density has left.
-void solve_density_constraint(const FluidView<float>& fluid) {
+void compute_density(const FluidView<float>& fluid) {
+    fluid.distance ? density_by_vectors<true>(fluid) : density_by_vectors<false>(fluid);
+}
+
+/// At the positions, and with the distances if they were kept, that compute_density has left.
+template <bool kept_distances>
+void density_constraint_by_vectors(const FluidView<float>& fluid) {
     const std::int32_t* const neighbours = fluid.neighbour;
     const float* const packed = fluid.packed;
     const float* const distance = fluid.distance;
@@ -160,7 +166,12 @@ void solve_density_constraint(const FluidView<float>& fluid) {
             const Floats4 other = gather(packed, neighbours + entry);
             const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
             const Floats r2 = square(dx, dy, dz);
-            const Floats inverse_r = 1 / load(distance + entry);
+            Floats r;
+            if constexpr (kept_distances)
+                r = load(distance + entry);
+            else
+                r = square_root(r2 + tiny<float>);
+            const Floats inverse_r = 1 / r;
             const Floats t = positive_part(1 - r2 * inverse_r * inverse_radius);
             const Floats s = (c + other.w) * t * inverse_r;
             sum_x += s * dx;
@@ -174,6 +185,10 @@ void solve_density_constraint(const FluidView<float>& fluid) {
         store(fluid.correction[2] + first, scale * sum_z);
         store(fluid.constraint_count + first, count);
     });
+}
+
+void solve_density_constraint(const FluidView<float>& fluid) {
+    fluid.distance ? density_constraint_by_vectors<true>(fluid) : density_constraint_by_vectors<false>(fluid);
 }
 
 template <class Real>

@@ -32,7 +32,7 @@ struct FluidView {
     // Room for the kernels.
     Real* packed;           ///< 4 per slot: position and compression
     Real* packed_velocity;  ///< 4 per slot: velocity and anything
-    Real* distance;         ///< one per entry of the rows
+    Real* distance;         ///< one per entry of the rows; null: distances are computed anew where they are needed
 };
 
 /// The hot loops of the solver in one instruction set. Each particle's sums are computed apart, so blocks may be worked

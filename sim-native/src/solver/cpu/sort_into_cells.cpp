@@ -1,50 +1,70 @@
 #include <algorithm>
+#include <utility>
 
 #include "substep.h"
 
 namespace natator::cpu {
-namespace {
 
-/// Counting sort of the particles `ids` by cell, stable: numbers their slots from `first_slot` on.
+/// Counting sort of the particles `ids` by cell, stable: numbers their slots from `first_slot` on. Each part of the
+/// particles counts for itself and knows then where in every cell its own begin.
 template <class Real>
-void sort_by_cell(Workspace<Real>& ws, const std::vector<int>& ids, int first_slot, std::vector<int>& cell_begin) {
-    cell_begin.assign(ws.grid.cells() + 1, 0);
-    for (const int i : ids) ++cell_begin[ws.cell_of[i]];
+void Substep<Real>::sort_by_cell(const std::vector<int>& ids, int first_slot, std::vector<int>& cell_begin) {
+    const int count = static_cast<int>(ids.size());
+    const int grain = std::max(shortest_part * lanes, (count + team_->size() - 1) / team_->size());
+    next_slot_.resize(team_->size());
+    for (std::vector<int>& next : next_slot_) next.clear();
+    team_->for_parts(count, grain, [&](int part, int begin, int end) {
+        std::vector<int>& counts = next_slot_[part];
+        counts.assign(ws_.grid.cells(), 0);
+        for (int k = begin; k < end; ++k) ++counts[ws_.cell_of[ids[k]]];
+    });
+    cell_begin.resize(ws_.grid.cells() + 1);
     int next = first_slot;
-    for (int& begin : cell_begin) {
-        const int count = begin;
-        begin = next;
-        next += count;
+    for (int cell = 0; cell < ws_.grid.cells(); ++cell) {
+        cell_begin[cell] = next;
+        for (std::vector<int>& counts : next_slot_)
+            if (!counts.empty()) next += std::exchange(counts[cell], next);
     }
-    for (const int i : ids) {
-        const int slot = cell_begin[ws.cell_of[i]]++;
-        ws.slot_of[i] = slot;
-        ws.particle_of[slot] = i;
-    }
-    // Each entry has moved on to its cell's end, which is where the next cell begins.
-    std::copy_backward(cell_begin.begin(), cell_begin.end() - 1, cell_begin.end());
-    cell_begin.front() = first_slot;
+    cell_begin.back() = next;
+    team_->for_parts(count, grain, [&](int part, int begin, int end) {
+        std::vector<int>& next_of = next_slot_[part];
+        for (int k = begin; k < end; ++k) {
+            const int slot = next_of[ws_.cell_of[ids[k]]]++;
+            ws_.slot_of[ids[k]] = slot;
+            ws_.particle_of[slot] = ids[k];
+        }
+    });
 }
-
-}  // namespace
 
 template <class Real>
 void Substep<Real>::sort_into_cells() {
-    std::array<Real, 3> low, high;
+    using Corner = std::array<Real, 3>;
     const auto& position = ws_.predicted_position;
-    for (int axis = 0; axis < 3; ++axis) low[axis] = high[axis] = position[0][axis];
-    for (const Vector3<Real>& x : position)
+    const Corner first{position[0].x(), position[0].y(), position[0].z()};
+    std::vector<Corner> lows(team_->most_parts(), first), highs(team_->most_parts(), first);
+    team_->for_parts(ws_.particles, shortest_part * lanes, [&](int part, int begin, int end) {
+        Corner low = first, high = first;
+        for (int i = begin; i < end; ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                low[axis] = std::min(low[axis], position[i][axis]);
+                high[axis] = std::max(high[axis], position[i][axis]);
+            }
+        lows[part] = low;
+        highs[part] = high;
+    });
+    Corner low = first, high = first;
+    for (std::size_t part = 0; part < lows.size(); ++part)
         for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], x[axis]);
-            high[axis] = std::max(high[axis], x[axis]);
+            low[axis] = std::min(low[axis], lows[part][axis]);
+            high[axis] = std::max(high[axis], highs[part][axis]);
         }
     ws_.grid.cover(low, high, constants_.search_distance, 4096 + 16 * ws_.particles);
     team_->for_parts(ws_.particles, shortest_part * lanes, [&](int, int begin, int end) {
         for (int i = begin; i < end; ++i)
             ws_.cell_of[i] = ws_.grid.cell(position[i].x(), position[i].y(), position[i].z());
     });
-    sort_by_cell(ws_, ws_.fluid_ids, 0, ws_.fluid_cell_begin);
-    sort_by_cell(ws_, ws_.solid_ids, ws_.solid_begin, ws_.solid_cell_begin);
+    sort_by_cell(ws_.fluid_ids, 0, ws_.fluid_cell_begin);
+    sort_by_cell(ws_.solid_ids, ws_.solid_begin, ws_.solid_cell_begin);
 }
 
 template void Substep<float>::sort_into_cells();

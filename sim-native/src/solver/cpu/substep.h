@@ -167,18 +167,21 @@ private:
     void add_vorticity_confinement();
     void add_cohesion();
 
+    void sort_by_cell(const std::vector<int>& ids, int first_slot, std::vector<int>& cell_begin);
+    std::vector<std::vector<int>> next_slot_;  ///< by part of the particles and cell, room for the sort
+
     std::vector<Vector3<Real>> velocity_change_;          ///< by particle; empty unless an effect needs it
     std::vector<Vector3<Real>> normal_, curl_;            ///< by fluid slot; empty unless an effect needs them
     std::vector<int> overlaps_;                           ///< by slot; empty unless an effect needs it
 
-    /// Room for the neighbours of one block, and for the rows of the blocks that another than the first thread did.
+    /// Room for the neighbours of one block, and for the rows of a part of the blocks.
     struct ListRoom {
         std::array<std::vector<std::int32_t>, lanes> found;
         AlignedVector<std::int32_t> rows;
         std::size_t size = 0;  ///< of the rows
     };
     void list_fluid_neighbours(int first_block, int end_block, ListRoom& room, AlignedVector<std::int32_t>& rows);
-    std::vector<ListRoom> list_room_{1};  ///< by thread
+    std::vector<ListRoom> list_room_{1};  ///< by part of the blocks
     std::vector<std::int32_t> found_contacts_;            ///< room for the contacts of one particle
     std::vector<std::pair<int, int>> pairs_;              ///< room for the contacts of one substep
 };

@@ -20,12 +20,15 @@ public:
 
     int size() const { return static_cast<int>(helpers_.size()) + 1; }
 
+    /// The most parts that a loop is cut into: several for each thread, so that one that is held up can leave some.
+    int most_parts() const { return size() == 1 ? 1 : 4 * size(); }
+
     /// Calls work(part, begin, end) for each of the parts that [0, count) is cut into, side by side, and returns when
-    /// all are done. No part is shorter than `grain` unless it is the only one, so short loops run as if alone. Throws
-    /// what the first part in order threw.
+    /// all are done. The cuts depend on count, grain and size() alone. No part is shorter than `grain` unless it is the only
+    /// one, so short loops run as if alone. Throws what the first part in order threw.
     template <class Work>
     void for_parts(int count, int grain, const Work& work) {
-        const int parts = std::max(1, std::min(size(), count / grain));
+        const int parts = std::max(1, std::min(most_parts(), count / grain));
         if (parts == 1) return work(0, 0, count);
         run(parts, [&](int part) { work(part, cut(count, part, parts), cut(count, part + 1, parts)); });
     }
@@ -35,15 +38,15 @@ private:
         return static_cast<int>(static_cast<long long>(count) * part / parts);
     }
     void run(int parts, const std::function<void(int)>& work);
-    void help(int part);
-    void work_on(int part);
+    void help();
+    void take_parts();
 
-    std::vector<std::thread> helpers_;  ///< helper k does part k + 1
-    std::vector<std::exception_ptr> thrown_;
+    std::vector<std::thread> helpers_;
     const std::function<void(int)>* work_ = nullptr;  ///< null: no more work will come
-    int parts_ = 0;
-    std::atomic<unsigned> call_{0};  ///< counts the calls of run
-    std::atomic<int> busy_{0};       ///< helpers that have not ended the present one
+    std::vector<std::exception_ptr> thrown_;          ///< by part
+    std::atomic<unsigned> call_{0};                   ///< counts the calls of run
+    std::atomic<int> next_{0};                        ///< first part that nobody has taken
+    std::atomic<int> busy_{0};                        ///< helpers that have not ended the present call
 };
 
 }  // namespace natator::cpu

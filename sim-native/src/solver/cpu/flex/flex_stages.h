@@ -48,6 +48,8 @@ private:
     using Substep<Real>::cluster_offset_;
     using Substep<Real>::cluster_rotation_;
     using Substep<Real>::cluster_centre_;
+    using Substep<Real>::team_;
+    using Substep<Real>::shortest_part;
     using Substep<Real>::kernels_;
     using Substep<Real>::motion_kernels_;
     using Substep<Real>::fluid_view;

@@ -26,7 +26,9 @@ void FlexStages<Real>::update_velocities() {
                                   .clamp_speed = plan_.clamp_speed,
                                   .max_speed = constants_.max_speed};
     this->on_all_threads(all, [&](const MotionView<Real>& slots) { motion_kernels_->finish_velocity(slots, rule); });
-    this->for_each_slot([this](int slot) { this->new_velocity_[ws_.particle_of[slot]] = ws_.velocity.at(slot); });
+    team_->for_parts(ws_.particles, shortest_part * lanes, [this](int, int begin, int end) {
+        for (int i = begin; i < end; ++i) this->new_velocity_[i] = ws_.velocity.at(ws_.slot_of[i]);
+    });
 }
 
 template void FlexStages<float>::update_velocities();
