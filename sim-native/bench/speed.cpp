@@ -90,7 +90,7 @@ void measure(TimedScene& one) {
     forget_peak_memory();
     const auto start = Clock::now();
     const Evaluation result = evaluate(one.scene, gait_for(one.scene), one.precision, {}, {},
-                                       {.threads = one.threads, .profile = &profile});
+                                       {.profile = &profile, .threads = one.threads});
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (one.seconds.empty() || seconds < *std::min_element(one.seconds.begin(), one.seconds.end())) one.profile = profile;
     one.seconds.push_back(seconds);

@@ -103,7 +103,7 @@ void Substep<Real>::find_fluid_neighbours() {
         for (int block = begin; block < end; ++block) ws_.row_begin[block] += static_cast<int>(before / lanes);
     });
     ws_.row_begin[ws_.blocks()] = static_cast<int>(size / lanes);
-    const bool keep = model_.scheme == Scheme::flex && size <= most_distances;
+    const bool keep = size <= most_distances;
     ws_.distance.resize(keep ? std::max(size, ws_.distance.size()) : 0);
 }
 

@@ -3,31 +3,10 @@
 // definition, and what double runs; beside each stands the same for vectors of floats, which changes the order of no
 // sum. Include nothing here that has inline functions with linkage.
 #include "fluid_kernels.h"
-#include "lanes.h"
+#include "particle_groups.h"
 
 namespace natator::cpu::NATATOR_ISA {
 namespace {
-
-constexpr int lanes = 16;
-
-float square_root(float v) {
-    return __builtin_sqrtf(v);
-}
-double square_root(double v) {
-    return __builtin_sqrt(v);
-}
-
-/// Keeps 1/r finite at r = 0, where the direction is 0 anyway; too small to change any other r^2.
-template <class Real>
-constexpr Real tiny = Real(1e-30);
-
-/// Calls work(first slot, first row, last row, offset in each row) for each group of `width` slots.
-template <class Work>
-void for_each_group(const FluidView<float>& fluid, const Work& work) {
-    for (int block = fluid.first_block; block < fluid.end_block; ++block)
-        for (int lane = 0; lane < lanes; lane += width)
-            work(block * lanes + lane, fluid.row_begin[block], fluid.row_begin[block + 1], lane);
-}
 
 template <class Real>
 void compute_density(const FluidView<Real>& fluid) {
@@ -56,16 +35,6 @@ void compute_density(const FluidView<Real>& fluid) {
             fluid.compression[first + lane] = density > 1 ? density - 1 : 0;
         }
     }
-}
-
-/// Lays three arrays out as quadruples (x, y, z, w), also for the far slot.
-void pack_arrays(const FluidView<float>& fluid, const float* const from[3], const float* w, float* to) {
-    const auto pack_group = [&](int slot) {
-        store_quadruples(to + 4 * slot,
-                         {load(from[0] + slot), load(from[1] + slot), load(from[2] + slot), load(w + slot)});
-    };
-    for (int slot = fluid.first_block * lanes; slot < fluid.end_block * lanes; slot += width) pack_group(slot);
-    if (fluid.first_block == 0) pack_group(fluid.far_slot / width * width);
 }
 
 void pack(const FluidView<float>& fluid) {

@@ -113,6 +113,7 @@ NATATOR_CHOICE(MotionKernels, scalar_motion_kernels)
 NATATOR_CHOICE(NeighbourKernels, neighbour_kernels)
 NATATOR_CHOICE(NeighbourKernels, scalar_neighbour_kernels)
 NATATOR_CHOICE(DensityKernels, density_kernels)
+NATATOR_CHOICE(DensityKernels, scalar_density_kernels)
 
 }  // namespace cpu
 }  // namespace natator

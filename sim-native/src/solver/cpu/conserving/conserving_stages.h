@@ -46,6 +46,8 @@ public:
 
 private:
     void compute_lambda();
+    void compute_lambda_of_fluid(const DensityView<Real>& fluid);
+    void solve_density_constraint_of_fluid();
     static Real overlap_acceleration(const SolverParameters& parameters);
     bool find_overlap();
     void limit_overlap_pressure();

@@ -13,9 +13,11 @@ DensityView<Real> ConservingStages<Real>::density_view() {
     const auto correction = pointers(ws_.correction);
     const auto velocity = pointers(ws_.velocity);
     const auto gradient = pointers(solid_gradient_);
-    return {.blocks = ws_.blocks(),
+    return {.first_block = 0,
+            .end_block = ws_.blocks(),
             .row_begin = ws_.row_begin.data(),
             .neighbour = ws_.neighbour.data(),
+            .far_slot = ws_.slots,
             .inverse_radius = constants_.inverse_radius,
             .kernel_scale = kernel_scale_,
             .rest_sum = rest_sum_,
@@ -31,7 +33,10 @@ DensityView<Real> ConservingStages<Real>::density_view() {
             .lambda_sum = lambda_sum_.data(),
             .correction = {correction[0], correction[1], correction[2]},
             .velocity = {velocity[0], velocity[1], velocity[2]},
-            .velocity_change = {correction[0], correction[1], correction[2]}};
+            .velocity_change = {correction[0], correction[1], correction[2]},
+            .packed = ws_.packed.data(),
+            .packed_velocity = ws_.packed_velocity.data(),
+            .inverse_distance = ws_.distance.empty() ? nullptr : ws_.distance.data()};
 }
 
 template <class Real>
@@ -131,11 +136,24 @@ void ConservingStages<Real>::push_from_planes() {
 }
 
 template <class Real>
+void ConservingStages<Real>::compute_lambda_of_fluid(const DensityView<Real>& fluid) {
+    this->on_all_threads(fluid, density_kernels_->pack);
+    this->on_all_threads(fluid, density_kernels_->compute_lambda);
+}
+
+template <class Real>
+void ConservingStages<Real>::solve_density_constraint_of_fluid() {
+    const DensityView<Real> fluid = density_view();
+    this->on_all_threads(fluid, density_kernels_->pack_lambda);
+    this->on_all_threads(fluid, density_kernels_->solve_density_constraint);
+}
+
+template <class Real>
 void ConservingStages<Real>::compute_lambda() {
     if (plan_.solid_pressure || plan_.planes) clear_boundary_terms();
     if (plan_.planes) add_plane_pressure();
     if (plan_.solid_pressure) add_solid_pressure();
-    density_kernels_->compute_lambda(density_view());
+    compute_lambda_of_fluid(density_view());
 }
 
 /// Density constraint C_i = rho_i / rho0 - 1 <= 0 of Position Based Fluids (Macklin, Müller 2013) with inverse masses:
@@ -148,7 +166,7 @@ void ConservingStages<Real>::solve_density_constraint() {
         overlapping_ = find_overlap();
     }
     if (overlapping_) limit_overlap_pressure();
-    density_kernels_->solve_density_constraint(density_view());
+    solve_density_constraint_of_fluid();
     if (plan_.planes) push_from_planes();
     if (plan_.solid_pressure) push_solids_by_pressure();
     for (int slot = 0; slot < ws_.fluid; ++slot) apply_correction(slot, pair_share<Real>);
@@ -193,6 +211,10 @@ template void ConservingStages<float>::add_solid_pressure();
 template void ConservingStages<double>::add_solid_pressure();
 template void ConservingStages<float>::push_solids_by_pressure();
 template void ConservingStages<double>::push_solids_by_pressure();
+template void ConservingStages<float>::compute_lambda_of_fluid(const DensityView<float>&);
+template void ConservingStages<double>::compute_lambda_of_fluid(const DensityView<double>&);
+template void ConservingStages<float>::solve_density_constraint_of_fluid();
+template void ConservingStages<double>::solve_density_constraint_of_fluid();
 template void ConservingStages<float>::compute_lambda();
 template void ConservingStages<double>::compute_lambda();
 template void ConservingStages<float>::solve_density_constraint();

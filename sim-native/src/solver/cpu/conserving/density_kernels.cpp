@@ -1,24 +1,14 @@
-// Compiled once per instruction set, like fluid_kernels.cpp and by the same rules.
+// Compiled once per instruction set, like fluid_kernels.cpp and by the same rules: the templates over Real are the
+// definition, beside each stands the same for vectors of floats.
 // Macklin, Müller: Position Based Fluids (2013), eq. 1-12, with inverse masses w and a constraint that only pushes.
 // Density and gradient come from one kernel, (1 - q)^3 with q = r / R: with poly6 for the density, as the paper has it,
 // pairs that have come close are pushed apart without the density ever falling, substep after substep.
 #include "density_kernels.h"
 
+#include "../particle_groups.h"
+
 namespace natator::cpu::NATATOR_ISA {
 namespace {
-
-constexpr int lanes = 16;
-
-float square_root(float v) {
-    return __builtin_sqrtf(v);
-}
-double square_root(double v) {
-    return __builtin_sqrt(v);
-}
-
-/// Keeps 1/r finite at r = 0, where the direction is 0 anyway; too small to change any other r^2.
-template <class Real>
-constexpr Real tiny = Real(1e-30);
 
 template <class Real>
 void compute_lambda(const DensityView<Real>& fluid) {
@@ -27,7 +17,7 @@ void compute_lambda(const DensityView<Real>& fluid) {
     const Real* const z = fluid.position[2];
     const Real* const w = fluid.inverse_mass;
     const Real inverse_radius = fluid.inverse_radius;
-    for (int block = 0; block < fluid.blocks; ++block) {
+    for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum[lanes] = {}, gx[lanes] = {}, gy[lanes] = {}, gz[lanes] = {}, square[lanes] = {};
         for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
@@ -68,6 +58,61 @@ void compute_lambda(const DensityView<Real>& fluid) {
     }
 }
 
+/// inverse distance of a pair, kept for solve_density_constraint if there is room.
+Floats inverse_distance(const DensityView<float>& fluid, int entry, Floats r2) {
+    const Floats inverse_r = 1 / square_root(r2 + tiny<float>);
+    if (fluid.inverse_distance) store(fluid.inverse_distance + entry, inverse_r);
+    return inverse_r;
+}
+
+/// w_i |grad_i C_i|^2 + sum_k w_k |grad_k C_i|^2 of the slots from `first` on, of the sums over their fluid neighbours.
+Floats inverse_response(const DensityView<float>& fluid, int first, Floats gx, Floats gy, Floats gz,
+                        Floats square_sum) {
+    const Floats cx = fluid.gradient_scale * gx + load(fluid.solid_gradient[0] + first);
+    const Floats cy = fluid.gradient_scale * gy + load(fluid.solid_gradient[1] + first);
+    const Floats cz = fluid.gradient_scale * gz + load(fluid.solid_gradient[2] + first);
+    const Floats others =
+        fluid.gradient_scale * fluid.gradient_scale * square_sum + load(fluid.solid_gradient_square + first);
+    return load(fluid.inverse_mass + first) * square(cx, cy, cz) + others;
+}
+
+/// 1 / v, or 0 where v is not positive.
+Floats inverse_if_positive(Floats v) {
+    return v > 0 ? 1 / v : Floats{};
+}
+
+void compute_lambda(const DensityView<float>& fluid) {
+    const float* const packed = fluid.packed;
+    for_each_group(fluid, [&](int first, int row_begin, int row_end, int lane) {
+        const Floats x = load(fluid.position[0] + first);
+        const Floats y = load(fluid.position[1] + first);
+        const Floats z = load(fluid.position[2] + first);
+        Floats sum{}, gx{}, gy{}, gz{}, square_sum{};
+        for (int row = row_begin; row < row_end; ++row) {
+            const int entry = row * lanes + lane;
+            const Floats4 other = gather(packed, fluid.neighbour + entry);
+            const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
+            const Floats r2 = square(dx, dy, dz);
+            const Floats inverse_r = inverse_distance(fluid, entry, r2);
+            const Floats t = positive_part(1 - r2 * inverse_r * fluid.inverse_radius);
+            const Floats g = t * t;
+            const Floats slope = g * inverse_r;
+            sum += g * t;
+            gx -= slope * dx;
+            gy -= slope * dy;
+            gz -= slope * dz;
+            square_sum += other.w * g * g;
+        }
+        const Floats above = fluid.kernel_scale * (sum - fluid.rest_sum) + load(fluid.solid_density + first);
+        const Floats response = inverse_if_positive(inverse_response(fluid, first, gx, gy, gz, square_sum));
+        const Floats lambda = -positive_part(above) * response;
+        store(fluid.density + first, 1 + above);
+        store(fluid.response + first, response);
+        store(fluid.lambda + first, lambda);
+        store(fluid.lambda_sum + first, load(fluid.lambda_sum + first) + lambda);
+    });
+}
+
 template <class Real>
 void solve_density_constraint(const DensityView<Real>& fluid) {
     const Real* const x = fluid.position[0];
@@ -75,7 +120,7 @@ void solve_density_constraint(const DensityView<Real>& fluid) {
     const Real* const z = fluid.position[2];
     const Real* const lambda = fluid.lambda;
     const Real inverse_radius = fluid.inverse_radius;
-    for (int block = 0; block < fluid.blocks; ++block) {
+    for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum_x[lanes] = {}, sum_y[lanes] = {}, sum_z[lanes] = {};
         for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
@@ -104,6 +149,34 @@ void solve_density_constraint(const DensityView<Real>& fluid) {
     }
 }
 
+void solve_density_constraint(const DensityView<float>& fluid) {
+    const float* const packed = fluid.packed;
+    for_each_group(fluid, [&](int first, int row_begin, int row_end, int lane) {
+        const Floats x = load(fluid.position[0] + first);
+        const Floats y = load(fluid.position[1] + first);
+        const Floats z = load(fluid.position[2] + first);
+        const Floats lambda = load(fluid.lambda + first);
+        Floats sum_x{}, sum_y{}, sum_z{};
+        for (int row = row_begin; row < row_end; ++row) {
+            const int entry = row * lanes + lane;
+            const Floats4 other = gather(packed, fluid.neighbour + entry);
+            const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
+            const Floats r2 = square(dx, dy, dz);
+            const Floats inverse_r =
+                fluid.inverse_distance ? load(fluid.inverse_distance + entry) : 1 / square_root(r2 + tiny<float>);
+            const Floats t = positive_part(1 - r2 * inverse_r * fluid.inverse_radius);
+            const Floats s = (lambda + other.w) * t * t * inverse_r;
+            sum_x -= s * dx;
+            sum_y -= s * dy;
+            sum_z -= s * dz;
+        }
+        const Floats scale = load(fluid.inverse_mass + first) * fluid.gradient_scale;
+        store(fluid.correction[0] + first, scale * sum_x);
+        store(fluid.correction[1] + first, scale * sum_y);
+        store(fluid.correction[2] + first, scale * sum_z);
+    });
+}
+
 template <class Real>
 void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
     const Real* const x = fluid.position[0];
@@ -114,7 +187,7 @@ void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
     const Real* const w = fluid.velocity[2];
     const Real* const inverse_mass = fluid.inverse_mass;
     const Real inverse_radius = fluid.inverse_radius;
-    for (int block = 0; block < fluid.blocks; ++block) {
+    for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real rate[lanes] = {}, gx[lanes] = {}, gy[lanes] = {}, gz[lanes] = {}, square[lanes] = {};
         for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
@@ -155,6 +228,42 @@ void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
     }
 }
 
+void compute_rate_lambda(const DensityView<float>& fluid, float inverse_h) {
+    const float* const packed = fluid.packed;
+    const float* const packed_velocity = fluid.packed_velocity;
+    for_each_group(fluid, [&](int first, int row_begin, int row_end, int lane) {
+        const Floats x = load(fluid.position[0] + first);
+        const Floats y = load(fluid.position[1] + first);
+        const Floats z = load(fluid.position[2] + first);
+        const Floats u = load(fluid.velocity[0] + first);
+        const Floats v = load(fluid.velocity[1] + first);
+        const Floats w = load(fluid.velocity[2] + first);
+        Floats rate{}, gx{}, gy{}, gz{}, square_sum{};
+        for (int row = row_begin; row < row_end; ++row) {
+            const int entry = row * lanes + lane;
+            const Floats4 other = gather(packed, fluid.neighbour + entry);
+            const Floats4 moves = gather(packed_velocity, fluid.neighbour + entry);
+            const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
+            const Floats r2 = square(dx, dy, dz);
+            const Floats inverse_r = inverse_distance(fluid, entry, r2);
+            const Floats t = positive_part(1 - r2 * inverse_r * fluid.inverse_radius);
+            const Floats approach = (moves.x - u) * dx + (moves.y - v) * dy + (moves.z - w) * dz;
+            const Floats g = t * t;
+            const Floats slope = g * inverse_r;
+            rate += slope * approach;
+            gx -= slope * dx;
+            gy -= slope * dy;
+            gz -= slope * dz;
+            square_sum += other.w * g * g;
+        }
+        const Floats response = inverse_if_positive(inverse_response(fluid, first, gx, gy, gz, square_sum));
+        const Floats lambda = -fluid.gradient_scale * rate * response;
+        const Floats most = -load(fluid.lambda_sum + first) * inverse_h;
+        const Floats limited = lambda < most ? lambda : most;
+        store(fluid.lambda + first, most > 0 ? limited : Floats{});
+    });
+}
+
 template <class Real>
 void smooth_velocities(const DensityView<Real>& fluid) {
     const Real* const x = fluid.position[0];
@@ -165,7 +274,7 @@ void smooth_velocities(const DensityView<Real>& fluid) {
     const Real* const w = fluid.velocity[2];
     const Real* const inverse_mass = fluid.inverse_mass;
     const Real inverse_radius_square = fluid.inverse_radius * fluid.inverse_radius;
-    for (int block = 0; block < fluid.blocks; ++block) {
+    for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum_u[lanes] = {}, sum_v[lanes] = {}, sum_w[lanes] = {};
         for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
@@ -193,15 +302,82 @@ void smooth_velocities(const DensityView<Real>& fluid) {
     }
 }
 
+void smooth_velocities(const DensityView<float>& fluid) {
+    const float* const packed = fluid.packed;
+    const float* const packed_velocity = fluid.packed_velocity;
+    const float inverse_radius_square = fluid.inverse_radius * fluid.inverse_radius;
+    for_each_group(fluid, [&](int first, int row_begin, int row_end, int lane) {
+        const Floats x = load(fluid.position[0] + first);
+        const Floats y = load(fluid.position[1] + first);
+        const Floats z = load(fluid.position[2] + first);
+        const Floats u = load(fluid.velocity[0] + first);
+        const Floats v = load(fluid.velocity[1] + first);
+        const Floats w = load(fluid.velocity[2] + first);
+        const Floats inverse_mass = load(fluid.inverse_mass + first);
+        Floats sum_u{}, sum_v{}, sum_w{};
+        for (int row = row_begin; row < row_end; ++row) {
+            const std::int32_t* const neighbour = fluid.neighbour + row * lanes + lane;
+            const Floats4 other = gather(packed, neighbour);
+            const Floats4 moves = gather(packed_velocity, neighbour);
+            const Floats dx = x - other.x, dy = y - other.y, dz = z - other.z;
+            const Floats t = positive_part(1 - square(dx, dy, dz) * inverse_radius_square);
+            const Floats s = t * t * t * 2 * inverse_mass / (inverse_mass + other.w + tiny<float>);
+            sum_u += s * (moves.x - u);
+            sum_v += s * (moves.y - v);
+            sum_w += s * (moves.z - w);
+        }
+        store(fluid.velocity_change[0] + first, fluid.kernel_scale * sum_u);
+        store(fluid.velocity_change[1] + first, fluid.kernel_scale * sum_v);
+        store(fluid.velocity_change[2] + first, fluid.kernel_scale * sum_w);
+    });
+}
+
+void pack(const DensityView<float>& fluid) {
+    pack_arrays(fluid, fluid.position, fluid.inverse_mass, fluid.packed);
+}
+
+void pack_lambda(const DensityView<float>& fluid) {
+    pack_arrays(fluid, fluid.position, fluid.lambda, fluid.packed);
+}
+
+void pack_velocity(const DensityView<float>& fluid) {
+    pack_arrays(fluid, fluid.velocity, fluid.inverse_mass, fluid.packed_velocity);
+}
+
+/// The plain loops read the arrays as they are.
+template <class Real>
+void pack_nothing(const DensityView<Real>&) {}
+
 }  // namespace
 
 template <class Real>
-DensityKernels<Real> density_kernels() {
-    return {&compute_lambda<Real>, &solve_density_constraint<Real>, &compute_rate_lambda<Real>,
+DensityKernels<Real> scalar_density_kernels() {
+    return {&pack_nothing<Real>,
+            &pack_nothing<Real>,
+            &pack_nothing<Real>,
+            &compute_lambda<Real>,
+            &solve_density_constraint<Real>,
+            &compute_rate_lambda<Real>,
             &smooth_velocities<Real>};
 }
 
-template DensityKernels<float> density_kernels<float>();
-template DensityKernels<double> density_kernels<double>();
+template DensityKernels<float> scalar_density_kernels<float>();
+template DensityKernels<double> scalar_density_kernels<double>();
+
+template <>
+DensityKernels<double> density_kernels<double>() {
+    return scalar_density_kernels<double>();
+}
+
+template <>
+DensityKernels<float> density_kernels<float>() {
+    return {&pack,
+            &pack_lambda,
+            &pack_velocity,
+            &compute_lambda,
+            &solve_density_constraint,
+            &compute_rate_lambda,
+            &smooth_velocities};
+}
 
 }  // namespace natator::cpu::NATATOR_ISA

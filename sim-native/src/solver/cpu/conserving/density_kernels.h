@@ -9,9 +9,10 @@ namespace natator::cpu {
 /// What the density kernels of scheme `conserving` read and write, by slot; see FluidView for the ground rules.
 template <class Real>
 struct DensityView {
-    int blocks;
+    int first_block, end_block;     ///< the blocks to work on
     const int* row_begin;           ///< by block
     const std::int32_t* neighbour;  ///< rows of 16 slots
+    int far_slot;                   ///< what unused entries of the rows hold
     Real inverse_radius;
     Real kernel_scale;    ///< A: W(r)/rho0 = A (1 - q)^3, spiky
     Real rest_sum;        ///< sum of (1 - q)^3 over the neighbours in the rest packing
@@ -30,14 +31,28 @@ struct DensityView {
 
     const Real* velocity[3];
     Real* velocity_change[3];
+
+    // Room for the kernels.
+    Real* packed;            ///< 4 per slot: position, and inverse mass or lambda
+    Real* packed_velocity;   ///< 4 per slot: velocity and inverse mass
+    Real* inverse_distance;  ///< one per entry of the rows, or null where they are computed anew
 };
 
+/// Each particle's sums are computed apart, so blocks may be worked on side by side once the packing that a loop needs
+/// is done for all.
 template <class Real>
 struct DensityKernels {
+    /// Lays positions and inverse masses out for compute_lambda, compute_rate_lambda and smooth_velocities.
+    void (*pack)(const DensityView<Real>& fluid);
+    /// Positions and lambda, for solve_density_constraint.
+    void (*pack_lambda)(const DensityView<Real>& fluid);
+    /// Velocities, for compute_rate_lambda and smooth_velocities.
+    void (*pack_velocity)(const DensityView<Real>& fluid);
     /// C_i = A (sum_j (1 - q)^3 - rest sum) + solids, which rounds less than density_i - 1; density_i = 1 + C_i;
     /// lambda_i = -max(C_i, 0) / (w_i |grad_i C_i|^2 + sum_k w_k |grad_k C_i|^2).
     void (*compute_lambda)(const DensityView<Real>& fluid);
-    /// correction_i = w_i sum_j (lambda_i + lambda_j) grad_i W_ij / rho0.
+    /// At the positions that a lambda was last computed at. correction_i = w_i sum_j (lambda_i + lambda_j) grad_i W_ij
+    /// / rho0.
     void (*solve_density_constraint)(const DensityView<Real>& fluid);
     /// lambda_i of the rate of change of C_i, for particles that were under pressure: what takes it to 0, but at most
     /// what the pressure gave (times 1/h), so that neighbours are never pulled together.
@@ -49,18 +64,28 @@ struct DensityKernels {
 namespace portable {
 template <class Real>
 DensityKernels<Real> density_kernels();
-}
+template <class Real>
+DensityKernels<Real> scalar_density_kernels();
+}  // namespace portable
 namespace avx2 {
 template <class Real>
 DensityKernels<Real> density_kernels();
-}
+template <class Real>
+DensityKernels<Real> scalar_density_kernels();
+}  // namespace avx2
 namespace avx512 {
 template <class Real>
 DensityKernels<Real> density_kernels();
-}
+template <class Real>
+DensityKernels<Real> scalar_density_kernels();
+}  // namespace avx512
 
 /// The kernels for an instruction set; sets that this build lacks give the portable ones.
 template <class Real>
 const DensityKernels<Real>& density_kernels(InstructionSet set);
+
+/// The plain loops that define them, compiled for an instruction set.
+template <class Real>
+const DensityKernels<Real>& scalar_density_kernels(InstructionSet set);
 
 }  // namespace natator::cpu

@@ -55,7 +55,7 @@ bool ConservingStages<Real>::find_overlap() {
     view.position[0] = ws_.start.x.data();
     view.position[1] = ws_.start.y.data();
     view.position[2] = ws_.start.z.data();
-    density_kernels_->compute_lambda(view);
+    compute_lambda_of_fluid(view);
     std::fill(lambda_sum_.begin(), lambda_sum_.end(), Real(0));
     std::fill(overlap_lambda_.begin(), overlap_lambda_.end(), Real(0));
     bool any = false;

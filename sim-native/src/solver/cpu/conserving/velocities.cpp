@@ -45,9 +45,13 @@ void ConservingStages<Real>::keep_body_momentum() {
 template <class Real>
 void ConservingStages<Real>::solve_density_rate() {
     for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
-    density_kernels_->compute_rate_lambda(density_view(), 1 / h_);
+    const DensityView<Real> fluid = density_view();
+    this->on_all_threads(fluid, density_kernels_->pack);
+    this->on_all_threads(fluid, density_kernels_->pack_velocity);
+    this->on_all_threads(
+        fluid, [this](const DensityView<Real>& part) { density_kernels_->compute_rate_lambda(part, 1 / h_); });
     for (int slot = 0; slot < ws_.fluid; ++slot) lambda_sum_[slot] += h_ * lambda_[slot];
-    density_kernels_->solve_density_constraint(density_view());
+    solve_density_constraint_of_fluid();
     for (const int i : ws_.fluid_ids) this->new_velocity_[i] += pair_share<Real> * ws_.correction.at(ws_.slot_of[i]);
 }
 
@@ -74,7 +78,10 @@ void ConservingStages<Real>::update_velocities() {
     if (plan_.fluid) solve_density_rate();
     if (plan_.viscosity) {
         for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
-        density_kernels_->smooth_velocities(density_view());
+        const DensityView<Real> fluid = density_view();
+        this->on_all_threads(fluid, density_kernels_->pack);
+        this->on_all_threads(fluid, density_kernels_->pack_velocity);
+        this->on_all_threads(fluid, density_kernels_->smooth_velocities);
         for (const int i : ws_.fluid_ids) this->new_velocity_[i] += smoothing * ws_.correction.at(ws_.slot_of[i]);
     }
     for (Vector3<Real>& v : this->new_velocity_) {

@@ -1,0 +1,43 @@
+// What the kernels over fluid neighbours share. For kernel sources only, which are compiled once per instruction set:
+// everything here is local to the source that includes it.
+#pragma once
+
+#include "lanes.h"
+
+namespace natator::cpu::NATATOR_ISA {
+namespace {
+
+constexpr int lanes = 16;
+
+[[maybe_unused]] float square_root(float v) {
+    return __builtin_sqrtf(v);
+}
+[[maybe_unused]] double square_root(double v) {
+    return __builtin_sqrt(v);
+}
+
+/// Keeps 1/r finite at r = 0, where the direction is 0 anyway; too small to change any other r^2.
+template <class Real>
+constexpr Real tiny = Real(1e-30);
+
+/// Calls work(first slot, first row, last row, offset in each row) for each group of `width` slots.
+template <class View, class Work>
+void for_each_group(const View& fluid, const Work& work) {
+    for (int block = fluid.first_block; block < fluid.end_block; ++block)
+        for (int lane = 0; lane < lanes; lane += width)
+            work(block * lanes + lane, fluid.row_begin[block], fluid.row_begin[block + 1], lane);
+}
+
+/// Lays three arrays out as quadruples (x, y, z, w), also for the far slot.
+template <class View>
+void pack_arrays(const View& fluid, const float* const from[3], const float* w, float* to) {
+    const auto pack_group = [&](int slot) {
+        store_quadruples(to + 4 * slot,
+                         {load(from[0] + slot), load(from[1] + slot), load(from[2] + slot), load(w + slot)});
+    };
+    for (int slot = fluid.first_block * lanes; slot < fluid.end_block * lanes; slot += width) pack_group(slot);
+    if (fluid.first_block == 0) pack_group(fluid.far_slot / width * width);
+}
+
+}  // namespace
+}  // namespace natator::cpu::NATATOR_ISA
