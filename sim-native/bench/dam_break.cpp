@@ -11,8 +11,8 @@
 namespace natator::bench {
 namespace {
 
-constexpr int depth = 10;          ///< particles across the plane of the flow
-constexpr double settling = 1;     ///< s
+constexpr int depth = 10;       ///< particles across the plane of the flow
+constexpr double settling = 1;  ///< s
 
 /// Length along x between wall and gate.
 double base_of(const Model& model) {

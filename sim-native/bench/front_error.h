@@ -17,9 +17,9 @@ double time_at(const FrontCurve& curve, double position);
 
 /// How a computed front differs from a measured one.
 struct FrontError {
-    double position = 0;  ///< root mean square of the difference of Z at the measured T
-    double arrival = 0;   ///< mean of |T / T_measured - 1| at the measured Z
-    double lag = 0;       ///< mean of T_measured - T at the measured Z: a gate takes time to open
+    double position = 0;            ///< root mean square of the difference of Z at the measured T
+    double arrival = 0;             ///< mean of |T / T_measured - 1| at the measured Z
+    double lag = 0;                 ///< mean of T_measured - T at the measured Z: a gate takes time to open
     double position_after_lag = 0;  ///< root mean square of the difference of Z once the computed front waits that long
 };
 

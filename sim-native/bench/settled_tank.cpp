@@ -67,9 +67,8 @@ SettledTankRun run_settled_tank(const Setting& setting, double rest, double wind
     scene.solver.substeps = setting.substeps;
     scene.solver.numIterations = setting.iterations;
     const Model model = build_model(scene);
-    return setting.precision == Precision::double_precision
-               ? run_as<double>(model, scene.settling, rest, window)
-               : run_as<float>(model, scene.settling, rest, window);
+    return setting.precision == Precision::double_precision ? run_as<double>(model, scene.settling, rest, window)
+                                                            : run_as<float>(model, scene.settling, rest, window);
 }
 
 }  // namespace natator::bench

@@ -21,18 +21,15 @@ namespace {
 struct NamedScene {
     const char* name;
     const char* scene;
-    int scale;            ///< of the fluid block along each axis
-    double duration;      ///< s
-    int settling;         ///< updates, each about a substep's work
+    int scale;        ///< of the fluid block along each axis
+    double duration;  ///< s
+    int settling;     ///< updates, each about a substep's work
 };
 
 constexpr std::array scenes = {
-    NamedScene{"creature-1", "thesis/creature-1", 1, 4, 100},
-    NamedScene{"creature-2", "thesis/creature-2", 1, 4, 100},
-    NamedScene{"creature-3", "thesis/creature-3", 1, 4, 100},
-    NamedScene{"creature-4", "thesis/creature-4", 1, 4, 100},
-    NamedScene{"vacuum", "thesis/creature-1-vacuum", 1, 4, 0},
-    NamedScene{"fluid-x8", "thesis/creature-1", 2, 0.5, 12},
+    NamedScene{"creature-1", "thesis/creature-1", 1, 4, 100},  NamedScene{"creature-2", "thesis/creature-2", 1, 4, 100},
+    NamedScene{"creature-3", "thesis/creature-3", 1, 4, 100},  NamedScene{"creature-4", "thesis/creature-4", 1, 4, 100},
+    NamedScene{"vacuum", "thesis/creature-1-vacuum", 1, 4, 0}, NamedScene{"fluid-x8", "thesis/creature-1", 2, 0.5, 12},
     NamedScene{"fluid-x64", "thesis/creature-1", 4, 0.1, 2},
 };
 
@@ -89,10 +86,11 @@ void measure(TimedScene& one) {
     StageProfile profile;
     forget_peak_memory();
     const auto start = Clock::now();
-    const Evaluation result = evaluate(one.scene, gait_for(one.scene), one.precision, {}, {},
-                                       {.profile = &profile, .threads = one.threads});
+    const Evaluation result =
+        evaluate(one.scene, gait_for(one.scene), one.precision, {}, {}, {.profile = &profile, .threads = one.threads});
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (one.seconds.empty() || seconds < *std::min_element(one.seconds.begin(), one.seconds.end())) one.profile = profile;
+    if (one.seconds.empty() || seconds < *std::min_element(one.seconds.begin(), one.seconds.end()))
+        one.profile = profile;
     one.seconds.push_back(seconds);
     one.peak_mb = std::max(one.peak_mb, peak_memory_mb());
     const std::string hash = hash_text(result.hash);
@@ -128,7 +126,8 @@ Row row_of(const TimedScene& one, const Row& rest) {
 }
 
 const NamedScene& find_scene(const std::string& name) {
-    const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.name == name; });
+    const auto found =
+        std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.name == name; });
     if (found != scenes.end()) return *found;
     throw InputError("unknown speed scene \"" + name + "\": must be one of " + joined(speed_scene_names(), ", "));
 }
@@ -142,13 +141,19 @@ std::vector<std::string> speed_scene_names() {
 }
 
 Row speed_columns() {
-    return {"scene",    "scheme",     "precision",  "instruction_set", "threads", "machine",
-            "particles", "fluid_particles", "substeps", "iterations",   "repeats",
-            "seconds_least", "seconds_median", "million_particle_iterations_per_second", "peak_mb", "hash"};
+    return {"scene",          "scheme",
+            "precision",      "instruction_set",
+            "threads",        "machine",
+            "particles",      "fluid_particles",
+            "substeps",       "iterations",
+            "repeats",        "seconds_least",
+            "seconds_median", "million_particle_iterations_per_second",
+            "peak_mb",        "hash"};
 }
 
 Row speed_profile_columns() {
-    return {"scene", "scheme", "precision", "instruction_set", "threads", "machine", "stage", "calls", "seconds", "share"};
+    return {"scene",   "scheme", "precision", "instruction_set", "threads",
+            "machine", "stage",  "calls",     "seconds",         "share"};
 }
 
 void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& profile,
@@ -159,8 +164,12 @@ void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& p
         for (const Scheme scheme : study.schemes) {
             for (const Precision precision : study.precisions) {
                 for (const int threads : study.threads) {
-                    const Row key{name, to_string(scheme), to_string(precision), to_string(instruction_set()),
-                                  std::to_string(threads), machine};
+                    const Row key{name,
+                                  to_string(scheme),
+                                  to_string(precision),
+                                  to_string(instruction_set()),
+                                  std::to_string(threads),
+                                  machine};
                     if (table.has(key)) continue;
                     Scene scene = make_scene(find_scene(name), study.quick);
                     scene.scheme = scheme;
@@ -175,7 +184,7 @@ void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& p
             report(joined(table.rows().back(), " "));
             for (const StageProfile::Entry& entry : one.profile.entries())
                 profile.add(row_of(one, {entry.stage, std::to_string(entry.calls), measured_text(entry.seconds),
-                                             measured_text(entry.seconds / one.profile.seconds())}));
+                                         measured_text(entry.seconds / one.profile.seconds())}));
         }
     }
 }

@@ -51,17 +51,16 @@ void run_column(const DamBreakCase& one, const ValidationStudy& study, const Set
     const Row name = concatenated({one.name, std::to_string(study.width)}, setting_fields(setting));
     const Row key = concatenated({"dam-break"}, name);
     if (table.has(key)) return;
-    const DamBreakRun run =
-        run_dam_break({one.height_over_base, study.width, one.ideal}, setting, study.last_time);
+    const DamBreakRun run = run_dam_break({one.height_over_base, study.width, one.ideal}, setting, study.last_time);
     Row row = concatenated(key, {run.instability ? "unstable" : "ok", std::to_string(run.particles)});
     if (!run.instability) {
         add_front(name, run.front, fronts);
         const FrontError error = front_error(run.front, measured_front(one.height_over_base));
         const double frames = static_cast<double>(run.front.size()) - 1;
-        row = concatenated(row, {measured_text(run.seconds), rate_text(run.particles, setting, frames / run.seconds),
-                                 measured_text(run.start_height), measured_text(error.position),
-                                 measured_text(error.arrival), measured_text(error.lag),
-                                 measured_text(error.position_after_lag)});
+        row = concatenated(
+            row, {measured_text(run.seconds), rate_text(run.particles, setting, frames / run.seconds),
+                  measured_text(run.start_height), measured_text(error.position), measured_text(error.arrival),
+                  measured_text(error.lag), measured_text(error.position_after_lag)});
     }
     table.add(padded(row));
 }
@@ -82,10 +81,10 @@ void run_tank(const ValidationStudy& study, const Setting& setting, ResultTable&
 
 void add_peers(ResultTable& table) {
     for (const PeerRun& peer : peer_runs())
-        add_missing(padded({"tank", "thesis/tank", "", peer.name, "", "", "", "published", "",
-                            measured_text(peer.run_time), "", "", "", "", "", "",
-                            measured_text(peer.density_error_mean), measured_text(peer.density_error_max)}),
-                    validation_key_columns, table);
+        add_missing(
+            padded({"tank", "thesis/tank", "", peer.name, "", "", "", "published", "", measured_text(peer.run_time), "",
+                    "", "", "", "", "", measured_text(peer.density_error_mean), measured_text(peer.density_error_max)}),
+            validation_key_columns, table);
 }
 
 }  // namespace

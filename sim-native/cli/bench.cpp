@@ -260,8 +260,8 @@ void add_speed(CLI::App* bench, int& status) {
         ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
-        const SpeedStudy study{options->scenes, common.chosen_schemes(), common.chosen_precisions(), options->threads,
-                               options->repeats, common.quick};
+        const SpeedStudy study{options->scenes,  common.chosen_schemes(), common.chosen_precisions(),
+                               options->threads, options->repeats,        common.quick};
         ResultTable table(common.output, speed_columns(), speed_key_columns);
         ResultTable profile(common.output.empty() ? "" : path_beside(common.output, "profile"), speed_profile_columns(),
                             speed_key_columns);

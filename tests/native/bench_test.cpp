@@ -165,12 +165,8 @@ TEST(EnsembleTest, SummaryIsTheMeanOfTheSeeds) {
 }
 
 TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
-    const SpeedStudy study{{"creature-1", "vacuum"},
-                           {Scheme::flex, Scheme::conserving},
-                           {Precision::single_precision},
-                           {1},
-                           2,
-                           true};
+    const SpeedStudy study{
+        {"creature-1", "vacuum"}, {Scheme::flex, Scheme::conserving}, {Precision::single_precision}, {1}, 2, true};
     ResultTable table("", speed_columns(), speed_key_columns);
     ResultTable profile("", speed_profile_columns(), speed_key_columns);
     run_speed_study(study, table, profile, ignore);

@@ -139,9 +139,8 @@ TEST_P(Buoyancy, FollowsDensityAndNotParticleCount) {
     EXPECT_GT(rise((1 - tolerance) * displaced_mass), 0.005);
     EXPECT_LT(rise((1 + tolerance) * displaced_mass), -0.005);
 }
-INSTANTIATE_TEST_SUITE_P(Particles, Buoyancy, testing::Values(1, 0.5), [](const auto& test) {
-    return test.param == 1 ? "Once" : "EightTimes";
-});
+INSTANTIATE_TEST_SUITE_P(Particles, Buoyancy, testing::Values(1, 0.5),
+                         [](const auto& test) { return test.param == 1 ? "Once" : "EightTimes"; });
 
 /// Mean height of the thesis' swimmer with slack muscles after 1.5 s.
 double floating_height(int substeps, int iterations) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "solver/cpu/aligned.h"
+#include "solver/cpu/conserving/density_kernels.h"
 #include "solver/cpu/fluid_kernels.h"
 #include "solver/cpu/motion_kernels.h"
 #include "solver/cpu/neighbour_kernels.h"
@@ -27,8 +28,10 @@ struct Fluid {
         position.resize(slots, 1e9f);
         velocity.resize(slots);
         correction.resize(slots);
-        for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count})
+        for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &lambda,
+                            &response, &lambda_sum, &gradient_square})
             array->resize(slots);
+        solid_gradient.resize(slots);
         packed.resize(4 * slots);
         packed_velocity.resize(4 * slots);
         for (int slot = 0; slot < far_slot; ++slot) {
@@ -36,6 +39,8 @@ struct Fluid {
             velocity.set(slot, {place(random), place(random), place(random)});
             inverse_mass[slot] = positive(random);
             solid_density[slot] = positive(random) - 0.1f;
+            solid_gradient.set(slot, {place(random), place(random), place(random)});
+            gradient_square[slot] = positive(random);
         }
         position.set(7, position.at(3));  // a pair at distance 0
         row_begin.push_back(0);
@@ -76,7 +81,36 @@ struct Fluid {
                 .distance = distance.data()};
     }
 
-    Vector3Array<float> position, velocity, correction;
+    DensityView<float> density_view(float* inverse_distance) {
+        const FluidView<float> f = view();
+        return {.first_block = 0,
+                .end_block = blocks,
+                .row_begin = f.row_begin,
+                .neighbour = f.neighbour,
+                .far_slot = far_slot,
+                .inverse_radius = f.inverse_radius,
+                .kernel_scale = 0.7f,
+                .rest_sum = 0.4f,
+                .gradient_scale = 13,
+                .position = {f.position[0], f.position[1], f.position[2]},
+                .inverse_mass = f.inverse_mass,
+                .solid_density = f.solid_density,
+                .solid_gradient = {solid_gradient.x.data(), solid_gradient.y.data(), solid_gradient.z.data()},
+                .solid_gradient_square = gradient_square.data(),
+                .density = f.density,
+                .lambda = lambda.data(),
+                .response = response.data(),
+                .lambda_sum = lambda_sum.data(),
+                .correction = {f.correction[0], f.correction[1], f.correction[2]},
+                .velocity = {f.velocity[0], f.velocity[1], f.velocity[2]},
+                .velocity_change = {f.correction[0], f.correction[1], f.correction[2]},
+                .packed = f.packed,
+                .packed_velocity = f.packed_velocity,
+                .inverse_distance = inverse_distance};
+    }
+
+    Vector3Array<float> position, velocity, correction, solid_gradient;
+    AlignedVector<float> lambda, response, lambda_sum, gradient_square;
     AlignedVector<float> inverse_mass, solid_density, density, compression, constraint_count;
     AlignedVector<float> packed, packed_velocity, distance;
     std::vector<int> row_begin;
@@ -127,6 +161,40 @@ TEST_P(SolverKernels, Viscosity) {
     expect_near(fluid.correction.z, expected.correction.z);
 }
 
+/// Scheme conserving, with and without room for the pairs' distances.
+TEST_P(SolverKernels, ConservingDensity) {
+    const DensityKernels<float>& vectors = density_kernels<float>(GetParam());
+    const DensityKernels<float>& plain = scalar_density_kernels<float>(GetParam());
+    for (const bool keep : {true, false}) {
+        Fluid fluid, expected;
+        const DensityView<float> view = fluid.density_view(keep ? fluid.distance.data() : nullptr);
+        const DensityView<float> plain_view = expected.density_view(nullptr);
+        const auto expect_same_correction = [&] {
+            expect_near(fluid.correction.x, expected.correction.x);
+            expect_near(fluid.correction.y, expected.correction.y);
+            expect_near(fluid.correction.z, expected.correction.z);
+        };
+        vectors.pack(view);
+        vectors.pack_velocity(view);
+        vectors.compute_lambda(view);
+        plain.compute_lambda(plain_view);
+        expect_near(fluid.density, expected.density);
+        expect_near(fluid.response, expected.response);
+        expect_near(fluid.lambda, expected.lambda);
+        vectors.pack_lambda(view);
+        vectors.solve_density_constraint(view);
+        plain.solve_density_constraint(plain_view);
+        expect_same_correction();
+        vectors.pack(view);
+        vectors.compute_rate_lambda(view, 240);
+        plain.compute_rate_lambda(plain_view, 240);
+        expect_near(fluid.lambda, expected.lambda);
+        vectors.smooth_velocities(view);
+        plain.smooth_velocities(plain_view);
+        expect_same_correction();
+    }
+}
+
 /// Runs of all lengths, from all places; the longest are those of a pile of particles in one cell.
 TEST_P(SolverKernels, NeighboursOfRuns) {
     std::mt19937_64 random(3);
@@ -146,8 +214,9 @@ TEST_P(SolverKernels, NeighboursOfRuns) {
     int all = 0;
     for (int slot = 0; slot < slots; slot += 7) {
         const int n = neighbour_kernels<float>(GetParam()).find(position, slot, runs, radius * radius, found.data());
-        ASSERT_EQ(n, scalar_neighbour_kernels<float>(GetParam())
-                         .find(position, slot, runs, radius * radius, expected.data()));
+        ASSERT_EQ(
+            n,
+            scalar_neighbour_kernels<float>(GetParam()).find(position, slot, runs, radius * radius, expected.data()));
         for (int k = 0; k < n; ++k) EXPECT_EQ(found[k], expected[k]);
         all += n;
     }
@@ -214,13 +283,13 @@ TEST_P(SolverKernels, MotionIsTheSameInAllSets) {
         set->displacement_velocity(slots, 240);
         EXPECT_TRUE(set->finite(v[0], Fluid::far_slot));
         set->finish_velocity(slots, {.viscous_blocks = 3,
-                                         .viscosity_step = 0.1f,
-                                         .damping = true,
-                                         .damping_step = 0.01f,
-                                         .clamp_acceleration = true,
-                                         .most_change = 5,
-                                         .clamp_speed = true,
-                                         .max_speed = 4.5f});
+                                     .viscosity_step = 0.1f,
+                                     .damping = true,
+                                     .damping_step = 0.01f,
+                                     .clamp_acceleration = true,
+                                     .most_change = 5,
+                                     .clamp_speed = true,
+                                     .max_speed = 4.5f});
     }
     EXPECT_EQ(fluid.position.x, expected.position.x);
     EXPECT_EQ(fluid.position.y, expected.position.y);

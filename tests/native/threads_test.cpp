@@ -45,10 +45,11 @@ TEST(ThreadTeamTest, WhatAPartThrowsIsThrownAndTheTeamGoesOn) {
 
 /// Fluid enough for three parts, with a swimmer in it.
 TEST(Threads, AnyNumberGivesTheSameBits) {
-    const nlohmann::json large = {{"fluid", {{"count", {100, 10, 34}}}},
-                                  {"planes", {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, 9.01}, {0, 0, -1, 3.07}}},
-                                  {"settling", {{"updates", 1}}},
-                                  {"duration", 0.02}};
+    const nlohmann::json large = {
+        {"fluid", {{"count", {100, 10, 34}}}},
+        {"planes", {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, 9.01}, {0, 0, -1, 3.07}}},
+        {"settling", {{"updates", 1}}},
+        {"duration", 0.02}};
     for (const char* scheme : {"flex", "conserving"}) {
         Scene scene = load_scene("thesis/creature-1", large);
         scene.scheme = scheme == std::string("flex") ? Scheme::flex : Scheme::conserving;

@@ -12,8 +12,7 @@ namespace {
 
 /// A folder in the temporary folder, freed at the end.
 struct TemporaryFolder {
-    TemporaryFolder()
-        : path(std::filesystem::temp_directory_path() / ("natator-bench-" + std::to_string(::getpid()))) {
+    TemporaryFolder() : path(std::filesystem::temp_directory_path() / ("natator-bench-" + std::to_string(::getpid()))) {
         std::filesystem::create_directory(path);
     }
     ~TemporaryFolder() { std::filesystem::remove_all(path); }

@@ -43,8 +43,8 @@ TEST(ServeProtocolTest, EveryRequestIsAnsweredAsEvaluateAnswersIt) {
 }
 
 TEST(ServeProtocolTest, ABadRequestSpoilsNoOther) {
-    const Outcome served = run_simulator(
-        {"serve"}, request(1) + "{half a li\n" + request(2, R"(,"speed":9)") + request(3) + "[]\n");
+    const Outcome served =
+        run_simulator({"serve"}, request(1) + "{half a li\n" + request(2, R"(,"speed":9)") + request(3) + "[]\n");
     EXPECT_EQ(served.exit_code, 0) << served.err;
     const auto by_id = answers(served);
     EXPECT_EQ(by_id.at(1)["status"], "ok");
@@ -76,7 +76,8 @@ TEST(BackendTest, AMissingGpuIsSaidOnceAndHasAnExitCode) {
     EXPECT_EQ(lines(cuda.err), 1);
     EXPECT_NE(cuda.err.find("device 1023"), std::string::npos) << cuda.err;
 
-    const Outcome automatic = run_simulator({"serve", "--backend", "auto", "--device", "1023"}, request(1) + request(2));
+    const Outcome automatic =
+        run_simulator({"serve", "--backend", "auto", "--device", "1023"}, request(1) + request(2));
     EXPECT_EQ(automatic.exit_code, 0);
     EXPECT_EQ(lines(automatic.out), 2);
     EXPECT_EQ(lines(automatic.err), 1);

@@ -23,8 +23,8 @@ struct Perturbation {
 
 /// How well the final state keeps the laws of mechanics.
 struct LawFigures {
-    double linear_momentum = 0;     ///< |sum of m v| / sum of |m v| over the body; 0 for a body that internal forces move
-    double angular_momentum = 0;    ///< the same for m r x v about the body's centre of mass
+    double linear_momentum = 0;   ///< |sum of m v| / sum of |m v| over the body; 0 for a body that internal forces move
+    double angular_momentum = 0;  ///< the same for m r x v about the body's centre of mass
     double density_error_mean = 0;  ///< mean over the fluid of max(density - 1, 0), densities in units of rest density
     double density_error_max = 0;
 };

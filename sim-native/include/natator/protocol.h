@@ -19,7 +19,8 @@ struct Request {
     std::optional<std::string> backend;  ///< "cpu", "cuda" or "auto"; whether there is one is for its user to see
 };
 
-/// Reads a request. Throws InputError naming the field, its value and what is allowed. The scene and the ranges of the gait are checked when they are used.
+/// Reads a request. Throws InputError naming the field, its value and what is allowed. The scene and the ranges of the
+/// gait are checked when they are used.
 Request parse_request(const nlohmann::json& value);
 
 /// The request's id, or null if it has no usable one.

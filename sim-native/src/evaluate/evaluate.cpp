@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "law_figures.h"
 #include "natator/actuate.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
-#include "law_figures.h"
 #include "perturb.h"
 #include "settle.h"
 

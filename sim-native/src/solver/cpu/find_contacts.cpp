@@ -19,7 +19,8 @@ void Substep<Real>::find_contacts() {
         SlotRuns runs;
         int candidates = add_runs(rows, cell, ws_.fluid_cell_begin, runs);
         candidates += add_runs(rows, cell, ws_.solid_cell_begin, runs);
-        if (static_cast<int>(found_contacts_.size()) < candidates + lanes) found_contacts_.resize(2 * candidates + lanes);
+        if (static_cast<int>(found_contacts_.size()) < candidates + lanes)
+            found_contacts_.resize(2 * candidates + lanes);
         const int n = neighbour_kernels_->find(position, slot, runs, distance_squared, found_contacts_.data());
         for (int k = 0; k < n; ++k) {
             const int other = found_contacts_[k], j = ws_.particle_of[other];

@@ -43,9 +43,11 @@ struct FluidKernels {
     void (*pack)(const FluidView<Real>& fluid);
     /// The same for velocities.
     void (*pack_velocity)(const FluidView<Real>& fluid);
-    /// Needs packed positions. density_i = (sum_j (1 - r/R)^2 + solid_density_i) / S and compression C_i = max(density_i - 1, 0).
+    /// Needs packed positions. density_i = (sum_j (1 - r/R)^2 + solid_density_i) / S and compression C_i =
+    /// max(density_i - 1, 0).
     void (*compute_density)(const FluidView<Real>& fluid);
-    /// Needs compute_density, and positions and compressions packed anew. correction_i = w_i R sum_j 1/2 (C_i + C_j) (1 - r/R) n; constraint_count_i = neighbours with r < R.
+    /// Needs compute_density, and positions and compressions packed anew. correction_i = w_i R sum_j 1/2 (C_i + C_j) (1
+    /// - r/R) n; constraint_count_i = neighbours with r < R.
     void (*solve_density_constraint)(const FluidView<Real>& fluid);
     /// Needs packed positions and velocities. velocity_change_i = sum_j W_ij (u_j - u_i), W = (1 - r/R)^2 / S.
     void (*smooth_velocities)(const FluidView<Real>& fluid);
@@ -56,21 +58,22 @@ template <class Real>
 FluidKernels<Real> fluid_kernels();
 template <class Real>
 FluidKernels<Real> scalar_fluid_kernels();
-}
+}  // namespace portable
 namespace avx2 {
 template <class Real>
 FluidKernels<Real> fluid_kernels();
 template <class Real>
 FluidKernels<Real> scalar_fluid_kernels();
-}
+}  // namespace avx2
 namespace avx512 {
 template <class Real>
 FluidKernels<Real> fluid_kernels();
 template <class Real>
 FluidKernels<Real> scalar_fluid_kernels();
-}
+}  // namespace avx512
 
-/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give the portable ones.
+/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give
+/// the portable ones.
 template <class Real>
 const FluidKernels<Real>& fluid_kernels(InstructionSet set);
 template <class Real>

@@ -97,13 +97,13 @@ struct KernelTables {
 }  // namespace
 
 // A function that gives the kernels of this name for an instruction set.
-#define NATATOR_CHOICE(Kernels, make)                                \
-    template <class Real>                                            \
-    const Kernels<Real>& make(InstructionSet set) {                  \
+#define NATATOR_CHOICE(Kernels, make)                                               \
+    template <class Real>                                                           \
+    const Kernels<Real>& make(InstructionSet set) {                                 \
         static const KernelTables<Kernels<Real>> tables NATATOR_TABLES(make<Real>); \
-        return tables.of(set);                                       \
-    }                                                                \
-    template const Kernels<float>& make<float>(InstructionSet);      \
+        return tables.of(set);                                                      \
+    }                                                                               \
+    template const Kernels<float>& make<float>(InstructionSet);                     \
     template const Kernels<double>& make<double>(InstructionSet);
 
 NATATOR_CHOICE(FluidKernels, fluid_kernels)

@@ -85,8 +85,10 @@ inline __m512 four_apart(const float* packed, const std::int32_t* index) {
 inline Floats4 gather(const float* packed, const std::int32_t* index) {
     const __m512 a = four_apart(packed, index), b = four_apart(packed, index + 1);
     const __m512 c = four_apart(packed, index + 2), d = four_apart(packed, index + 3);
-    const __m512d xy_ab = _mm512_castps_pd(_mm512_unpacklo_ps(a, b)), xy_cd = _mm512_castps_pd(_mm512_unpacklo_ps(c, d));
-    const __m512d zw_ab = _mm512_castps_pd(_mm512_unpackhi_ps(a, b)), zw_cd = _mm512_castps_pd(_mm512_unpackhi_ps(c, d));
+    const __m512d xy_ab = _mm512_castps_pd(_mm512_unpacklo_ps(a, b)),
+                  xy_cd = _mm512_castps_pd(_mm512_unpacklo_ps(c, d));
+    const __m512d zw_ab = _mm512_castps_pd(_mm512_unpackhi_ps(a, b)),
+                  zw_cd = _mm512_castps_pd(_mm512_unpackhi_ps(c, d));
     return {_mm512_castpd_ps(_mm512_unpacklo_pd(xy_ab, xy_cd)), _mm512_castpd_ps(_mm512_unpackhi_pd(xy_ab, xy_cd)),
             _mm512_castpd_ps(_mm512_unpacklo_pd(zw_ab, zw_cd)), _mm512_castpd_ps(_mm512_unpackhi_pd(zw_ab, zw_cd))};
 }
@@ -205,8 +207,10 @@ inline __m256 two_apart(const float* packed, const std::int32_t* index) {
 inline Floats4 gather(const float* packed, const std::int32_t* index) {
     const __m256 a = two_apart(packed, index), b = two_apart(packed, index + 1);
     const __m256 c = two_apart(packed, index + 2), d = two_apart(packed, index + 3);
-    const __m256d xy_ab = _mm256_castps_pd(_mm256_unpacklo_ps(a, b)), xy_cd = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
-    const __m256d zw_ab = _mm256_castps_pd(_mm256_unpackhi_ps(a, b)), zw_cd = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
+    const __m256d xy_ab = _mm256_castps_pd(_mm256_unpacklo_ps(a, b)),
+                  xy_cd = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
+    const __m256d zw_ab = _mm256_castps_pd(_mm256_unpackhi_ps(a, b)),
+                  zw_cd = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
     return {_mm256_castpd_ps(_mm256_unpacklo_pd(xy_ab, xy_cd)), _mm256_castpd_ps(_mm256_unpackhi_pd(xy_ab, xy_cd)),
             _mm256_castpd_ps(_mm256_unpacklo_pd(zw_ab, zw_cd)), _mm256_castpd_ps(_mm256_unpackhi_pd(zw_ab, zw_cd))};
 }

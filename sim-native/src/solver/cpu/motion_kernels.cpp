@@ -1,5 +1,5 @@
-// Compiled once per instruction set, like fluid_kernels.cpp and by the same rules, but without fused products: every set
-// gives the same bits. The compiler makes vectors of all loops but one.
+// Compiled once per instruction set, like fluid_kernels.cpp and by the same rules, but without fused products: every
+// set gives the same bits. The compiler makes vectors of all loops but one.
 #include "motion_kernels.h"
 
 #include "lanes.h"
@@ -154,7 +154,8 @@ void push_from_plane(const MotionView<Real>& slots, int block, unsigned chosen, 
 
 void push_from_plane(const MotionView<float>& slots, int block, unsigned chosen, const PlaneView<float>& plane) {
     for (int slot = block * lanes; slot < (block + 1) * lanes; slot += width, chosen >>= width) {
-        Floats x = load(slots.position[0] + slot), y = load(slots.position[1] + slot), z = load(slots.position[2] + slot);
+        Floats x = load(slots.position[0] + slot), y = load(slots.position[1] + slot),
+               z = load(slots.position[2] + slot);
         push(x, y, z, load(slots.start[0] + slot), load(slots.start[1] + slot), load(slots.start[2] + slot),
              ones(chosen), plane);
         store(slots.position[0] + slot, x);
@@ -167,7 +168,7 @@ void push_from_plane(const MotionView<float>& slots, int block, unsigned chosen,
 
 template <class Real>
 MotionKernels<Real> scalar_motion_kernels() {
-    return {&relax<Real>, &displacement_velocity<Real>, &finish_velocity<Real>, &finite<Real>,
+    return {&relax<Real>,      &displacement_velocity<Real>, &finish_velocity<Real>, &finite<Real>,
             &near_plane<Real>, &push_from_plane<Real>};
 }
 template MotionKernels<float> scalar_motion_kernels<float>();

@@ -62,21 +62,22 @@ template <class Real>
 MotionKernels<Real> motion_kernels();
 template <class Real>
 MotionKernels<Real> scalar_motion_kernels();
-}
+}  // namespace portable
 namespace avx2 {
 template <class Real>
 MotionKernels<Real> motion_kernels();
 template <class Real>
 MotionKernels<Real> scalar_motion_kernels();
-}
+}  // namespace avx2
 namespace avx512 {
 template <class Real>
 MotionKernels<Real> motion_kernels();
 template <class Real>
 MotionKernels<Real> scalar_motion_kernels();
-}
+}  // namespace avx512
 
-/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give the portable ones.
+/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give
+/// the portable ones.
 template <class Real>
 const MotionKernels<Real>& motion_kernels(InstructionSet set);
 template <class Real>

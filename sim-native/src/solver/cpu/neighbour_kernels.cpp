@@ -63,8 +63,7 @@ void interleave_by_vectors(const std::int32_t* const* list, const int* count, in
     for (int row = 0; row < rows; row += width) {
         for (int lane = 0; lane < lanes; lane += width) {
             Ints square[width];
-            for (int k = 0; k < width; ++k)
-                square[k] = load_first(list[lane + k] + row, count[lane + k] - row, filler);
+            for (int k = 0; k < width; ++k) square[k] = load_first(list[lane + k] + row, count[lane + k] - row, filler);
             transpose(square);
             for (int k = 0; k < width; ++k) store(to + (row + k) * lanes + lane, square[k]);
         }

@@ -34,21 +34,22 @@ template <class Real>
 NeighbourKernels<Real> neighbour_kernels();
 template <class Real>
 NeighbourKernels<Real> scalar_neighbour_kernels();
-}
+}  // namespace portable
 namespace avx2 {
 template <class Real>
 NeighbourKernels<Real> neighbour_kernels();
 template <class Real>
 NeighbourKernels<Real> scalar_neighbour_kernels();
-}
+}  // namespace avx2
 namespace avx512 {
 template <class Real>
 NeighbourKernels<Real> neighbour_kernels();
 template <class Real>
 NeighbourKernels<Real> scalar_neighbour_kernels();
-}
+}  // namespace avx512
 
-/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give the portable ones.
+/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give
+/// the portable ones.
 template <class Real>
 const NeighbourKernels<Real>& neighbour_kernels(InstructionSet set);
 template <class Real>

@@ -88,8 +88,8 @@ public:
 protected:
     /// Does particle i feel particle j?
     bool collides(int i, int j) const;
-    /// Adds the runs of slots, out of those that begin at `cell_begin`, with all particles near those of a cell. Returns
-    /// how many slots they hold.
+    /// Adds the runs of slots, out of those that begin at `cell_begin`, with all particles near those of a cell.
+    /// Returns how many slots they hold.
     int add_runs(const typename CellGrid<Real>::Rows& rows, int cell, const std::vector<int>& cell_begin,
                  SlotRuns& runs) const {
         const auto range = ws_.grid.range_around(cell);
@@ -170,9 +170,9 @@ private:
     void sort_by_cell(const std::vector<int>& ids, int first_slot, std::vector<int>& cell_begin);
     std::vector<std::vector<int>> next_slot_;  ///< by part of the particles and cell, room for the sort
 
-    std::vector<Vector3<Real>> velocity_change_;          ///< by particle; empty unless an effect needs it
-    std::vector<Vector3<Real>> normal_, curl_;            ///< by fluid slot; empty unless an effect needs them
-    std::vector<int> overlaps_;                           ///< by slot; empty unless an effect needs it
+    std::vector<Vector3<Real>> velocity_change_;  ///< by particle; empty unless an effect needs it
+    std::vector<Vector3<Real>> normal_, curl_;    ///< by fluid slot; empty unless an effect needs them
+    std::vector<int> overlaps_;                   ///< by slot; empty unless an effect needs it
 
     /// Room for the neighbours of one block, and for the rows of a part of the blocks.
     struct ListRoom {
@@ -181,9 +181,9 @@ private:
         std::size_t size = 0;  ///< of the rows
     };
     void list_fluid_neighbours(int first_block, int end_block, ListRoom& room, AlignedVector<std::int32_t>& rows);
-    std::vector<ListRoom> list_room_{1};  ///< by part of the blocks
-    std::vector<std::int32_t> found_contacts_;            ///< room for the contacts of one particle
-    std::vector<std::pair<int, int>> pairs_;              ///< room for the contacts of one substep
+    std::vector<ListRoom> list_room_{1};        ///< by part of the blocks
+    std::vector<std::int32_t> found_contacts_;  ///< room for the contacts of one particle
+    std::vector<std::pair<int, int>> pairs_;    ///< room for the contacts of one substep
 };
 
 }  // namespace natator::cpu

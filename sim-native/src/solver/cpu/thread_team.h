@@ -24,8 +24,8 @@ public:
     int most_parts() const { return size() == 1 ? 1 : 4 * size(); }
 
     /// Calls work(part, begin, end) for each of the parts that [0, count) is cut into, side by side, and returns when
-    /// all are done. The cuts depend on count, grain and size() alone. No part is shorter than `grain` unless it is the only
-    /// one, so short loops run as if alone. Throws what the first part in order threw.
+    /// all are done. The cuts depend on count, grain and size() alone. No part is shorter than `grain` unless it is the
+    /// only one, so short loops run as if alone. Throws what the first part in order threw.
     template <class Work>
     void for_parts(int count, int grain, const Work& work) {
         const int parts = std::max(1, std::min(most_parts(), count / grain));

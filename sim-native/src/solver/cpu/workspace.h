@@ -24,9 +24,9 @@ struct Workspace {
     explicit Workspace(const Model& model);
 
     int particles = 0;
-    int fluid = 0;        ///< fluid particles are in slots [0, fluid)
-    int solid_begin = 0;  ///< solid particles are in slots [solid_begin, slots)
-    int slots = 0;        ///< the far slot is slots itself
+    int fluid = 0;                                      ///< fluid particles are in slots [0, fluid)
+    int solid_begin = 0;                                ///< solid particles are in slots [solid_begin, slots)
+    int slots = 0;                                      ///< the far slot is slots itself
     int blocks() const { return solid_begin / lanes; }  ///< of fluid
     int all_blocks() const { return round_up_to_block(slots + 1) / lanes; }
 
@@ -57,7 +57,7 @@ struct Workspace {
     // Fluid neighbours in sliced ELLPACK: block b holds rows [row_begin[b], row_begin[b+1]) of 16 slots each.
     std::vector<int> row_begin;
     AlignedVector<std::int32_t> neighbour;  ///< longer than the rows need
-    std::vector<int> neighbour_count;  ///< by slot
+    std::vector<int> neighbour_count;       ///< by slot
 
     // Room for the fluid kernels, see FluidView.
     AlignedVector<Real> packed, packed_velocity, distance;

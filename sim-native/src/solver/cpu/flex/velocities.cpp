@@ -8,9 +8,8 @@ template <class Real>
 void FlexStages<Real>::update_velocities() {
     const SolverParameters& p = model_.parameters;
     const MotionView<Real> all = this->motion_view();
-    this->on_all_threads(all, [this](const MotionView<Real>& slots) {
-        motion_kernels_->displacement_velocity(slots, 1 / h_);
-    });
+    this->on_all_threads(
+        all, [this](const MotionView<Real>& slots) { motion_kernels_->displacement_velocity(slots, 1 / h_); });
     if (plan_.viscosity) {
         const FluidView<Real> fluid = fluid_view();
         this->on_all_threads(fluid, kernels_->pack);
