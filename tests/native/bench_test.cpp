@@ -235,6 +235,20 @@ TEST(StabilityTest, TellsWhereOnlyFlexIsOk) {
 }
 
 /// Velocities at the edge of the numbers: the run ends as unstable, and at once.
+/// The starts and settings that scheme conserving bore worst.
+TEST(StabilityTest, ConservingBearsWhatFlexBears) {
+    const std::vector<std::pair<std::string, double>> hard = {
+        {"overlap", 0.9},    {"overlap", 0.5},         {"body-clearance", 0},  {"outside", 1},
+        {"mass-ratio", 100}, {"radius-ratio", 1.0001}, {"radius-ratio", 1.01}, {"radius-ratio", 3}};
+    for (const auto& [axis, value] : hard) {
+        StabilityCase subject = calm_case();
+        subject.scene.scheme = Scheme::conserving;
+        stability_axis(axis).set(subject, value);
+        const StabilityResult result = run_stability(subject, Precision::single_precision);
+        EXPECT_EQ(result.verdict, Verdict::ok) << axis << ' ' << value << ": " << result.stage;
+    }
+}
+
 TEST(StabilityTest, PositionsBeyondTheNumbersEndTheRun) {
     for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
         Subject subject = make_subject("falling-drop");

@@ -10,6 +10,15 @@
 namespace natator::cpu::NATATOR_ISA {
 namespace {
 
+/// Below this the gradients of a constraint come from neighbours that the kernel ends at, and 1/v may be infinite.
+constexpr float least_response = 1e-30f;
+
+/// 1 / v, or 0 where v is too small for it.
+template <class Real>
+Real finite_inverse(Real v) {
+    return v > Real(least_response) ? 1 / v : 0;
+}
+
 template <class Real>
 void compute_lambda(const DensityView<Real>& fluid) {
     const Real* const x = fluid.position[0];
@@ -49,7 +58,7 @@ void compute_lambda(const DensityView<Real>& fluid) {
                 fluid.gradient_scale * fluid.gradient_scale * square[lane] + fluid.solid_gradient_square[i];
             const Real all = w[i] * (cx * cx + cy * cy + cz * cz) + others;
             fluid.density[i] = 1 + above;
-            const Real response = all > 0 ? 1 / all : 0;
+            const Real response = finite_inverse(all);
             const Real lambda = above > 0 ? -above * response : 0;
             fluid.response[i] = response;
             fluid.lambda[i] = lambda;
@@ -76,9 +85,8 @@ Floats inverse_response(const DensityView<float>& fluid, int first, Floats gx, F
     return load(fluid.inverse_mass + first) * square(cx, cy, cz) + others;
 }
 
-/// 1 / v, or 0 where v is not positive.
-Floats inverse_if_positive(Floats v) {
-    return v > 0 ? 1 / v : Floats{};
+Floats finite_inverse(Floats v) {
+    return v > least_response ? 1 / v : Floats{};
 }
 
 void compute_lambda(const DensityView<float>& fluid) {
@@ -104,7 +112,7 @@ void compute_lambda(const DensityView<float>& fluid) {
             square_sum += other.w * g * g;
         }
         const Floats above = fluid.kernel_scale * (sum - fluid.rest_sum) + load(fluid.solid_density + first);
-        const Floats response = inverse_if_positive(inverse_response(fluid, first, gx, gy, gz, square_sum));
+        const Floats response = finite_inverse(inverse_response(fluid, first, gx, gy, gz, square_sum));
         const Floats lambda = -positive_part(above) * response;
         store(fluid.density + first, 1 + above);
         store(fluid.response + first, response);
@@ -220,7 +228,7 @@ void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
             const Real others =
                 fluid.gradient_scale * fluid.gradient_scale * square[lane] + fluid.solid_gradient_square[i];
             const Real all = inverse_mass[i] * (cx * cx + cy * cy + cz * cz) + others;
-            const Real lambda = all > 0 ? -fluid.gradient_scale * rate[lane] / all : 0;
+            const Real lambda = -fluid.gradient_scale * rate[lane] * finite_inverse(all);
             const Real most = -fluid.lambda_sum[i] * inverse_h;
             const Real limited = lambda < most ? lambda : most;
             fluid.lambda[i] = most > 0 ? limited : 0;
@@ -256,7 +264,7 @@ void compute_rate_lambda(const DensityView<float>& fluid, float inverse_h) {
             gz -= slope * dz;
             square_sum += other.w * g * g;
         }
-        const Floats response = inverse_if_positive(inverse_response(fluid, first, gx, gy, gz, square_sum));
+        const Floats response = finite_inverse(inverse_response(fluid, first, gx, gy, gz, square_sum));
         const Floats lambda = -fluid.gradient_scale * rate * response;
         const Floats most = -load(fluid.lambda_sum + first) * inverse_h;
         const Floats limited = lambda < most ? lambda : most;
