@@ -10,6 +10,7 @@
 #include "solver/cpu/fluid_kernels.h"
 #include "solver/cpu/motion_kernels.h"
 #include "solver/cpu/neighbour_kernels.h"
+#include "solver/cpu/plane_kernels.h"
 
 namespace natator::cpu {
 namespace {
@@ -245,7 +246,7 @@ TEST_P(SolverKernels, ListsSideBySide) {
 /// No product is fused, so these agree to the last bit with the portable set.
 TEST_P(SolverKernels, MotionIsTheSameInAllSets) {
     const MotionKernels<float>& motion = motion_kernels<float>(GetParam());
-    const MotionKernels<float>& portable = scalar_motion_kernels<float>(InstructionSet::portable);
+    const MotionKernels<float>& portable = motion_kernels<float>(InstructionSet::portable);
     Fluid fluid, expected;
     for (const auto& [set, particles] : {std::pair{&motion, &fluid}, {&portable, &expected}}) {
         Vector3Array<float> start = particles->position, predicted = particles->velocity;
@@ -266,20 +267,6 @@ TEST_P(SolverKernels, MotionIsTheSameInAllSets) {
                                       .velocity = {v[0], v[1], v[2]}};
         set->relax(slots, 2, true);
         set->relax(slots, 0.1f, false);
-        PlaneView<float> plane{.normal = {0.6f, 0, 0.8f},
-                               .offset = -0.2f,
-                               .distance = 0.05f,
-                               .friction = false,
-                               .static_friction = 0.3f,
-                               .dynamic_friction = 0.2f};
-        int pushed = 0;
-        for (int block = 0; block < Fluid::blocks; ++block) {
-            plane.friction = block % 2 == 0;
-            const unsigned near = set->near_plane(slots, block, plane);
-            pushed += std::popcount(near);
-            set->push_from_plane(slots, block, near & 0xbfffu, plane);
-        }
-        EXPECT_GT(pushed, 10);
         set->displacement_velocity(slots, 240);
         EXPECT_TRUE(set->finite(v[0], Fluid::far_slot));
         set->finish_velocity(slots, {.viscous_blocks = 3,
@@ -297,6 +284,61 @@ TEST_P(SolverKernels, MotionIsTheSameInAllSets) {
     EXPECT_EQ(fluid.velocity.x, expected.velocity.x);
     EXPECT_EQ(fluid.velocity.y, expected.velocity.y);
     EXPECT_EQ(fluid.velocity.z, expected.velocity.z);
+}
+
+/// All that planes do, in one array; the same bits in all sets, as no product is fused.
+std::vector<float> what_planes_do(const PlaneKernels<float>& planes, bool displaced) {
+    Fluid fluid;
+    Vector3Array<float> start = fluid.position, displacement = fluid.velocity;
+    for (int slot = 0; slot < Fluid::far_slot; ++slot) {
+        fluid.lambda[slot] = -0.01f * static_cast<float>(slot % 7);
+        displacement.set(slot, 0.1f * fluid.velocity.at(slot));
+        fluid.position.set(slot, start.at(slot) + displacement.at(slot));
+    }
+    const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
+    const auto x = pointers(fluid.position), x0 = pointers(start), d = pointers(displacement),
+               g = pointers(fluid.solid_gradient), dx = pointers(fluid.correction);
+    NearPlanes<float> slots{
+        .position = {x[0], x[1], x[2]}, .start = {x0[0], x0[1], x0[2]}, .base = {}, .displacement = {}};
+    for (int axis = 0; axis < 3 && displaced; ++axis) {
+        slots.base[axis] = x0[axis];
+        slots.displacement[axis] = d[axis];
+    }
+    const PlanePressure<float> pressure{.position = {x[0], x[1], x[2]},
+                                        .scale = 3,
+                                        .gap = 0.05f,
+                                        .inverse_radius = 5,
+                                        .density = fluid.solid_density.data(),
+                                        .gradient = {g[0], g[1], g[2]},
+                                        .inverse_mass = fluid.inverse_mass.data(),
+                                        .lambda = fluid.lambda.data(),
+                                        .correction = {dx[0], dx[1], dx[2]}};
+    int pushed = 0;
+    for (int block = 0; block < Fluid::blocks; ++block) {
+        const PlaneView<float> plane{.normal = {0.6f, 0, 0.8f},
+                                     .offset = -0.2f,
+                                     .distance = 0.05f,
+                                     .friction = block % 2 == 0,
+                                     .static_friction = 0.3f,
+                                     .dynamic_friction = 0.2f};
+        const unsigned chosen = planes.near(slots, block, plane) & 0xbfffu;
+        pushed += std::popcount(chosen);
+        planes.add_density(pressure, block, chosen, plane);
+        planes.press(pressure, block, chosen, plane);
+        planes.leave(slots, block, chosen, plane);
+    }
+    EXPECT_GT(pushed, 10);
+    std::vector<float> all(fluid.solid_density.begin(), fluid.solid_density.end());
+    for (const auto* array : {&fluid.position, &displacement, &fluid.solid_gradient, &fluid.correction})
+        for (const auto* axis : {&array->x, &array->y, &array->z}) all.insert(all.end(), axis->begin(), axis->end());
+    return all;
+}
+
+TEST_P(SolverKernels, PlanesDoTheSameInAllSets) {
+    for (const bool displaced : {false, true}) {
+        const auto expected = what_planes_do(scalar_plane_kernels<float>(InstructionSet::portable), displaced);
+        EXPECT_EQ(what_planes_do(plane_kernels<float>(GetParam()), displaced), expected);
+    }
 }
 
 TEST_P(SolverKernels, FiniteSeesEveryValue) {

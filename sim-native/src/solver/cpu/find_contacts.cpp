@@ -47,20 +47,18 @@ void Substep<Real>::find_contacts() {
 /// Lists the planes that each particle is within collisionDistance plus margin of, last plane first.
 template <class Real>
 void Substep<Real>::find_plane_contacts() {
-    ws_.plane_contacts.clear();
     ws_.plane_groups.clear();
-    const MotionView<Real> slots = motion_view();
+    const NearPlanes<Real> slots = near_planes();
     for (int plane = static_cast<int>(model_.planes.size()) - 1; plane >= 0; --plane) {
         PlaneView<Real> view = plane_view(plane);
         view.distance = constants_.plane_search_distance;
-        for (int block = 0; block < slots.end_block; ++block) {
-            const unsigned near = motion_kernels_->near_plane(slots, block, view);
+        for (int block = 0; block < ws_.all_blocks(); ++block) {
+            const unsigned near = plane_kernels_->near(slots, block, view);
             unsigned chosen = 0;
             for (unsigned rest = near; rest != 0; rest &= rest - 1) {
                 const int lane = std::countr_zero(rest), slot = block * lanes + lane;
                 if (!(ws_.inverse_mass[slot] > 0)) continue;  // held in place, or no particle's slot
                 chosen |= 1u << lane;
-                ws_.plane_contacts.push_back({slot, plane});
             }
             if (chosen != 0) ws_.plane_groups.push_back({plane, block, chosen});
         }

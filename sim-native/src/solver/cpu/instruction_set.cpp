@@ -9,6 +9,7 @@
 #include "motion_kernels.h"
 #include "natator/error.h"
 #include "neighbour_kernels.h"
+#include "plane_kernels.h"
 
 namespace natator {
 
@@ -109,7 +110,8 @@ struct KernelTables {
 NATATOR_CHOICE(FluidKernels, fluid_kernels)
 NATATOR_CHOICE(FluidKernels, scalar_fluid_kernels)
 NATATOR_CHOICE(MotionKernels, motion_kernels)
-NATATOR_CHOICE(MotionKernels, scalar_motion_kernels)
+NATATOR_CHOICE(PlaneKernels, plane_kernels)
+NATATOR_CHOICE(PlaneKernels, scalar_plane_kernels)
 NATATOR_CHOICE(NeighbourKernels, neighbour_kernels)
 NATATOR_CHOICE(NeighbourKernels, scalar_neighbour_kernels)
 NATATOR_CHOICE(DensityKernels, density_kernels)

@@ -1,5 +1,5 @@
 // Compiled once per instruction set, like fluid_kernels.cpp and by the same rules, but without fused products: every
-// set gives the same bits. The compiler makes vectors of all loops but one.
+// set gives the same bits. The compiler makes vectors of all loops.
 #include "motion_kernels.h"
 
 #include "lanes.h"
@@ -106,84 +106,13 @@ bool finite(const Real* values, int count) {
     return bad == 0;
 }
 
-template <class Real>
-unsigned near_plane(const MotionView<Real>& slots, int block, const PlaneView<Real>& plane) {
-    const Real* const x = slots.position[0] + block * lanes;
-    const Real* const y = slots.position[1] + block * lanes;
-    const Real* const z = slots.position[2] + block * lanes;
-    const Real nx = plane.normal[0], ny = plane.normal[1], nz = plane.normal[2];
-    unsigned near[lanes];
-    for (int lane = 0; lane < lanes; ++lane)
-        near[lane] = dot(nx, ny, nz, x[lane], y[lane], z[lane]) + plane.offset <= plane.distance ? 1u << lane : 0;
-    unsigned all = 0;
-    for (int lane = 0; lane < lanes; ++lane) all |= near[lane];
-    return all;
-}
-
-/// Moves x out of the plane where `chosen` is 1 and not 0: one particle, or a vector of them.
-template <class Lane, class Real>
-inline void push(Lane& x, Lane& y, Lane& z, Lane x0, Lane y0, Lane z0, Lane chosen, const PlaneView<Real>& plane) {
-    const Real nx = plane.normal[0], ny = plane.normal[1], nz = plane.normal[2];
-    const Lane depth = chosen * (plane.distance - (dot(x, y, z, nx, ny, nz) + plane.offset));
-    Lane px = x + depth * nx, py = y + depth * ny, pz = z + depth * nz;
-    if (plane.friction) {
-        const Lane mx = px - x0, my = py - y0, mz = pz - z0;
-        const Lane along = dot(mx, my, mz, nx, ny, nz);
-        const Lane tx = mx - along * nx, ty = my - along * ny, tz = mz - along * nz;
-        const Lane m = length(tx, ty, tz);
-        const Lane sliding = plane.dynamic_friction * depth;
-        const Lane held = m < plane.static_friction * depth ? m : (m < sliding ? m : sliding);
-        const Lane part = held / (m > 0 ? m : Lane{} + 1);
-        px -= part * tx;
-        py -= part * ty;
-        pz -= part * tz;
-    }
-    x = depth > 0 ? px : x;
-    y = depth > 0 ? py : y;
-    z = depth > 0 ? pz : z;
-}
-
-template <class Real>
-void push_from_plane(const MotionView<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
-    for (int lane = 0; lane < lanes; ++lane) {
-        const int slot = block * lanes + lane;
-        push(slots.position[0][slot], slots.position[1][slot], slots.position[2][slot], slots.start[0][slot],
-             slots.start[1][slot], slots.start[2][slot], static_cast<Real>(chosen >> lane & 1u), plane);
-    }
-}
-
-void push_from_plane(const MotionView<float>& slots, int block, unsigned chosen, const PlaneView<float>& plane) {
-    for (int slot = block * lanes; slot < (block + 1) * lanes; slot += width, chosen >>= width) {
-        Floats x = load(slots.position[0] + slot), y = load(slots.position[1] + slot),
-               z = load(slots.position[2] + slot);
-        push(x, y, z, load(slots.start[0] + slot), load(slots.start[1] + slot), load(slots.start[2] + slot),
-             ones(chosen), plane);
-        store(slots.position[0] + slot, x);
-        store(slots.position[1] + slot, y);
-        store(slots.position[2] + slot, z);
-    }
-}
-
 }  // namespace
 
 template <class Real>
-MotionKernels<Real> scalar_motion_kernels() {
-    return {&relax<Real>,      &displacement_velocity<Real>, &finish_velocity<Real>, &finite<Real>,
-            &near_plane<Real>, &push_from_plane<Real>};
+MotionKernels<Real> motion_kernels() {
+    return {&relax<Real>, &displacement_velocity<Real>, &finish_velocity<Real>, &finite<Real>};
 }
-template MotionKernels<float> scalar_motion_kernels<float>();
-template MotionKernels<double> scalar_motion_kernels<double>();
-
-template <>
-MotionKernels<double> motion_kernels<double>() {
-    return scalar_motion_kernels<double>();
-}
-
-template <>
-MotionKernels<float> motion_kernels<float>() {
-    MotionKernels<float> kernels = scalar_motion_kernels<float>();
-    kernels.push_from_plane = &push_from_plane;
-    return kernels;
-}
+template MotionKernels<float> motion_kernels<float>();
+template MotionKernels<double> motion_kernels<double>();
 
 }  // namespace natator::cpu::NATATOR_ISA

@@ -29,16 +29,6 @@ struct VelocityRule {
     Real max_speed;
 };
 
-/// Plane n x + offset = 0 and its friction, see Substep::friction.
-template <class Real>
-struct PlaneView {
-    Real normal[3];
-    Real offset;
-    Real distance;  ///< held from the plane
-    bool friction;
-    Real static_friction, dynamic_friction;
-};
-
 /// What happens to each particle by itself, in one instruction set. No product is fused with a sum, so that all sets
 /// give the same bits.
 template <class Real>
@@ -51,36 +41,23 @@ struct MotionKernels {
     void (*finish_velocity)(const MotionView<Real>& slots, const VelocityRule<Real>& rule);
     /// Are all of them finite?
     bool (*finite)(const Real* values, int count);
-    /// Bit per lane of a block: is the particle within plane.distance of the plane?
-    unsigned (*near_plane)(const MotionView<Real>& slots, int block, const PlaneView<Real>& plane);
-    /// Moves the chosen particles of a block out of the plane.
-    void (*push_from_plane)(const MotionView<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane);
 };
 
 namespace portable {
 template <class Real>
 MotionKernels<Real> motion_kernels();
-template <class Real>
-MotionKernels<Real> scalar_motion_kernels();
 }  // namespace portable
 namespace avx2 {
 template <class Real>
 MotionKernels<Real> motion_kernels();
-template <class Real>
-MotionKernels<Real> scalar_motion_kernels();
 }  // namespace avx2
 namespace avx512 {
 template <class Real>
 MotionKernels<Real> motion_kernels();
-template <class Real>
-MotionKernels<Real> scalar_motion_kernels();
 }  // namespace avx512
 
-/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give
-/// the portable ones.
+/// The kernels for an instruction set; sets that this build lacks give the portable ones.
 template <class Real>
 const MotionKernels<Real>& motion_kernels(InstructionSet set);
-template <class Real>
-const MotionKernels<Real>& scalar_motion_kernels(InstructionSet set);
 
 }  // namespace natator::cpu

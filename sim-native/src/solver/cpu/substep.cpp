@@ -32,7 +32,8 @@ Substep<Real>::Substep(const Model& model)
       most_neighbours_(model.parameters.maxNeighborsPerParticle),
       kernels_(&fluid_kernels<Real>(instruction_set())),
       neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())),
-      motion_kernels_(&motion_kernels<Real>(instruction_set())) {
+      motion_kernels_(&motion_kernels<Real>(instruction_set())),
+      plane_kernels_(&plane_kernels<Real>(instruction_set())) {
     new_velocity_.resize(model.particles());
     if (plan_.dissipation || plan_.fluid_forces) velocity_change_.resize(model.particles());
     if (plan_.dissipation) overlaps_.resize(ws_.slots);
@@ -69,6 +70,14 @@ MotionView<Real> Substep<Real>::motion_view() {
             .correction = {ws_.correction.x.data(), ws_.correction.y.data(), ws_.correction.z.data()},
             .constraint_count = ws_.constraint_count.data(),
             .velocity = {ws_.velocity.x.data(), ws_.velocity.y.data(), ws_.velocity.z.data()}};
+}
+
+template <class Real>
+NearPlanes<Real> Substep<Real>::near_planes() {
+    return {.position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
+            .start = {ws_.start.x.data(), ws_.start.y.data(), ws_.start.z.data()},
+            .base = {},
+            .displacement = {}};
 }
 
 template <class Real>

@@ -10,6 +10,7 @@
 #include "natator/plan.h"
 #include "natator/solver.h"
 #include "neighbour_kernels.h"
+#include "plane_kernels.h"
 #include "thread_team.h"
 #include "workspace.h"
 
@@ -128,6 +129,27 @@ protected:
     }
     static constexpr int shortest_part = 512;  ///< blocks; fewer are done before another thread is awake
     PlaneView<Real> plane_view(int plane) const;
+    NearPlanes<Real> near_planes();
+    /// Calls work(block, chosen lanes, plane) for what is near planes, last plane first, in the first blocks.
+    template <class Work>
+    void for_each_plane_group(int end_block, const Work& work) const {
+        PlaneView<Real> view{};
+        int viewed = -1;
+        for (const auto& [plane, block, chosen] : ws_.plane_groups) {
+            if (block >= end_block) continue;
+            if (plane != viewed) view = plane_view(plane);
+            viewed = plane;
+            work(block, chosen, view);
+        }
+    }
+    /// Where the distance d to a plane is below collisionDistance: moves out by e = collisionDistance - d, then takes
+    /// min(dynamicFriction * e, m) off the tangential displacement m since the substep's start (all of it if
+    /// m < staticFriction * e).
+    void leave_planes(const NearPlanes<Real>& slots) {
+        for_each_plane_group(ws_.all_blocks(), [&](int block, unsigned chosen, const PlaneView<Real>& plane) {
+            plane_kernels_->leave(slots, block, chosen, plane);
+        });
+    }
     /// Densities of the fluid by particle as the last density stage left them; 0 for solids and infinite masses.
     std::vector<Real> densities_by_particle() const;
     Vector3<Real> position_of_slot(int slot) const { return ws_.position.at(slot); }
@@ -161,6 +183,7 @@ protected:
     const FluidKernels<Real>* kernels_;
     const NeighbourKernels<Real>* neighbour_kernels_;
     const MotionKernels<Real>* motion_kernels_;
+    const PlaneKernels<Real>* plane_kernels_;
 
 private:
     void add_surface_tension();

@@ -67,19 +67,13 @@ struct Workspace {
     std::vector<int> contact_begin;
     std::vector<int> contact;
 
-    struct PlaneContact {
-        int slot;
-        int plane;
-    };
-    std::vector<PlaneContact> plane_contacts;  ///< last plane first, then by slot
-
-    /// The same by blocks: bit k of `chosen` stands for slot 16 block + k.
+    /// Particles near a plane: bit k of `chosen` stands for slot 16 block + k.
     struct PlaneGroup {
         int plane;
         int block;
         unsigned chosen;
     };
-    std::vector<PlaneGroup> plane_groups;
+    std::vector<PlaneGroup> plane_groups;  ///< last plane first, then by block
 };
 
 }  // namespace natator::cpu

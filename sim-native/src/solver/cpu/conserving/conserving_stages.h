@@ -55,8 +55,7 @@ private:
     void clear_boundary_terms();
     void add_plane_pressure();
     void push_from_planes();
-    Real plane_nearness(Real distance) const;
-    Real plane_slope(Real distance) const;
+    PlanePressure<Real> plane_pressure();
     void add_solid_pressure();
     void push_solids_by_pressure();
     DensityView<Real> density_view();
@@ -90,6 +89,7 @@ private:
     AlignedVector<Real> overlap_;         ///< C_i at the start of the substep if it is an overlap, else 0
     AlignedVector<Real> overlap_lambda_;  ///< what has pushed it out in this substep
     Vector3Array<Real> solid_gradient_;
+    std::vector<Real> contact_depth_;  ///< by contact
 
     std::vector<int> bonded_;              ///< particles in springs or clusters
     std::vector<Vector3<Real>> internal_;  ///< by particle: its displacement by springs and clusters

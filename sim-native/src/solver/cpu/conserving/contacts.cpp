@@ -10,11 +10,14 @@ namespace natator::cpu {
 /// Shock propagation changes the weights.
 template <class Real>
 void ConservingStages<Real>::solve_contacts() {
+    contact_depth_.resize(ws_.contact.size());
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
         const int i = ws_.touched[k];
         int active = 0;
-        for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c)
-            active += contact_depth(i, ws_.contact[c]) > 0;
+        for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
+            contact_depth_[c] = contact_depth(i, ws_.contact[c]);
+            active += contact_depth_[c] > 0;
+        }
         ws_.constraint_count[i] = static_cast<Real>(active);
     }
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
@@ -23,7 +26,7 @@ void ConservingStages<Real>::solve_contacts() {
         if (ws_.constraint_count[i] == 0 || wi == 0) continue;
         for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
             const int j = ws_.contact[c];
-            const Real depth = contact_depth(i, j);
+            const Real depth = contact_depth_[c];
             if (!(depth > 0)) continue;
             const Vector3<Real> difference = position_of_slot(i) - position_of_slot(j);
             const Real r = difference.norm();

@@ -46,33 +46,28 @@ void ConservingStages<Real>::clear_boundary_terms() {
         std::fill(array->begin(), array->end(), Real(0));
 }
 
-/// 1 - q for a particle at `distance` from a plane; between 0 and 1.
 template <class Real>
-Real ConservingStages<Real>::plane_nearness(Real distance) const {
-    return std::clamp(1 - (distance + plane_gap_) * constants_.inverse_radius, Real(0), Real(1));
+PlanePressure<Real> ConservingStages<Real>::plane_pressure() {
+    const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
+    const auto position = pointers(ws_.position), gradient = pointers(solid_gradient_),
+               correction = pointers(ws_.correction);
+    return {.position = {position[0], position[1], position[2]},
+            .scale = plane_scale_,
+            .gap = plane_gap_,
+            .inverse_radius = constants_.inverse_radius,
+            .density = ws_.solid_density.data(),
+            .gradient = {gradient[0], gradient[1], gradient[2]},
+            .inverse_mass = ws_.inverse_mass.data(),
+            .lambda = lambda_.data(),
+            .correction = {correction[0], correction[1], correction[2]}};
 }
 
-/// Minus the derivative of a plane's part of the density by the distance.
-template <class Real>
-Real ConservingStages<Real>::plane_slope(Real distance) const {
-    const Real t = plane_nearness(distance);
-    return plane_scale_ * constants_.inverse_radius * t * t * t * t * (Real(1) / 4 - t / 5);
-}
-
-/// Behind a plane the density goes on as in fluid at rest, else particles crowd at walls and floor and the pressure
-/// there is wrong. The part of the kernel beyond distance s = q R of a particle, integrated:
-///   n0 R^3 A 2 pi ((1 - q)^5 / 20 - (1 - q)^6 / 30), n0 = particles per volume of the rest packing,
-/// an idea of Koschier, Bender: Density Maps for Improved SPH Boundary Handling (2017), here in closed form.
 template <class Real>
 void ConservingStages<Real>::add_plane_pressure() {
-    for (const auto& [slot, plane] : ws_.plane_contacts) {
-        if (slot >= ws_.fluid) continue;
-        const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
-        const Real distance = normal.dot(position_of_slot(slot)) + static_cast<Real>(model_.planes[plane].offset);
-        const Real t = plane_nearness(distance);
-        ws_.solid_density[slot] += plane_scale_ * t * t * t * t * t * (Real(1) / 20 - t / 30);
-        solid_gradient_.add(slot, -plane_slope(distance) * normal);
-    }
+    const PlanePressure<Real> fluid = plane_pressure();
+    this->for_each_plane_group(ws_.blocks(), [&](int block, unsigned chosen, const PlaneView<Real>& plane) {
+        this->plane_kernels_->add_density(fluid, block, chosen, plane);
+    });
 }
 
 /// A solid particle counts in the density of the fluid around it with weight solidPressure, like a fluid particle in
@@ -123,16 +118,12 @@ void ConservingStages<Real>::push_solids_by_pressure() {
     }
 }
 
-/// The planes' part of the density constraints: Dx_i = w_i lambda_i grad_i C_i. Planes take up any momentum.
 template <class Real>
 void ConservingStages<Real>::push_from_planes() {
-    for (const auto& [slot, plane] : ws_.plane_contacts) {
-        if (slot >= ws_.fluid || lambda_[slot] == 0) continue;
-        const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
-        const Real distance = normal.dot(position_of_slot(slot)) + static_cast<Real>(model_.planes[plane].offset);
-        const Real slope = plane_slope(distance);
-        ws_.correction.add(slot, -ws_.inverse_mass[slot] * lambda_[slot] * slope * normal);
-    }
+    const PlanePressure<Real> fluid = plane_pressure();
+    this->for_each_plane_group(ws_.blocks(), [&](int block, unsigned chosen, const PlaneView<Real>& plane) {
+        this->plane_kernels_->press(fluid, block, chosen, plane);
+    });
 }
 
 template <class Real>

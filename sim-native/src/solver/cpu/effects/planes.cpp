@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 
 #include "../substep.h"
 
@@ -40,16 +41,18 @@ void Substep<Real>::rebound() {
     const Real restitution = static_cast<Real>(model_.parameters.restitution);
     const Real slowest = 2 * h_ * static_cast<Real>(model_.parameters.gravity.norm());
     const Real touching = constants_.collision_distance + Real(touching_tolerance) * constants_.radius;
-    for (const auto& [slot, plane] : ws_.plane_contacts) {
-        const Vector3<Real> normal = model_.planes[plane].normal.template cast<Real>();
-        const Real offset = static_cast<Real>(model_.planes[plane].offset);
-        if (normal.dot(position_of_slot(slot)) + offset > touching) continue;
-        const int i = ws_.particle_of[slot];
-        const Real impact = -normal.dot(ws_.predicted_velocity[i]);
-        if (!(impact > slowest)) continue;
-        const Real missing = restitution * impact - normal.dot(new_velocity_[i]);
-        if (missing > 0) new_velocity_[i] += missing * normal;
-    }
+    for_each_plane_group(ws_.all_blocks(), [&](int block, unsigned chosen, const PlaneView<Real>& plane) {
+        const Vector3<Real> normal(plane.normal[0], plane.normal[1], plane.normal[2]);
+        for (unsigned rest = chosen; rest != 0; rest &= rest - 1) {
+            const int slot = block * lanes + std::countr_zero(rest);
+            if (normal.dot(position_of_slot(slot)) + plane.offset > touching) continue;
+            const int i = ws_.particle_of[slot];
+            const Real impact = -normal.dot(ws_.predicted_velocity[i]);
+            if (!(impact > slowest)) continue;
+            const Real missing = restitution * impact - normal.dot(new_velocity_[i]);
+            if (missing > 0) new_velocity_[i] += missing * normal;
+        }
+    });
 }
 
 template void Substep<float>::adhere();
