@@ -25,6 +25,20 @@ Job read_job(const nlohmann::json& value, const BackendChoice& backend) {
     return job;
 }
 
+Execution ExecutionOptions::execution() {
+    if (!no_cache && !starts) starts = StartCache::of_user();
+    return {.starts = starts ? &*starts : nullptr, .threads = threads};
+}
+
+void add_execution_options(CLI::App* command, ExecutionOptions& options) {
+    command
+        ->add_option("--threads", options.threads,
+                     "Threads, for scenes of many thousand particles; the same bits for any number.")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command->add_flag("--no-cache", options.no_cache, "Settle the start anew instead of keeping it for the next time.");
+}
+
 Evaluation evaluate_job(const Job& job, const Execution& execution) {
     const Request& request = job.request;
     if (!on_gpu(job.backend, job.scene))

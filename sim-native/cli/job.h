@@ -1,7 +1,11 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
+#include <optional>
+
 #include "backend.h"
 #include "natator/protocol.h"
+#include "natator/start_cache.h"
 
 namespace natator::cli {
 
@@ -15,6 +19,18 @@ struct Job {
 
 /// Reads a request, one JSON object. Throws InputError.
 Job read_job(const nlohmann::json& value, const BackendChoice& backend);
+
+/// How a command's evaluations are run, without a say in what comes out.
+struct ExecutionOptions {
+    bool no_cache = false;
+    int threads = 1;
+    std::optional<StartCache> starts;  ///< filled by execution()
+
+    Execution execution();
+};
+
+/// Adds --threads and --no-cache.
+void add_execution_options(CLI::App* command, ExecutionOptions& options);
 
 /// Evaluates one job by itself.
 Evaluation evaluate_job(const Job& job, const Execution& execution);

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "commands.h"
+#include "job.h"
 #include "natator/evaluate.h"
 #include "natator/protocol.h"
 #include "natator/scene_json.h"
@@ -20,8 +21,7 @@ struct Options {
     std::string precision = "float";
     std::optional<double> duration;
     bool particles = false;
-    bool no_cache = false;
-    int threads = 1;
+    ExecutionOptions execution;
 };
 
 /// JSON given on the command line, or in a file if it does not begin with '{'.
@@ -73,7 +73,7 @@ std::string summary(const Options& options, const Scene& scene, const Evaluation
     return text.str();
 }
 
-int run_scene(const Options& options) {
+int run_scene(Options& options) {
     const Scene scene = load(options);
     const Gait gait = load_gait(options, scene.creature ? scene.creature->actuators() : 0);
     const Precision precision =
@@ -88,10 +88,8 @@ int run_scene(const Options& options) {
         on_frame = [&trajectory](double time, const auto& positions) { trajectory->add_frame(time, positions); };
     }
 
-    const std::optional<StartCache> starts = options.no_cache ? std::nullopt : StartCache::of_user();
     const auto start = std::chrono::steady_clock::now();
-    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame,
-                                       {.starts = starts ? &*starts : nullptr, .threads = options.threads});
+    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame, options.execution.execution());
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));
@@ -113,11 +111,6 @@ void add_run(CLI::App& app, int& status) {
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
-    command
-        ->add_option("--threads", options->threads,
-                     "Threads, for scenes of many thousand particles; the same bits for any number.")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
     auto* trajectory =
         command->add_option("--trajectory", options->trajectory,
                             "CSV file for the centre of every slice in every frame: frame,time,slice,x,y,z.");
@@ -125,8 +118,7 @@ void add_run(CLI::App& app, int& status) {
         ->add_flag("--particles", options->particles,
                    "In the trajectory, every body particle instead of slice centres.")
         ->needs(trajectory);
-    command->add_flag("--no-cache", options->no_cache,
-                      "Settle the start anew instead of keeping it for the next time.");
+    add_execution_options(command, options->execution);
     command->callback([options, &status] { status = run_scene(*options); });
 }
 

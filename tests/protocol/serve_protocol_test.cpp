@@ -55,6 +55,22 @@ TEST(ServeProtocolTest, ABadRequestSpoilsNoOther) {
     EXPECT_EQ(lines(served.out), 5);
 }
 
+TEST(ServeProtocolTest, RequestsThatDifferInTheirIdsOnlyAreEvaluatedOnce) {
+    const std::string same = R"(,"scene":"thesis/creature-1-vacuum","duration":0.1,"gait":{"frequency":1,)"
+                             R"("amplitude":[0.5,0.5],"phase":[0,0.25]}})";
+    const std::string other_order = R"({"duration":0.1,"gait":{"phase":[0,0.25],"amplitude":[0.5,0.5],"frequency":1},)"
+                                    R"("scene":"thesis/creature-1-vacuum","id":3})";
+    const Outcome served = run_simulator(
+        {"serve", "--summary"}, "{\"id\":1" + same + "\n{\"id\":2" + same + "\n" + other_order + "\n" + request(4));
+    EXPECT_EQ(served.err, "natator-sim: 4 requests, 2 evaluations\n");
+    const auto by_id = answers(served);
+    ASSERT_EQ(by_id.size(), 4u);
+    json third = by_id.at(3), fourth = by_id.at(4);
+    for (json* answer : {&third, &fourth}) (*answer)["id"] = 1;
+    EXPECT_EQ(third, by_id.at(1));
+    EXPECT_NE(fourth, by_id.at(1));
+}
+
 TEST(ServeProtocolTest, TheLastLineNeedsNoEnd) {
     std::string text = request(1);
     text.pop_back();
