@@ -10,6 +10,7 @@
 #include "precision.h"
 #include "speed.h"
 #include "stability.h"
+#include "stage_cost.h"
 #include "validation.h"
 
 namespace natator::cli {
@@ -271,6 +272,40 @@ void add_speed(CLI::App* bench, int& status) {
     });
 }
 
+void add_stages(CLI::App* bench, int& status) {
+    struct Options {
+        Common common;
+        StageCostStudy study{.features = stage_feature_names(), .schemes = {}};
+    };
+    const auto options = std::make_shared<Options>();
+    StageCostStudy& asked = options->study;
+    CLI::App* command = bench->add_subcommand(
+        "stages", "What each stage costs in a scene that needs it and in one that does not, and without skipping.");
+    add_common(command, options->common, {"float"});
+    command->add_option("--feature", asked.features, "Features of a scene.")
+        ->check(CLI::IsMember(stage_feature_names()))
+        ->capture_default_str();
+    command->add_option("--state", asked.states, "off, on.")
+        ->check(CLI::IsMember({"off", "on"}))
+        ->capture_default_str();
+    command->add_flag("--skipped-only", asked.skipped_only, "Do not also run everything without skipping.");
+    command->add_option("--repeats", asked.repeats, "Runs of each; the fastest counts.")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        StageCostStudy study = options->study;
+        study.schemes = common.chosen_schemes();
+        study.quick = common.quick;
+        if (common.chosen_precisions() != std::vector{Precision::single_precision})
+            throw InputError("bench stages: --precision: must be float");
+        ResultTable table(common.output, stage_cost_columns(), stage_cost_key_columns);
+        run_stage_cost_study(study, table, report);
+        if (common.output.empty()) print(table.text());
+        status = ok;
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app, int& status) {
@@ -280,6 +315,7 @@ void add_bench(CLI::App& app, int& status) {
     add_ensemble(bench, status);
     add_speed(bench, status);
     add_stability(bench, status);
+    add_stages(bench, status);
     add_validation(bench, status);
 }
 

@@ -27,7 +27,7 @@ Job read_job(const nlohmann::json& value, const BackendChoice& backend) {
 
 Execution ExecutionOptions::execution() {
     if (!no_cache && !starts) starts = StartCache::of_user();
-    return {.starts = starts ? &*starts : nullptr, .threads = threads};
+    return {.starts = starts ? &*starts : nullptr, .threads = threads, .skip = !no_skip};
 }
 
 void add_execution_options(CLI::App* command, ExecutionOptions& options) {
@@ -37,6 +37,8 @@ void add_execution_options(CLI::App* command, ExecutionOptions& options) {
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command->add_flag("--no-cache", options.no_cache, "Settle the start anew instead of keeping it for the next time.");
+    command->add_flag("--no-skip", options.no_skip,
+                      "Also run the stages that have nothing to do in the scene: the same bits, only slower.");
 }
 
 Evaluation evaluate_job(const Job& job, const Execution& execution) {

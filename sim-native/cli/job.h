@@ -22,14 +22,14 @@ Job read_job(const nlohmann::json& value, const BackendChoice& backend);
 
 /// How a command's evaluations are run, without a say in what comes out.
 struct ExecutionOptions {
-    bool no_cache = false;
+    bool no_cache = false, no_skip = false;
     int threads = 1;
     std::optional<StartCache> starts;  ///< filled by execution()
 
     Execution execution();
 };
 
-/// Adds --threads and --no-cache.
+/// Adds --threads, --no-cache and --no-skip.
 void add_execution_options(CLI::App* command, ExecutionOptions& options);
 
 /// Evaluates one job by itself.

@@ -4,6 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
+#include <vector>
 
 #include "child_process.h"
 
@@ -46,6 +49,32 @@ TEST(BenchProtocolTest, ValidationRefusesWhatIsNoSetting) {
         EXPECT_NE(outcome.err.find("SUBSTEPSxITERATIONS"), std::string::npos) << outcome.err;
         EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
     }
+}
+
+/// A stage that a scene does not need is not called, and running all stages all the same changes no bit.
+TEST(BenchProtocolTest, StagesThatAreOffDoNotRunAndTheOthersDo) {
+    const Outcome outcome = run_simulator({"bench", "stages", "--quick", "--repeats", "1"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::istringstream table(outcome.out);
+    std::string line;
+    std::getline(table, line);
+    EXPECT_EQ(line,
+              "feature,scheme,state,machine,stage,calls,stage_ms_per_frame,ms_per_frame,hash,unskipped_ms_per_frame,"
+              "unskipped_hash");
+    const std::set<std::string> branches_within_stages{"solidPressure", "friction", "viscosity",
+                                                       "damping",       "maxSpeed", "shockPropagation"};
+    int rows = 0;
+    while (std::getline(table, line)) {
+        ++rows;
+        std::vector<std::string> field;
+        std::istringstream text(line);
+        for (std::string one; std::getline(text, one, ',');) field.push_back(one);
+        ASSERT_EQ(field.size(), 11u) << line;
+        EXPECT_EQ(field[8], field[10]) << line;
+        const bool runs = field[2] == "on" || branches_within_stages.contains(field[0]);
+        EXPECT_EQ(field[5] != "0", runs) << line;
+    }
+    EXPECT_EQ(rows, 80);
 }
 
 }  // namespace

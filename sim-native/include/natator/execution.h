@@ -30,6 +30,7 @@ struct Execution {
     StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
     const StartCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
     int threads = 1;                     ///< for scenes of many thousand particles; small ones use one all the same
+    bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };
 
 }  // namespace natator

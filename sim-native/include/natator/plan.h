@@ -39,6 +39,11 @@ struct Plan {
 
 Plan make_plan(const Model& model);
 
+/// The same with all stages that change no bit where there is nothing for them to do, such as forces of strength 0:
+/// what skipping saves. Fluid stays out where there is none, and so do restitution and the acceleration clamp, which
+/// act at any coefficient.
+Plan make_unskipped_plan(const Model& model);
+
 /// One line per stage in the order of a substep, as `natator-sim info` prints it.
 std::vector<std::string> describe_plan(const Model& model);
 

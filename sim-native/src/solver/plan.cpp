@@ -68,6 +68,21 @@ Plan make_plan(const Model& model) {
     return plan;
 }
 
+Plan make_unskipped_plan(const Model& model) {
+    const SolverParameters& p = model.parameters;
+    Plan plan = make_plan(model);
+    const bool frictionless = p.particleFriction <= 0 && p.staticFriction <= 0;
+    plan.contacts = plan.springs = plan.clusters = plan.planes = true;
+    plan.uniform_fluid = false;
+    plan.particle_friction |= frictionless;
+    plan.plane_friction |= p.dynamicFriction <= 0 && p.staticFriction <= 0;
+    plan.damping = plan.clamp_speed = plan.sleep = plan.adhesion = plan.dissipation = true;
+    plan.shock_propagation |= !p.gravity.isZero();
+    plan.solid_pressure = plan.viscosity = plan.cohesion = plan.surface_tension = plan.vorticity =
+        plan.free_surface_drag = plan.fluid_forces = plan.fluid;
+    return plan;
+}
+
 std::vector<std::string> describe_plan(const Model& model) {
     const Plan plan = make_plan(model);
     const bool flex = model.scheme == Scheme::flex;

@@ -79,7 +79,9 @@ template <class Real>
 class Solver<Real>::Implementation {
 public:
     Implementation(const Model& model, const Execution& execution)
-        : model_(model), execution_(execution), stages_(stages_for(model)) {
+        : model_(model),
+          execution_(execution),
+          stages_(stages_for(model, execution.skip ? make_plan(model) : make_unskipped_plan(model))) {
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
     }
 
@@ -110,9 +112,9 @@ private:
     using AnyStages =
         std::variant<std::unique_ptr<cpu::FlexStages<Real>>, std::unique_ptr<cpu::ConservingStages<Real>>>;
 
-    static AnyStages stages_for(const Model& model) {
-        if (model.scheme == Scheme::conserving) return std::make_unique<cpu::ConservingStages<Real>>(model);
-        return std::make_unique<cpu::FlexStages<Real>>(model);
+    static AnyStages stages_for(const Model& model, const Plan& plan) {
+        if (model.scheme == Scheme::conserving) return std::make_unique<cpu::ConservingStages<Real>>(model, plan);
+        return std::make_unique<cpu::FlexStages<Real>>(model, plan);
     }
 
     /// One substep; false if its outcome is not finite: the state is as it was then.

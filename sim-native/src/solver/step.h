@@ -82,7 +82,10 @@ void apply_effects(Stages& stages, const Plan& plan, const AfterStage& after) {
         stages.rebound();
         after("restitution");
     }
-    if (plan.sleep) stages.hold_slow_particles();
+    if (plan.sleep) {
+        stages.hold_slow_particles();
+        after("sleep");
+    }
 }
 
 /// One substep: this is the order of stages for both schemes and every backend. `after(name)` is called behind each.

@@ -24,9 +24,9 @@ Constants<Real>::Constants(const SolverParameters& p)
 }
 
 template <class Real>
-Substep<Real>::Substep(const Model& model)
+Substep<Real>::Substep(const Model& model, const Plan& plan)
     : model_(model),
-      plan_(make_plan(model)),
+      plan_(plan),
       constants_(model.parameters),
       ws_(model),
       most_neighbours_(model.parameters.maxNeighborsPerParticle),

@@ -43,7 +43,7 @@ Vector3<Real> clamped(const Vector3<Real>& vector, Real longest) {
 template <class Real>
 class Substep {
 public:
-    explicit Substep(const Model& model);
+    Substep(const Model& model, const Plan& plan);
 
     const Plan& plan() const { return plan_; }
     const Workspace<Real>& workspace() const { return ws_; }

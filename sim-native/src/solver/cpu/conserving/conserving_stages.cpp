@@ -41,8 +41,8 @@ std::vector<typename ConservingStages<Real>::FreeBody> ConservingStages<Real>::f
 }
 
 template <class Real>
-ConservingStages<Real>::ConservingStages(const Model& model)
-    : Substep<Real>(model),
+ConservingStages<Real>::ConservingStages(const Model& model, const Plan& plan)
+    : Substep<Real>(model, plan),
       density_kernels_(&cpu::density_kernels<Real>(instruction_set())),
       kernel_scale_(0),
       gradient_scale_(0),

@@ -19,7 +19,7 @@ class ConservingStages : public Substep<Real> {
 public:
     static constexpr Scheme scheme = Scheme::conserving;
 
-    explicit ConservingStages(const Model& model);
+    ConservingStages(const Model& model, const Plan& plan);
 
     void predict();
     void find_fluid_neighbours();

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Instructions that each stage of the solver takes in a scene that needs it and in one that does not, counted by
+# Valgrind's callgrind (Debian package valgrind; it runs the AVX2 kernels): two frames of the thesis tank, as
+# `natator-sim bench stages --quick` has them. Prints CSV.
+set -euo pipefail
+
+usage='usage: count_instructions.sh NATATOR_SIM > stage-instructions.csv'
+program=${1:?$usage}
+command -v valgrind >/dev/null || { echo 'count_instructions.sh: needs valgrind' >&2; exit 1; }
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# feature, then a pattern for the functions that do it and nothing else
+features=$(cat <<'TEXT'
+fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_rate_lambda)[(]
+fluid neighbours|::(find_fluid_neighbours|list_fluid_neighbours)[(]
+planes|::(find_plane_contacts|leave_planes|solve_planes|add_plane_pressure|push_from_planes)[(]
+contacts|::(find_contacts|solve_contacts)[(]
+springs|::solve_springs[(]
+clusters|::solve_clusters[(]
+viscosity|::smooth_velocities[(]
+cohesion|::(solve_cohesion|add_cohesion)[(]
+surfaceTension|::add_surface_tension[(]
+vorticityConfinement|::add_vorticity_confinement[(]
+freeSurfaceDrag|::drag_free_surface[(]
+dissipation|::damp_contacts[(]
+shockPropagation|::shock_factor[(]
+adhesion|::adhere[(]
+restitution|::rebound[(]
+sleepThreshold|::hold_slow_particles[(]
+TEXT
+)
+
+echo 'feature,scheme,state,instructions_of_the_run,instructions_of_the_feature'
+while IFS='|' read -r feature pattern; do
+    for scheme in flex conserving; do
+        for state in off on; do
+            valgrind --quiet --tool=callgrind --callgrind-out-file="$folder/out" "$program" bench stages --quick \
+                --skipped-only --repeats 1 --feature "$feature" --scheme "$scheme" --state "$state" >/dev/null 2>&1
+            callgrind_annotate --threshold=100 "$folder/out" | awk -v row="$feature,$scheme,$state" -v pattern="$pattern" '
+                { gsub(",", "", $1) }
+                /PROGRAM TOTALS/ { all = $1 }
+                $0 ~ pattern { of_feature += $1 }
+                END { printf "%s,%d,%d\n", row, all, of_feature }'
+        done
+    done
+done <<<"$features"
