@@ -8,6 +8,7 @@
 #include "natator/error.h"
 #include "natator/strict_json.h"
 #include "precision.h"
+#include "roofline.h"
 #include "speed.h"
 #include "stability.h"
 #include "stage_cost.h"
@@ -306,6 +307,26 @@ void add_stages(CLI::App* bench, int& status) {
     });
 }
 
+void add_roofline(CLI::App* bench, int& status) {
+    const auto common = std::make_shared<Common>();
+    CLI::App* command = bench->add_subcommand(
+        "roofline", "How near the stages come to what the processor can do: measured roofs, counted operations.");
+    command->add_option("--scheme", common->schemes, "flex, conserving.")
+        ->check(CLI::IsMember({"flex", "conserving"}))
+        ->capture_default_str();
+    command->add_option("--output,-o", common->output,
+                        "CSV file; rows that it holds already are kept. Default: standard output.");
+    command->add_flag("--quick", common->quick, "A few frames only.");
+    command->callback([common, &status] {
+        RooflineStudy study{.schemes = common->chosen_schemes()};
+        if (common->quick) study.frames = 2;
+        ResultTable table(common->output, roofline_columns(), roofline_key_columns);
+        run_roofline_study(study, table, report);
+        if (common->output.empty()) print(table.text());
+        status = ok;
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app, int& status) {
@@ -313,6 +334,7 @@ void add_bench(CLI::App& app, int& status) {
     bench->require_subcommand(1);
     add_precision(bench, status);
     add_ensemble(bench, status);
+    add_roofline(bench, status);
     add_speed(bench, status);
     add_stability(bench, status);
     add_stages(bench, status);

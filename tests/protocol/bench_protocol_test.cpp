@@ -77,5 +77,28 @@ TEST(BenchProtocolTest, StagesThatAreOffDoNotRunAndTheOthersDo) {
     EXPECT_EQ(rows, 80);
 }
 
+TEST(BenchProtocolTest, NoStageIsAboveTheRoofs) {
+    const Outcome outcome = run_simulator({"bench", "roofline", "--quick"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::istringstream table(outcome.out);
+    std::string line;
+    std::getline(table, line);
+    int stages = 0;
+    double peak = 0;
+    while (std::getline(table, line)) {
+        std::vector<std::string> field;
+        std::istringstream text(line);
+        for (std::string one; std::getline(text, one, ',');) field.push_back(one);
+        ASSERT_GE(field.size(), 10u) << line;
+        if (field[0] == "compute") peak = std::stod(field[9]);
+        if (field[0] != "stage") continue;
+        ++stages;
+        EXPECT_GT(std::stod(field[7]), 1e5) << line;  // pairs per frame
+        EXPECT_GT(std::stod(field[9]), 0) << line;
+        EXPECT_LT(std::stod(field[9]), peak) << line;
+    }
+    EXPECT_EQ(stages, 5);
+}
+
 }  // namespace
 }  // namespace natator::test

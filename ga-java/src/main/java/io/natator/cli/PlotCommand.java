@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import io.natator.plot.PrecisionPlot;
+import io.natator.plot.RooflinePlot;
 import io.natator.plot.StabilityPlot;
 import io.natator.plot.ValidationPlot;
 import java.io.IOException;
@@ -33,6 +34,14 @@ final class PlotCommand {
             @Option(names = "--output-dir", required = true, paramLabel = "DIR",
                     description = "Where the pictures go.") Path directory) {
         return draw(PrecisionPlot::draw, csv, directory);
+    }
+
+    @Command(name = "roofline", mixinStandardHelpOptions = true,
+            description = "How near the solver's stages come to what the processor can do.")
+    int roofline(@Parameters(paramLabel = "CSV", description = "Results of bench roofline.") Path csv,
+            @Option(names = "--output-dir", required = true, paramLabel = "DIR",
+                    description = "Where the pictures go.") Path directory) {
+        return draw(RooflinePlot::draw, csv, directory);
     }
 
     @Command(name = "stability", mixinStandardHelpOptions = true,

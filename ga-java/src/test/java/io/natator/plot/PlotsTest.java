@@ -58,6 +58,31 @@ class PlotsTest {
         assertDrawn("stability-conserving-float-dt-iterations");
     }
 
+    private static final String ROOFLINE = """
+            kind,name,scheme,instruction_set,gflops,gbytes_per_second,intensity
+            bandwidth,memory,,avx2,,16,
+            bandwidth,cache,,avx2,,100,
+            stage,density,flex,avx2,25,40,0.625
+            """;
+
+    @Test
+    void drawsStagesUnderTheirRoofs() throws IOException {
+        Path csv = file(ROOFLINE + "compute,multiply-add,,avx2,120,,\n");
+
+        assertThat(RooflinePlot.draw(csv, folder.resolve("plots"))).hasSize(1);
+        assertDrawn("roofline-avx2");
+        assertThat(Files.readString(folder.resolve("plots/roofline-avx2.svg"))).contains("flex: density")
+                .contains("memory");
+    }
+
+    @Test
+    void needsThePeakForARoofline() throws IOException {
+        Path csv = file(ROOFLINE);
+
+        assertThatThrownBy(() -> RooflinePlot.draw(csv, folder)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("compute");
+    }
+
     private static final String VALIDATION_HEADER =
             "part,case,width,scheme,precision,substeps,iterations,status,run_time,density_error_mean,density_error_max\n";
 
