@@ -1,6 +1,8 @@
 package io.natator.checkpoint;
 
+import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.SimulatorMode;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.OutputStream;
@@ -21,6 +23,9 @@ import java.util.HexFormat;
  * @param natator         version of this program
  * @param simulator       path of the native program, relative to the working directory
  * @param simulatorSha256 digest of that file
+ * @param mode            how evaluations reach the native program
+ * @param backend         what it computes on
+ * @param device          number of the GPU
  * @param workers         evaluations at the same time
  * @param timeoutSeconds  time limit of an attempt at an evaluation
  * @param java            version of the Java runtime
@@ -28,14 +33,15 @@ import java.util.HexFormat;
  * @param processors      processors available
  * @param started         when this was written
  */
-public record Environment(String natator, String simulator, String simulatorSha256, int workers, double timeoutSeconds,
-        String java, String system, int processors, String started) {
+public record Environment(String natator, String simulator, String simulatorSha256, SimulatorMode mode, Backend backend,
+        int device, int workers, double timeoutSeconds, String java, String system, int processors, String started) {
 
     /** The present environment. */
     public static Environment present(ExecutionSettings execution) {
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
-                sha256(execution), execution.workers(), execution.timeout().toMillis() / 1000.0,
+                sha256(execution.simulator()), execution.mode(), execution.backend(), execution.device(),
+                execution.workers(), execution.timeout().toMillis() / 1000.0,
                 Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
                 Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString());
@@ -45,15 +51,15 @@ public record Environment(String natator, String simulator, String simulatorSha2
         return Path.of("").toAbsolutePath().relativize(path.toAbsolutePath()).toString();
     }
 
-    private static String sha256(ExecutionSettings execution) {
+    private static String sha256(Path file) {
         try {
             MessageDigest digest = MessageDigest.getInstance("SHA-256");
-            try (InputStream in = new DigestInputStream(Files.newInputStream(execution.simulator()), digest)) {
+            try (InputStream in = new DigestInputStream(Files.newInputStream(file), digest)) {
                 in.transferTo(OutputStream.nullOutputStream());
             }
             return HexFormat.of().formatHex(digest.digest());
         } catch (IOException e) {
-            throw new UncheckedIOException("cannot read " + execution.simulator() + ": " + e.getMessage(), e);
+            throw new UncheckedIOException("cannot read " + AtomicFile.reason(file, e), e);
         } catch (NoSuchAlgorithmException e) {
             throw new IllegalStateException("every Java runtime has SHA-256", e);
         }

@@ -1,5 +1,6 @@
 package io.natator.checkpoint;
 
+import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
@@ -12,7 +13,7 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Map;
+import java.util.List;
 import java.util.stream.Stream;
 
 /**
@@ -28,7 +29,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private static final String EVALUATIONS = "evaluations.jsonl";
 
     private final Path directory;
-    private final EvolutionSettings settings;
+    private EvolutionSettings settings;
     private final Encoding encoding;
     private final EvolutionState checkpoint;
     private final EvaluationLog log;
@@ -39,8 +40,13 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         this.settings = settings;
         this.encoding = settings.encoding().forActuators(settings.actuators());
         this.log = new EvaluationLog(directory.resolve(EVALUATIONS));
-        this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
-                ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
+        try {
+            this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
+                    ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
+        } catch (InvalidInputException e) {
+            log.close();
+            throw e;
+        }
         this.timings = new Timings(directory.resolve("timings.csv"));
     }
 
@@ -59,7 +65,11 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         } catch (IOException e) {
             throw new InvalidInputException("output folder " + directory + " cannot be made: " + e, e);
         }
-        AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+        try {
+            AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+        } catch (UncheckedIOException e) {
+            throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
+        }
         return new RunFolder(directory, settings);
     }
 
@@ -84,9 +94,10 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
         RunFolder folder = new RunFolder(directory,
                 Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings"));
-        if (folder.checkpoint != null && folder.log.size() < folder.checkpoint.evaluations()) {
+        int recorded = folder.log.records().size();
+        if (folder.checkpoint != null && recorded < folder.checkpoint.evaluations()) {
             folder.close();
-            throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + folder.log.size()
+            throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + recorded
                     + " whole lines; expected at least the " + folder.checkpoint.evaluations() + " of " + CHECKPOINT);
         }
         return folder;
@@ -102,14 +113,20 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         return settings;
     }
 
+    /** From here on the run computes on another backend. */
+    public void changeBackend(Backend backend) {
+        settings = settings.withBackend(backend);
+        AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+    }
+
     /** The state after the last generation that was finished when the folder was opened; null if there was none. */
     public EvolutionState checkpoint() {
         return checkpoint;
     }
 
-    /** Simulations that were finished after that, by id. */
-    public Map<Long, EvaluationRecord> unfinishedGeneration() {
-        return log.from(checkpoint == null ? 0 : checkpoint.evaluations());
+    /** Simulations that were recorded when the folder was opened, in the order of their ids. */
+    public List<EvaluationRecord> recorded() {
+        return log.records();
     }
 
     /** Writes where and how the run is carried out. */

@@ -9,6 +9,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
@@ -42,8 +43,8 @@ class RunFolderTest {
     }
 
     private static EvolutionSettings settings(OperatorSet operators) {
-        return new EvolutionSettings("thesis/creature-3", EncodingKind.DENSE, 5, 12, 4, 99, operators, 0.05, null, null,
-                null);
+        return EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5).withSize(12, 4).withSeed(99)
+                .withOptimizer(OptimizerKind.JGAP, operators, 0.05);
     }
 
     /** Runs, or continues, what is in the folder. */
@@ -52,7 +53,7 @@ class RunFolderTest {
         listeners.addAll(List.of(more));
         ToySimulator simulator = new ToySimulator();
         try (folder; WorkerPool pool = new WorkerPool(simulator, 3)) {
-            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.unfinishedGeneration())
+            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded())
                     .run(folder.checkpoint());
             folder.writeResults(end, null);
         }
