@@ -6,8 +6,8 @@ here=${0%/*}
 
 # ok ID DISTANCE
 ok() {
-    local hash
-    printf -v hash '00000000%08x' "$1"
+    local hash digits=${2//[!0-9]/}
+    printf -v hash '%016x' "$((10#0$digits))"
     printf '{"id":%s,"status":"ok","fitness":%s,"distance":%s,"stopped":"completed","simulated":4.0,"frames":240,"scheme":"flex","precision":"float","hash":"%s","new field":[1]}\n' \
         "$1" "$2" "$2" "$hash"
 }

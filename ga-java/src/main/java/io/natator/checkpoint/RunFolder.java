@@ -26,6 +26,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     private static final String CONFIG = "config.json";
     private static final String CHECKPOINT = "checkpoint.json";
+    private static final String BEST = "best.json";
     private static final String EVALUATIONS = "evaluations.jsonl";
 
     private final Path directory;
@@ -89,7 +90,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * @throws InvalidInputException if it is not one, is damaged, or is in use
      */
     public static RunFolder open(Path directory) {
-        if (!Files.isRegularFile(directory.resolve(CONFIG))) {
+        if (!exists(directory)) {
             throw new InvalidInputException(directory + " is not a run folder: it has no " + CONFIG);
         }
         RunFolder folder = new RunFolder(directory,
@@ -101,6 +102,31 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
                     + " whole lines; expected at least the " + folder.checkpoint.evaluations() + " of " + CHECKPOINT);
         }
         return folder;
+    }
+
+    /** Whether there is a run in this folder. */
+    public static boolean exists(Path directory) {
+        return Files.isRegularFile(directory.resolve(CONFIG));
+    }
+
+    /**
+     * Whether the run in this folder has come to its end and its results are written.
+     *
+     * @throws InvalidInputException if a file of it is damaged
+     */
+    public static boolean isFinished(Path directory) {
+        if (!exists(directory) || !Files.exists(directory.resolve(CHECKPOINT))) {
+            return false;
+        }
+        EvolutionSettings settings = Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings");
+        EvolutionState state = Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint");
+        return state.isLastOf(settings) && (state.best() == null || Files.exists(directory.resolve(BEST))
+                && Json.read(directory.resolve(BEST), BestGait.class, "best gait").vacuum() != null);
+    }
+
+    /** The evaluations that a run has recorded; another process may be adding to them. */
+    public static List<EvaluationRecord> evaluations(Path directory) {
+        return EvaluationLog.read(directory.resolve(EVALUATIONS));
     }
 
     /** Where it is. */
@@ -162,7 +188,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         AtomicFile.write(directory.resolve("generations.csv"), GenerationTable.csv(state.history()));
         if (state.best() != null) {
             BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()), vacuum);
-            AtomicFile.write(directory.resolve("best.json"), Json.document(best));
+            AtomicFile.write(directory.resolve(BEST), Json.document(best));
         }
     }
 

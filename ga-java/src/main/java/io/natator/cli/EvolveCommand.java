@@ -63,7 +63,7 @@ final class EvolveCommand implements Callable<Integer> {
             description = "End after so many evaluations, from 1. Default: what the generations take.")
     private Long evaluations;
 
-    @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
+    @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap", converter = OptimizerName.class,
             description = "jgap (the thesis' genetic algorithm), cma-es or random. Default: ${DEFAULT-VALUE}.")
     private OptimizerKind optimizer;
 

@@ -58,7 +58,11 @@ final class Pace {
         if (rate() == 0.0) {
             return "?";
         }
-        long seconds = Math.round((expected() - done) / rate());
+        return readable(Math.round((expected() - done) / rate()));
+    }
+
+    /** A time as {@code 1h02m}, {@code 3m10s} or {@code 5s}. */
+    static String readable(long seconds) {
         if (seconds >= 3600) {
             return String.format("%dh%02dm", seconds / 3600, seconds % 3600 / 60);
         }

@@ -60,17 +60,12 @@ public final class Evolution {
         try (Optimizer optimizer = Optimizer.of(settings, encoding.genes(), this::simulate)) {
             optimizer.recall(recorded.subList(0, (int) evaluations));
             EvolutionState state = from;
-            while (!isFinished(state)) {
+            while (state == null || !state.isLastOf(settings)) {
                 generation = state == null ? 0 : state.generation() + 1;
                 state = finish(state, optimizer.next(generation, state == null ? List.of() : state.population()));
             }
             return state;
         }
-    }
-
-    /** Whether an evolution with these settings goes no further than this state. */
-    private boolean isFinished(EvolutionState state) {
-        return state != null && (state.generation() >= settings.generations() || budgetLeft() == 0);
     }
 
     private long budgetLeft() {

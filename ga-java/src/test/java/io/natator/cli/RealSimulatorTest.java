@@ -64,6 +64,22 @@ class RealSimulatorTest {
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
     }
 
+    /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
+    @Test
+    void everyModeGivesTheSameBits() throws IOException {
+        List<String> logs = new ArrayList<>();
+        for (String mode : List.of("process", "resident", "batch")) {
+            Path run = folder.resolve(mode);
+            assertThat(natator("evolve", "--population", "6", "--generations", "1", "--duration", "0.1", "--workers",
+                    "2", "--simulator", mode, "--output-dir", run.toString())).as(err.toString()).isZero();
+            logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
+        }
+
+        assertThat(logs.get(0)).contains("\"hash\":");
+        assertThat(logs.get(1)).isEqualTo(logs.get(0));
+        assertThat(logs.get(2)).isEqualTo(logs.get(0));
+    }
+
     @ParameterizedTest
     @CsvSource({"1, 2", "2, 8", "3, 5", "4, 3"})
     void everyCreatureHasItsActuators(int creature, int actuators) throws IOException {

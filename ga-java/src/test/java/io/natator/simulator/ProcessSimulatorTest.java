@@ -37,7 +37,7 @@ class ProcessSimulatorTest {
         SimulationResult result = evaluate("thesis/creature-1", 20);
 
         assertThat(result).isEqualTo(new SimulationResult(7L, Status.OK, -1.3925, "completed", 4.0, 240, "flex",
-                "float", "0000000000000007", null, null));
+                "float", "0000000052ffdd20", null, null));
         assertThat(result.fitness()).isZero();
         assertThat(result.speed()).isEqualTo(-1.3925 / 4);
     }
