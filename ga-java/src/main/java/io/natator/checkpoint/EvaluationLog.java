@@ -26,6 +26,8 @@ final class EvaluationLog implements AutoCloseable {
     /** No channel: that would be closed by an interrupt of the thread that writes. */
     private final RandomAccessFile content;
     private final List<EvaluationRecord> records = new ArrayList<>();
+    /** Where each of them begins in the file. */
+    private final List<Integer> starts = new ArrayList<>();
     private long size;
 
     /**
@@ -70,6 +72,7 @@ final class EvaluationLog implements AutoCloseable {
         int end = 0;
         for (int i = 0; i < bytes.length; i++) {
             if (bytes[i] == '\n') {
+                starts.add(end);
                 records.add(parse(file, records.size() + 1, new String(bytes, end, i - end, StandardCharsets.UTF_8)));
                 end = i + 1;
             }
@@ -104,6 +107,18 @@ final class EvaluationLog implements AutoCloseable {
     /** The simulations that were in the file when it was opened. */
     List<EvaluationRecord> records() {
         return records;
+    }
+
+    /** Forgets a simulation that was in the file when it was opened, and all after it. */
+    void dropFrom(int first) {
+        try {
+            content.setLength(starts.get(first));
+            content.seek(starts.get(first));
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + AtomicFile.reason(file, e), e);
+        }
+        records.subList(first, records.size()).clear();
+        size = first;
     }
 
     /** Forces all that was appended to the disk, so that no checkpoint can be there without it after a power cut. */

@@ -101,7 +101,28 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + recorded
                     + " whole lines; expected at least the " + folder.checkpoint.evaluations() + " of " + CHECKPOINT);
         }
+        folder.dropFailures();
         return folder;
+    }
+
+    /**
+     * A generation that was stopped since most of it failed is not to fail again by its record once the cause is gone:
+     * it is simulated anew from its first failure.
+     */
+    private void dropFailures() {
+        List<EvaluationRecord> all = log.records();
+        int first = checkpoint == null ? 0 : (int) checkpoint.evaluations();
+        int failed = 0;
+        int firstFailed = -1;
+        for (int i = first; i < all.size(); i++) {
+            if (all.get(i).result().status() == SimulationResult.Status.FAILED) {
+                failed++;
+                firstFailed = firstFailed < 0 ? i : firstFailed;
+            }
+        }
+        if (2 * failed > all.size() - first) {
+            log.dropFrom(firstFailed);
+        }
     }
 
     /** Whether there is a run in this folder. */

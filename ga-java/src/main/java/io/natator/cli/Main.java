@@ -22,7 +22,13 @@ public final class Main {
      */
     public static void main(String[] arguments) {
         System.setProperty("java.awt.headless", "true");
-        int status = commandLine().execute(arguments);
+        CommandLine command = commandLine();
+        int status = command.execute(arguments);
+        command.getOut().flush();
+        if (System.out.checkError() && status == CommandLine.ExitCode.OK) {
+            System.err.println("natator: standard output cannot be written");
+            status = CommandLine.ExitCode.SOFTWARE;
+        }
         if (status != CommandLine.ExitCode.OK) {
             System.exit(status);
         }
