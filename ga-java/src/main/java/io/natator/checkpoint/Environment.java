@@ -3,18 +3,10 @@ package io.natator.checkpoint;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
-import java.io.IOException;
-import java.io.InputStream;
-import java.io.OutputStream;
-import java.io.UncheckedIOException;
-import java.nio.file.Files;
+import io.natator.simulator.Digest;
 import java.nio.file.Path;
-import java.security.DigestInputStream;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
-import java.util.HexFormat;
 
 /**
  * Where and how a run was carried out; {@code environment.json}. Nothing in it changes the outcome but the simulator's
@@ -40,7 +32,7 @@ public record Environment(String natator, String simulator, String simulatorSha2
     public static Environment present(ExecutionSettings execution) {
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
-                sha256(execution.simulator()), execution.mode(), execution.backend(), execution.device(),
+                Digest.of(execution.simulator()), execution.mode(), execution.backend(), execution.device(),
                 execution.workers(), execution.timeout().toMillis() / 1000.0,
                 Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
@@ -49,19 +41,5 @@ public record Environment(String natator, String simulator, String simulatorSha2
 
     private static String fromWorkingDirectory(Path path) {
         return Path.of("").toAbsolutePath().relativize(path.toAbsolutePath()).toString();
-    }
-
-    private static String sha256(Path file) {
-        try {
-            MessageDigest digest = MessageDigest.getInstance("SHA-256");
-            try (InputStream in = new DigestInputStream(Files.newInputStream(file), digest)) {
-                in.transferTo(OutputStream.nullOutputStream());
-            }
-            return HexFormat.of().formatHex(digest.digest());
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot read " + AtomicFile.reason(file, e), e);
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException("every Java runtime has SHA-256", e);
-        }
     }
 }

@@ -27,6 +27,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private static final String CONFIG = "config.json";
     private static final String CHECKPOINT = "checkpoint.json";
     private static final String BEST = "best.json";
+    private static final String SAVINGS = "savings.json";
     private static final String EVALUATIONS = "evaluations.jsonl";
 
     private final Path directory;
@@ -179,6 +180,17 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     /** Writes where and how the run is carried out. */
     public void write(Environment environment) {
         AtomicFile.write(directory.resolve("environment.json"), Json.document(environment));
+    }
+
+    /** Writes what the run did not have to simulate. */
+    public void write(Savings savings) {
+        AtomicFile.write(directory.resolve(SAVINGS), Json.document(savings));
+    }
+
+    /** What the run in a folder did not have to simulate; null if that was not recorded. */
+    public static Savings savings(Path directory) {
+        Path file = directory.resolve(SAVINGS);
+        return Files.exists(file) ? Json.read(file, Savings.class, "savings") : null;
     }
 
     @Override

@@ -47,6 +47,9 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     @Mixin
     private ExecutionOptions executionOptions;
 
+    @Mixin
+    private CacheOptions cacheOptions;
+
     @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where runs and results go.")
     private Path directory;
 
@@ -85,7 +88,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         EvolveCommand.checkStopAfter(stopAfter);
-        ExecutionSettings execution = executionOptions.execution(Backend.CPU);
+        ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         int atOnce = runsAtOnce != null ? runsAtOnce
                 : execution.mode() == SimulatorMode.BATCH ? RUNS_AT_ONCE_IN_BATCHES : RUNS_AT_ONCE;
         if (atOnce < 1) {
@@ -163,7 +166,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     private String command() {
         StringBuilder command = new StringBuilder("java -jar ga-java/target/natator.jar compare-optimizers");
         for (var option : spec.commandLine().getParseResult().matchedOptions()) {
-            if (!List.of("--stop-after", "--simulator-path", "--workers", "--timeout").contains(option.longestName())) {
+            if (!List.of("--stop-after", "--simulator-path", "--workers", "--timeout", "--no-cache").contains(option.longestName())) {
                 command.append(' ').append(option.longestName()).append(' ')
                         .append(String.join(",", option.originalStringValues()));
             }

@@ -32,7 +32,7 @@ final class EvolveCommand implements Callable<Integer> {
     /** Options that do not change what a run computes, so that they may be given when it is continued. */
     private static final List<String> WITH_RESUME =
             List.of("--resume", "--stop-after", "--simulator", "--backend", "--device", "--workers", "--timeout",
-                    "--simulator-path");
+                    "--simulator-path", "--no-cache");
 
     @Spec
     private CommandSpec spec;
@@ -42,6 +42,9 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Mixin
     private ExecutionOptions executionOptions;
+
+    @Mixin
+    private CacheOptions cacheOptions;
 
     @Option(names = "--creature", paramLabel = "1..4", description = "Creature of the thesis. Default: 1.")
     private Integer creature;
@@ -98,10 +101,10 @@ final class EvolveCommand implements Callable<Integer> {
         checkStopAfter(stopAfter);
         if (resume != null) {
             refuseSettings();
-            ResumeCommand.resume(resume, executionOptions, stopAfter, spec);
+            ResumeCommand.resume(resume, executionOptions, cacheOptions, stopAfter, spec);
             return ExitCode.OK;
         }
-        ExecutionSettings execution = executionOptions.execution(Backend.CPU);
+        ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
         RunFolder folder = RunFolder.create(outputDir != null ? outputDir : freeFolder(settings.scene()), settings);
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);

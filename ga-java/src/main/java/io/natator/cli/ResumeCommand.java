@@ -23,6 +23,9 @@ final class ResumeCommand implements Callable<Integer> {
     @Mixin
     private ExecutionOptions executionOptions;
 
+    @Mixin
+    private CacheOptions cacheOptions;
+
     @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
     private Double stopAfter;
 
@@ -31,12 +34,12 @@ final class ResumeCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        resume(folder, executionOptions, stopAfter, spec);
+        resume(folder, executionOptions, cacheOptions, stopAfter, spec);
         return ExitCode.OK;
     }
 
-    static void resume(Path directory, ExecutionOptions options, Double stopAfter, CommandSpec spec)
-            throws InterruptedException {
+    static void resume(Path directory, ExecutionOptions options, CacheOptions cache, Double stopAfter,
+            CommandSpec spec) throws InterruptedException {
         EvolveCommand.checkStopAfter(stopAfter);
         RunFolder folder = RunFolder.open(directory);
         if (options.backend() != null && options.backend() != folder.settings().backend()) {
@@ -46,6 +49,6 @@ final class ResumeCommand implements Callable<Integer> {
             folder.changeBackend(options.backend());
         }
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder,
-                options.execution(folder.settings().backend()), stopAfter);
+                cache.in(options.execution(folder.settings().backend())), stopAfter);
     }
 }

@@ -1,5 +1,7 @@
 package io.natator.run;
 
+import io.natator.cache.CachedEvaluator;
+import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.Environment;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
@@ -20,6 +22,7 @@ import io.natator.simulator.Vacuum;
 import java.io.IOException;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.function.LongSupplier;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -71,8 +74,19 @@ public final class EvolutionRun {
     public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
             throws InterruptedException {
         folder.write(Environment.present(execution));
-        List<EvolutionListener> all = new ArrayList<>(List.of(folder));
-        all.addAll(List.of(listeners));
+        if (execution.cache() == null) {
+            return run(execution, evaluator, () -> 0, List.of(listeners));
+        }
+        CachedEvaluator cached = new CachedEvaluator(evaluator, new EvaluationCache(execution.cache()), execution);
+        return run(execution, cached, cached::found, List.of(listeners));
+    }
+
+    private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found,
+            List<EvolutionListener> listeners) throws InterruptedException {
+        double duration = settings.duration() != null ? settings.duration()
+                : SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()).duration();
+        List<EvolutionListener> all = new ArrayList<>(List.of(folder, new SavingsCounter(folder, duration, found)));
+        all.addAll(listeners);
         EvolutionState state = new Evolution(settings, evaluator, all, folder.recorded()).run(folder.checkpoint());
         SimulationResult vacuum = inVacuum(state.best(), evaluator);
         folder.writeResults(state, vacuum);

@@ -7,7 +7,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import java.nio.file.Path;
-import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
 
 /**
@@ -27,8 +27,6 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
         @JsonProperty(required = true) double timeStep, @JsonProperty(required = true) int substeps,
         @JsonProperty(required = true) int iterations) {
 
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     /**
      * Asks the simulator about a scene.
      *
@@ -38,22 +36,31 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
      * @throws InterruptedException  if the calling thread is interrupted
      */
     public static SceneInfo of(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
-        List<String> arguments = overrides == null ? List.of("info", scene, "--json")
-                : List.of("info", scene, "--json", "--overrides", overrides.toString());
-        NativeProgram.Output output;
-        try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
-            output = program.call(arguments, "");
-        } catch (SimulatorFailure e) {
-            throw new InvalidInputException("simulator does not describe scene " + scene + ": " + e.getMessage(), e);
+        List<String> arguments = new ArrayList<>(List.of("info", scene, "--json"));
+        if (overrides != null) {
+            arguments.addAll(List.of("--overrides", overrides.toString()));
         }
-        if (output.exitStatus() != 0) {
-            throw new InvalidInputException("scene " + scene + ": " + (output.errorText().isEmpty()
-                    ? "simulator ended with exit status " + output.exitStatus() : output.errorText()));
-        }
+        String text = ProgramInfo.ask(simulator, arguments, "scene " + scene);
         try {
-            return Json.parse(output.text(), SceneInfo.class);
+            return Json.parse(text, SceneInfo.class);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("simulator does not describe scene " + scene + ": " + Json.reason(e), e);
         }
+    }
+
+    /**
+     * The scene itself as one line of JSON, with all that it builds on: what a simulation of it depends on, besides the
+     * rest of the request and the program.
+     *
+     * @param overrides JSON Merge Patch on the scene, or null
+     * @throws InvalidInputException if the simulator does not know the scene, or cannot be run
+     * @throws InterruptedException  if the calling thread is interrupted
+     */
+    public static String definition(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
+        List<String> arguments = new ArrayList<>(List.of("info", scene, "--json", "--definition"));
+        if (overrides != null) {
+            arguments.addAll(List.of("--overrides", overrides.toString()));
+        }
+        return ProgramInfo.ask(simulator, arguments, "scene " + scene);
     }
 }

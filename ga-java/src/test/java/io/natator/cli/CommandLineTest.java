@@ -36,6 +36,10 @@ class CommandLineTest {
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of(arguments));
         all.addAll(1, List.of("--simulator-path", simulator.toString()));
+        if (!arguments[0].equals("evaluate")) {
+            // The fake's faults are not what the cache is to keep.
+            all.add(1, "--no-cache");
+        }
         return command.execute(all.toArray(String[]::new));
     }
 

@@ -27,7 +27,8 @@ class KilledRunTest {
     private static final List<String> RESULTS =
             List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl");
     private static final List<String> SETTINGS =
-            List.of("--population", "30", "--evaluations", "400", "--simulator", "resident", "--workers", "2");
+            List.of("--population", "30", "--evaluations", "400", "--simulator", "resident", "--workers", "2",
+                    "--no-cache");
 
     @TempDir
     private Path folder;
@@ -92,12 +93,12 @@ class KilledRunTest {
         Process first = start(evolve(run, "--optimizer", optimizer));
         assertThat(killed(first, run, random)).isTrue();
         for (int i = 1; i < kills; i++) {
-            Process next = start(command("resume", "--simulator", "resident", "--workers", "2", run.toString()));
+            Process next = start(command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", run.toString()));
             assertThat(killed(next, run, random)).as("kill %d came before the end", i).isTrue();
         }
         Files.delete(folder.resolve("slow"));
 
-        assertThat(start(command("evolve", "--resume", run.toString())).waitFor()).as(Files.readString(log)).isZero();
+        assertThat(start(command("evolve", "--no-cache", "--resume", run.toString())).waitFor()).as(Files.readString(log)).isZero();
 
         assertSame(run, whole);
     }
@@ -148,7 +149,7 @@ class KilledRunTest {
         assertThat(Files.readAllLines(log)).last().asString().startsWith("natator evolve: cannot write " + run)
                 .contains("File too large");
         assertThat(Files.size(run.resolve("evaluations.jsonl"))).isGreaterThan(10_000);
-        assertThat(start(command("resume", run.toString())).waitFor()).as(Files.readString(log)).isZero();
+        assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
         assertSame(run, whole);
     }
 
