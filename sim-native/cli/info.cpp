@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 struct Options {
     std::string scene, overrides;
-    bool json = false;
+    bool json = false, definition = false;
 };
 
 ordered_json describe_program() {
@@ -79,8 +79,14 @@ std::string as_text(const ordered_json& info) {
 
 void run_info(const Options& options) {
     if (options.scene.empty() && !options.overrides.empty()) throw InputError("--overrides: needs a scene");
+    if (options.scene.empty() && options.definition) throw InputError("--definition: needs a scene");
     const auto overrides =
         options.overrides.empty() ? nlohmann::json::object() : parse_json(options.overrides, "--overrides");
+    if (options.definition) {
+        load_scene(options.scene, overrides);  // refuses what is wrong
+        print(scene_definition(options.scene, overrides).dump(options.json ? -1 : 2) + "\n");
+        return;
+    }
     const ordered_json info =
         options.scene.empty() ? describe_program() : describe_scene(load_scene(options.scene, overrides));
     print(options.json ? info.dump() + "\n" : as_text(info));
@@ -94,6 +100,8 @@ void add_info(CLI::App& app, int& status) {
     const auto options = std::make_shared<Options>();
     command->add_option("scene", options->scene, "Name or path of the scene.");
     command->add_flag("--json", options->json, "Write one JSON object.");
+    command->add_flag("--definition", options->definition,
+                      "Write the scene itself: with its bases, its creature and the overrides merged.");
     command->add_option("--overrides", options->overrides, "JSON text merged into the scene (RFC 7386).");
     command->callback([options, &status] {
         run_info(*options);

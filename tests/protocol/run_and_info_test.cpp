@@ -50,6 +50,24 @@ TEST(InfoTest, DescribesASceneAsJson) {
     EXPECT_GT(info["plan"].size(), 5u);
 }
 
+// What a vacuum scene is by its file, any scene becomes by a merge patch; both then have the same definition.
+TEST(InfoTest, DefinesASceneWithAllThatItBuildsOn) {
+    const std::string patch =
+        R"({"fluid":null,"planes":[],"solver":{"gravity":[0,0,0]},"stopping":{"planeContact":false,"noProgressAfter":0}})";
+    const Outcome patched = run_simulator({"info", "thesis/creature-1", "--definition", "--json", "--overrides", patch});
+    ASSERT_EQ(patched.exit_code, 0) << patched.err;
+    json scene = json::parse(patched.out);
+    json vacuum = json::parse(run_simulator({"info", "thesis/creature-1-vacuum", "--definition", "--json"}).out);
+    EXPECT_EQ(scene.at("timeStep"), 0.016666666666666666);
+    EXPECT_GT(scene.at("creature").at("slices").size(), 0u);
+    EXPECT_FALSE(scene.contains("base"));
+    scene.erase("description");
+    vacuum.erase("description");
+    EXPECT_EQ(scene, vacuum);
+    const Outcome refused = run_simulator({"info", "thesis/creature-1", "--definition", "--overrides", R"({"planes":1})"});
+    EXPECT_EQ(refused.exit_code, 2);
+}
+
 TEST(InfoTest, DescribesTheProgramWithoutAScene) {
     const json info = json::parse(run_simulator({"info", "--json"}).out);
     EXPECT_TRUE(info.at("version").is_string());

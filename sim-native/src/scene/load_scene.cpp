@@ -53,13 +53,17 @@ Scene load_scene(const std::string& name) {
     return load_scene(name, json::object());
 }
 
-Scene load_scene(const std::string& name, const json& overrides) {
+json scene_definition(const std::string& name, const json& overrides) {
     const Place place{"scene " + quoted(name), ""};
     if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
     json document = with_bases(name, 0);
     document.merge_patch(overrides);
     resolve_creature(document, place.key("creature"));
-    return scene_from_json(document, name);
+    return document;
+}
+
+Scene load_scene(const std::string& name, const json& overrides) {
+    return scene_from_json(scene_definition(name, overrides), name);
 }
 
 std::vector<std::string> scene_names() {

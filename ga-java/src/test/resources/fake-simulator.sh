@@ -1,85 +1,154 @@
-#!/bin/sh
+#!/bin/bash
 # Stands for natator-sim in tests: speaks its protocol, but swims by a formula. The scene says what goes wrong:
-# thesis/… nothing; fault/NAME the fault below; fault/mixed one of many faults for some ids.
-here=$(dirname "$0")
+# thesis/… nothing; fault/NAME the fault below; fault/mixed and fault/chaos one of many faults for some ids. Made of
+# shell builtins, so that it starts and answers in a few milliseconds.
+here=${0%/*}
 
 # ok ID DISTANCE
 ok() {
-    printf '{"id":%s,"status":"ok","fitness":%s,"distance":%s,"stopped":"completed","simulated":4.0,"frames":240,' \
-        "$1" "$2" "$2"
-    printf '"scheme":"flex","precision":"float","hash":"00000000%08x","new field":[1]}\n' "$1"
+    local hash digits=${2//[!0-9]/}
+    printf -v hash '%016x' "$((10#0$digits))"
+    printf '{"id":%s,"status":"ok","fitness":%s,"distance":%s,"stopped":"completed","simulated":4.0,"frames":240,"scheme":"flex","precision":"float","hash":"%s","new field":[1]}\n' \
+        "$1" "$2" "$2" "$hash"
 }
 
-# The distance falls off from an optimum, and is negative far from it.
-distance() {
-    printf '%s' "$1" | sed 's/.*"gait":{\([^}]*\)}.*/\1/' | tr -c '0-9.E' ' ' | awk '{
-        d = 0.8
-        for (i = 1; i <= NF; i++) { x = $i - 0.25 - 0.1 * i; d -= x * x }
-        printf "%.9f", d
-    }'
+# Sets `distance`: it falls off from an optimum, and is negative far from it. In units of 1e-9.
+measure() {
+    local numbers number exponent whole fraction x sum=800000000 centre=250000000
+    [[ $1 =~ \"gait\":\{([^}]*)\} ]]
+    numbers=${BASH_REMATCH[1]//[!0-9.E-]/ }
+    for number in $numbers; do
+        exponent=0
+        if [[ $number = *E-* ]]; then exponent=${number#*E-} number=${number%E*}; fi
+        whole=${number%%.*}
+        fraction=${number#*.}000000000
+        x=$(((whole * 1000000000 + 10#${fraction:0:9}) / 10 ** exponent))
+        centre=$((centre + 100000000))
+        sum=$((sum - (x - centre) * (x - centre) / 1000000000))
+    done
+    local sign=
+    if ((sum < 0)); then sign=- sum=$((-sum)); fi
+    printf -v distance '%s%d.%09d' "$sign" $((sum / 1000000000)) $((sum % 1000000000))
 }
 
-if [ "$1" = info ]; then
-    case $2 in
+# Whether this is the first call with this name in this folder.
+first() {
+    (set -o noclobber && : >"$here/seen-$1") 2>/dev/null
+}
+
+# Sets `fault` from a scene and an id.
+choose_fault() {
+    fault=${1#fault/}
+    case $fault in
+    mixed)
+        case $(($2 % 7)) in
+        0) fault=crash ;;
+        2) fault=once ;;
+        4) fault=half ;;
+        *) fault=none ;;
+        esac
+        ;;
+    chaos)
+        # Most fail at the first attempt, one in eight of these also at the second.
+        local faults=(none crash garbage half exit silent wrong-id nan killed crash half garbage killed)
+        fault=${faults[$(($2 * 7919 % 13))]}
+        (($2 % 151 == 75)) && fault=hang
+        (($2 % 97 == 50)) && fault=deaf
+        if [[ $fault != none ]]; then
+            if first "$2"; then
+                : >"$here/fault-$2"
+            elif (($2 % 8 != 0)); then
+                fault=none
+            else
+                : >"$here/fault-$2-again"
+            fi
+        fi
+        ;;
+    esac
+}
+
+# answer REQUEST
+answer() {
+    local request=$1 id scene
+    [[ $request =~ ^\{\"id\":([0-9]+) ]] && id=${BASH_REMATCH[1]}
+    [[ $request =~ \"scene\":\"([^\"]*)\" ]] && scene=${BASH_REMATCH[1]}
+    [[ -z $slow ]] || sleep "$slow"
+    choose_fault "$scene" "$id"
+    measure "$request"
+    case $fault in
+    crash) kill -SEGV $$ ;;
+    killed) kill -KILL $$ ;;
+    exit) echo "out of luck" >&2; exit 1 ;;
+    silent) exit 0 ;;
+    garbage) echo "*** buffer overflow ***" ;;
+    half) printf '{"id":%s,"status":"ok","fitn' "$id"; exit 0 ;;
+    hang) sleep 60 ;;
+    deaf) exec 1>&-; sleep 60 ;;
+    loud) yes ;;
+    loud-line) yes | tr -d '\n' ;;
+    loud-errors) yes "a long story" | head -c 3000000 >&2; ok "$id" 0.5 ;;
+    wrong-id) ok $((id + 1)) 0.5 ;;
+    wrong-exit) ok "$id" 0.5; exit 3 ;;
+    nan) ok "$id" NaN ;;
+    infinite) ok "$id" 1e999 ;;
+    two-lines) ok "$id" "$distance"; ok "$id" "$distance" ;;
+    held-open) sleep 5 & ok "$id" 0.5 ;;
+    once)
+        if first "$id"; then kill -KILL $$; fi
+        ok "$id" "$distance"
+        ;;
+    unstable)
+        printf '{"id":%s,"status":"unstable","fitness":0,"distance":null,"stopped":"unstable","simulated":0.5,' "$id"
+        printf '"frames":30,"scheme":"flex","precision":"float",'
+        printf '"unstable":{"particle":17,"stage":"predict","time":0.5}}\n'
+        [[ $mode = serve ]] || exit 3
+        ;;
+    rejected)
+        printf '{"id":%s,"status":"error","error":"gait.frequency is 70; expected a number up to 60"}\n' "$id"
+        [[ $mode = serve ]] || exit 2
+        ;;
+    no-device) printf '{"id":%s,"status":"error","error":"no CUDA device"}\n' "$id"; exit 4 ;;
+    poison) if ((id % 10 == 3)); then kill -KILL $$; else ok "$id" "$distance"; fi ;;
+    *) ok "$id" "$distance" ;;
+    esac
+}
+
+describe() {
+    local actuators
+    case $1 in
     thesis/creature-2) actuators=8 ;;
     thesis/creature-3) actuators=5 ;;
     thesis/* | fault/*) actuators=2 ;;
     *)
-        echo "scene is \"$2\"; expected a named scene or a file" >&2
+        echo "scene is \"$1\"; expected a named scene or a file" >&2
         exit 2
         ;;
     esac
-    echo "{\"scene\":\"$2\",\"creature\":\"any\",\"actuators\":$actuators,\"particles\":5950,\"duration\":4.0}"
-    exit 0
-fi
+    echo "{\"scene\":\"$1\",\"creature\":\"any\",\"actuators\":$actuators,\"particles\":5950,\"duration\":4.0,\"timeStep\":0.0166,\"substeps\":4,\"iterations\":4}"
+}
 
-scene=
-if [ "$1" = evaluate ]; then
+mode=$1
+[[ -e $here/slow ]] && slow=$(<"$here/slow")
+case $mode in
+info)
+    if [[ $2 = --json ]]; then
+        echo '{"version":"0.1.0","instructionSet":"any","devices":[]}'
+    elif [[ $* = *--definition* ]]; then
+        echo "{\"what\":\"$2 ${*: -1}\"}"
+    else
+        describe "$2"
+    fi
+    ;;
+evaluate)
     IFS= read -r request
-    id=$(printf '%s' "$request" | sed 's/^{"id":\([0-9]*\).*/\1/')
-    scene=$(printf '%s' "$request" | sed 's/.*"scene":"\([^"]*\)".*/\1/')
-fi
-
-fault=${scene#fault/}
-if [ "$fault" = mixed ]; then
-    case $((id % 7)) in
-    0) fault=crash ;;
-    2) fault=once ;;
-    4) fault=half ;;
-    *) fault=none ;;
-    esac
-fi
-
-case $fault in
-crash) kill -SEGV $$ ;;
-exit) echo "out of luck" >&2; exit 1 ;;
-silent) exit 0 ;;
-garbage) echo "*** buffer overflow ***" ;;
-half) printf '{"id":%s,"status":"ok","fitn' "$id" ;;
-hang) sleep 60 ;;
-loud) yes ;;
-loud-errors) yes "a long story" | head -c 3000000 >&2; ok "$id" 0.5 ;;
-wrong-id) ok $((id + 1)) 0.5 ;;
-wrong-exit) ok "$id" 0.5; exit 3 ;;
-nan) ok "$id" NaN ;;
-infinite) ok "$id" 1e999 ;;
-two-lines) ok "$id" 0.5; ok "$id" 0.5 ;;
-held-open) sleep 5 & ok "$id" 0.5 ;;
-once)
-    # Fails at the first attempt at each id.
-    if mkdir "$here/seen-$id" 2>/dev/null; then kill -KILL $$; fi
-    ok "$id" "$(distance "$request")"
+    answer "$request"
     ;;
-unstable)
-    printf '{"id":%s,"status":"unstable","fitness":0,"distance":null,"stopped":"unstable","simulated":0.5,' "$id"
-    printf '"frames":30,"scheme":"flex","precision":"float",'
-    printf '"unstable":{"particle":17,"stage":"predict","time":0.5}}\n'
-    exit 3
+serve)
+    if [[ $* = *cuda* ]]; then
+        echo "no such device here" >&2
+        exit 4
+    fi
+    [[ ! -e $here/dies-at-start ]] || exit 1
+    while IFS= read -r request; do answer "$request"; done
     ;;
-rejected)
-    printf '{"id":%s,"status":"error","error":"gait.frequency is 70; expected a number up to 60"}\n' "$id"
-    exit 2
-    ;;
-no-device) printf '{"id":%s,"status":"error","error":"no CUDA device"}\n' "$id"; exit 4 ;;
-*) ok "$id" "$(distance "$request")" ;;
 esac

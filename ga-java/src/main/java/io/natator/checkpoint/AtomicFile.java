@@ -1,14 +1,13 @@
 package io.natator.checkpoint;
 
+import java.io.FileOutputStream;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.ByteBuffer;
-import java.nio.channels.FileChannel;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.AccessDeniedException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
-import java.nio.file.StandardOpenOption;
 
 /** Writes files that are at every moment either the old or the new one, whole. */
 final class AtomicFile {
@@ -17,24 +16,26 @@ final class AtomicFile {
     }
 
     /**
-     * Replaces a file: writes beside it, forces that to the disk, and renames.
+     * Replaces a file: writes beside it, forces that to the disk, and renames. An interrupt does not disturb it.
      *
      * @throws UncheckedIOException if that fails; the old file is then untouched
      */
     static void write(Path file, String content) {
         Path fresh = file.resolveSibling(file.getFileName() + ".new");
         try {
-            try (FileChannel channel = FileChannel.open(fresh, StandardOpenOption.CREATE, StandardOpenOption.WRITE,
-                    StandardOpenOption.TRUNCATE_EXISTING)) {
-                ByteBuffer bytes = ByteBuffer.wrap(content.getBytes(StandardCharsets.UTF_8));
-                while (bytes.hasRemaining()) {
-                    channel.write(bytes);
-                }
-                channel.force(true);
+            try (FileOutputStream out = new FileOutputStream(fresh.toFile())) {
+                out.write(content.getBytes(StandardCharsets.UTF_8));
+                out.getFD().sync();
             }
             Files.move(fresh, file, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
         } catch (IOException e) {
-            throw new UncheckedIOException("cannot write " + file + ": " + e.getMessage(), e);
+            throw new UncheckedIOException("cannot write " + reason(file, e), e);
         }
+    }
+
+    /** The file and what is wrong with it, once each. */
+    static String reason(Path file, IOException e) {
+        String message = e instanceof AccessDeniedException ? "permission denied" : String.valueOf(e.getMessage());
+        return message.startsWith(file.toString()) ? message : file + ": " + message;
     }
 }

@@ -1,18 +1,12 @@
 package io.natator.checkpoint;
 
+import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import java.io.IOException;
-import java.io.InputStream;
-import java.io.OutputStream;
-import java.io.UncheckedIOException;
-import java.nio.file.Files;
+import io.natator.config.SimulatorMode;
+import io.natator.simulator.Digest;
 import java.nio.file.Path;
-import java.security.DigestInputStream;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
-import java.util.HexFormat;
 
 /**
  * Where and how a run was carried out; {@code environment.json}. Nothing in it changes the outcome but the simulator's
@@ -21,6 +15,9 @@ import java.util.HexFormat;
  * @param natator         version of this program
  * @param simulator       path of the native program, relative to the working directory
  * @param simulatorSha256 digest of that file
+ * @param mode            how evaluations reach the native program
+ * @param backend         what it computes on
+ * @param device          number of the GPU
  * @param workers         evaluations at the same time
  * @param timeoutSeconds  time limit of an attempt at an evaluation
  * @param java            version of the Java runtime
@@ -28,14 +25,15 @@ import java.util.HexFormat;
  * @param processors      processors available
  * @param started         when this was written
  */
-public record Environment(String natator, String simulator, String simulatorSha256, int workers, double timeoutSeconds,
-        String java, String system, int processors, String started) {
+public record Environment(String natator, String simulator, String simulatorSha256, SimulatorMode mode, Backend backend,
+        int device, int workers, double timeoutSeconds, String java, String system, int processors, String started) {
 
     /** The present environment. */
     public static Environment present(ExecutionSettings execution) {
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
-                sha256(execution), execution.workers(), execution.timeout().toMillis() / 1000.0,
+                Digest.of(execution.simulator()), execution.mode(), execution.backend(), execution.device(),
+                execution.workers(), execution.timeout().toMillis() / 1000.0,
                 Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
                 Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString());
@@ -43,19 +41,5 @@ public record Environment(String natator, String simulator, String simulatorSha2
 
     private static String fromWorkingDirectory(Path path) {
         return Path.of("").toAbsolutePath().relativize(path.toAbsolutePath()).toString();
-    }
-
-    private static String sha256(ExecutionSettings execution) {
-        try {
-            MessageDigest digest = MessageDigest.getInstance("SHA-256");
-            try (InputStream in = new DigestInputStream(Files.newInputStream(execution.simulator()), digest)) {
-                in.transferTo(OutputStream.nullOutputStream());
-            }
-            return HexFormat.of().formatHex(digest.digest());
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot read " + execution.simulator() + ": " + e.getMessage(), e);
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException("every Java runtime has SHA-256", e);
-        }
     }
 }

@@ -1,5 +1,6 @@
 package io.natator.checkpoint;
 
+import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
@@ -12,7 +13,7 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Map;
+import java.util.List;
 import java.util.stream.Stream;
 
 /**
@@ -25,10 +26,12 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     private static final String CONFIG = "config.json";
     private static final String CHECKPOINT = "checkpoint.json";
+    private static final String BEST = "best.json";
+    private static final String SAVINGS = "savings.json";
     private static final String EVALUATIONS = "evaluations.jsonl";
 
     private final Path directory;
-    private final EvolutionSettings settings;
+    private EvolutionSettings settings;
     private final Encoding encoding;
     private final EvolutionState checkpoint;
     private final EvaluationLog log;
@@ -39,8 +42,13 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         this.settings = settings;
         this.encoding = settings.encoding().forActuators(settings.actuators());
         this.log = new EvaluationLog(directory.resolve(EVALUATIONS));
-        this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
-                ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
+        try {
+            this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
+                    ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
+        } catch (InvalidInputException e) {
+            log.close();
+            throw e;
+        }
         this.timings = new Timings(directory.resolve("timings.csv"));
     }
 
@@ -59,7 +67,11 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         } catch (IOException e) {
             throw new InvalidInputException("output folder " + directory + " cannot be made: " + e, e);
         }
-        AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+        try {
+            AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+        } catch (UncheckedIOException e) {
+            throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
+        }
         return new RunFolder(directory, settings);
     }
 
@@ -79,17 +91,64 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * @throws InvalidInputException if it is not one, is damaged, or is in use
      */
     public static RunFolder open(Path directory) {
-        if (!Files.isRegularFile(directory.resolve(CONFIG))) {
+        if (!exists(directory)) {
             throw new InvalidInputException(directory + " is not a run folder: it has no " + CONFIG);
         }
         RunFolder folder = new RunFolder(directory,
                 Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings"));
-        if (folder.checkpoint != null && folder.log.size() < folder.checkpoint.evaluations()) {
+        int recorded = folder.log.records().size();
+        if (folder.checkpoint != null && recorded < folder.checkpoint.evaluations()) {
             folder.close();
-            throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + folder.log.size()
+            throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + recorded
                     + " whole lines; expected at least the " + folder.checkpoint.evaluations() + " of " + CHECKPOINT);
         }
+        folder.dropFailures();
         return folder;
+    }
+
+    /**
+     * A generation that was stopped since most of it failed is not to fail again by its record once the cause is gone:
+     * it is simulated anew from its first failure.
+     */
+    private void dropFailures() {
+        List<EvaluationRecord> all = log.records();
+        int first = checkpoint == null ? 0 : (int) checkpoint.evaluations();
+        int failed = 0;
+        int firstFailed = -1;
+        for (int i = first; i < all.size(); i++) {
+            if (all.get(i).result().status() == SimulationResult.Status.FAILED) {
+                failed++;
+                firstFailed = firstFailed < 0 ? i : firstFailed;
+            }
+        }
+        if (2 * failed > all.size() - first) {
+            log.dropFrom(firstFailed);
+        }
+    }
+
+    /** Whether there is a run in this folder. */
+    public static boolean exists(Path directory) {
+        return Files.isRegularFile(directory.resolve(CONFIG));
+    }
+
+    /**
+     * Whether the run in this folder has come to its end and its results are written.
+     *
+     * @throws InvalidInputException if a file of it is damaged
+     */
+    public static boolean isFinished(Path directory) {
+        if (!exists(directory) || !Files.exists(directory.resolve(CHECKPOINT))) {
+            return false;
+        }
+        EvolutionSettings settings = Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings");
+        EvolutionState state = Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint");
+        return state.isLastOf(settings) && (state.best() == null || Files.exists(directory.resolve(BEST))
+                && Json.read(directory.resolve(BEST), BestGait.class, "best gait").vacuum() != null);
+    }
+
+    /** The evaluations that a run has recorded; another process may be adding to them. */
+    public static List<EvaluationRecord> evaluations(Path directory) {
+        return EvaluationLog.read(directory.resolve(EVALUATIONS));
     }
 
     /** Where it is. */
@@ -102,19 +161,36 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         return settings;
     }
 
+    /** From here on the run computes on another backend. */
+    public void changeBackend(Backend backend) {
+        settings = settings.withBackend(backend);
+        AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+    }
+
     /** The state after the last generation that was finished when the folder was opened; null if there was none. */
     public EvolutionState checkpoint() {
         return checkpoint;
     }
 
-    /** Simulations that were finished after that, by id. */
-    public Map<Long, EvaluationRecord> unfinishedGeneration() {
-        return log.from(checkpoint == null ? 0 : checkpoint.evaluations());
+    /** Simulations that were recorded when the folder was opened, in the order of their ids. */
+    public List<EvaluationRecord> recorded() {
+        return log.records();
     }
 
     /** Writes where and how the run is carried out. */
     public void write(Environment environment) {
         AtomicFile.write(directory.resolve("environment.json"), Json.document(environment));
+    }
+
+    /** Writes what the run did not have to simulate. */
+    public void write(Savings savings) {
+        AtomicFile.write(directory.resolve(SAVINGS), Json.document(savings));
+    }
+
+    /** What the run in a folder did not have to simulate; null if that was not recorded. */
+    public static Savings savings(Path directory) {
+        Path file = directory.resolve(SAVINGS);
+        return Files.exists(file) ? Json.read(file, Savings.class, "savings") : null;
     }
 
     @Override
@@ -145,7 +221,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         AtomicFile.write(directory.resolve("generations.csv"), GenerationTable.csv(state.history()));
         if (state.best() != null) {
             BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()), vacuum);
-            AtomicFile.write(directory.resolve("best.json"), Json.document(best));
+            AtomicFile.write(directory.resolve(BEST), Json.document(best));
         }
     }
 

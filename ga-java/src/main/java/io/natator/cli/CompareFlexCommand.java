@@ -1,13 +1,14 @@
 package io.natator.cli;
 
+import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.simulator.SimulatorLocator;
 import io.natator.study.FlexStudy;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
@@ -24,6 +25,9 @@ final class CompareFlexCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
 
+    @Mixin
+    private ExecutionOptions executionOptions;
+
     @Option(names = "--variants", required = true, paramLabel = "FILE", description = "List of variants as JSON.")
     private Path variants;
 
@@ -34,22 +38,15 @@ final class CompareFlexCommand implements Callable<Integer> {
             description = "Runs per variant and interval, from 1. Default: ${DEFAULT-VALUE}.")
     private int runs;
 
-    @Option(names = "--workers", paramLabel = "N", defaultValue = "1",
-            description = "Evaluations at the same time, from 1. Default: ${DEFAULT-VALUE}.")
-    private int workers;
-
     @Option(names = "--only", paramLabel = "NAME", description = "Evaluate one variant only.")
     private String only;
 
-    @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
-            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else build/release/bin/natator-sim.")
-    private Path simulatorPath;
-
     @Override
     public Integer call() throws InterruptedException {
-        // The results name the program as it is seen from here, not where on this machine it lies.
-        Path simulator = Path.of("").toAbsolutePath().relativize(SimulatorLocator.locate(simulatorPath));
-        ExecutionSettings execution = new ExecutionSettings(simulator, workers, TIMEOUT);
+        ExecutionSettings execution = executionOptions.execution(Backend.CPU);
+        if (execution.timeout() == null) {
+            execution = execution.withTimeout(TIMEOUT);
+        }
         Path page = new FlexStudy(variants, directory, runs).run(execution, only);
         spec.commandLine().getOut().println(page);
         return ExitCode.OK;

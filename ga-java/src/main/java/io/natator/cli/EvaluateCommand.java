@@ -2,17 +2,18 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.encoding.DenseEncoding;
 import io.natator.encoding.Gait;
-import io.natator.simulator.ProcessSimulator;
+import io.natator.simulator.Evaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
-import io.natator.simulator.Simulator;
+import io.natator.simulator.TimeLimit;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -34,7 +35,10 @@ final class EvaluateCommand implements Callable<Integer> {
     private CommandSpec spec;
 
     @Mixin
-    private SimulatorOptions simulatorOptions;
+    private SceneOptions sceneOptions;
+
+    @Mixin
+    private ExecutionOptions executionOptions;
 
     @Option(names = "--scene", required = true, paramLabel = "NAME|FILE", description = "For example thesis/creature-1.")
     private String scene;
@@ -46,23 +50,26 @@ final class EvaluateCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        ExecutionSettings execution = simulatorOptions.execution(1);
-        String sceneName = SimulatorOptions.scene(scene);
-        SimulationRequest request = new SimulationRequest(0, sceneName, gait(sceneName, execution),
-                simulatorOptions.duration(), simulatorOptions.scheme(), simulatorOptions.overrides());
+        ExecutionSettings execution = executionOptions.execution(Backend.CPU);
+        String sceneName = SceneOptions.scene(scene);
+        SceneInfo info = SceneInfo.of(sceneName, sceneOptions.overrides(), execution.simulator());
+        SimulationRequest request = new SimulationRequest(0, sceneName, gait(info.actuators()),
+                sceneOptions.duration(), sceneOptions.scheme(), sceneOptions.overrides());
+        if (execution.timeout() == null) {
+            execution = execution.withTimeout(TimeLimit.of(info, sceneOptions.duration()));
+        }
         SimulationResult result;
-        try (Simulator simulator = new ProcessSimulator(execution)) {
-            result = simulator.evaluate(request);
+        try (Evaluator evaluator = Evaluator.open(execution)) {
+            result = evaluator.evaluate(request);
         }
         spec.commandLine().getOut().println(Json.line(result));
         return result.status() == SimulationResult.Status.OK ? ExitCode.OK : ExitCode.SOFTWARE;
     }
 
-    private Gait gait(String sceneName, ExecutionSettings execution) throws InterruptedException {
+    private Gait gait(int actuators) {
         if (gait.size() == 1 && (gait.get(0).endsWith(".json") || Files.exists(Path.of(gait.get(0))))) {
             return gaitOf(Path.of(gait.get(0)));
         }
-        int actuators = SceneInfo.of(sceneName, execution).actuators();
         List<Double> genes = numbers();
         // Of two actuators both encodings are the same.
         boolean dense = genes.size() == new DenseEncoding(Math.max(actuators, 1)).genes().size() || genes.size() != 4;

@@ -1,11 +1,13 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.RunFolder;
+import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
 import io.natator.simulator.SceneInfo;
 import java.io.IOException;
@@ -29,13 +31,20 @@ final class EvolveCommand implements Callable<Integer> {
 
     /** Options that do not change what a run computes, so that they may be given when it is continued. */
     private static final List<String> WITH_RESUME =
-            List.of("--resume", "--workers", "--timeout", "--simulator-path");
+            List.of("--resume", "--stop-after", "--simulator", "--backend", "--device", "--workers", "--timeout",
+                    "--simulator-path", "--no-cache");
 
     @Spec
     private CommandSpec spec;
 
     @Mixin
-    private SimulatorOptions simulatorOptions;
+    private SceneOptions sceneOptions;
+
+    @Mixin
+    private ExecutionOptions executionOptions;
+
+    @Mixin
+    private CacheOptions cacheOptions;
 
     @Option(names = "--creature", paramLabel = "1..4", description = "Creature of the thesis. Default: 1.")
     private Integer creature;
@@ -53,6 +62,14 @@ final class EvolveCommand implements Callable<Integer> {
     @Option(names = "--generations", paramLabel = "N", description = "Generations after the random one, from 0.")
     private Integer generations;
 
+    @Option(names = "--evaluations", paramLabel = "N",
+            description = "End after so many evaluations, from 1. Default: what the generations take.")
+    private Long evaluations;
+
+    @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap", converter = OptimizerName.class,
+            description = "jgap (the thesis' genetic algorithm), cma-es or random. Default: ${DEFAULT-VALUE}.")
+    private OptimizerKind optimizer;
+
     @Option(names = "--seed", paramLabel = "N", defaultValue = "1",
             description = "The same seed gives the same run. Default: ${DEFAULT-VALUE}.")
     private long seed;
@@ -69,52 +86,66 @@ final class EvolveCommand implements Callable<Integer> {
             description = "Genes: dense or sparse. Default: the creature's (2 is sparse, the others dense).")
     private EncodingKind encoding;
 
-    @Option(names = "--workers", paramLabel = "N",
-            description = "Evaluations at the same time; the result does not depend on it. Default: all processors.")
-    private Integer workers;
-
     @Option(names = "--output-dir", paramLabel = "DIR",
             description = "Run folder, new or empty. Default: runs/creature-N-seed-S, numbered if there is one.")
     private Path outputDir;
+
+    @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued by --resume.")
+    private Double stopAfter;
 
     @Option(names = "--resume", paramLabel = "DIR", description = "Continue the run in this folder.")
     private Path resume;
 
     @Override
     public Integer call() throws InterruptedException {
-        ExecutionSettings execution = simulatorOptions.execution(
-                workers == null ? Runtime.getRuntime().availableProcessors() : workers);
-        try (RunFolder folder = resume == null ? newFolder(execution) : oldFolder()) {
-            new EvolutionRun(folder, execution, spec.commandLine().getOut(), spec.commandLine().getErr()).run();
+        checkStopAfter(stopAfter);
+        if (resume != null) {
+            refuseSettings();
+            ResumeCommand.resume(resume, executionOptions, cacheOptions, stopAfter, spec);
+            return ExitCode.OK;
         }
+        ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
+        EvolutionSettings settings = settings(execution);
+        RunFolder folder = RunFolder.create(outputDir != null ? outputDir : freeFolder(settings.scene()), settings);
+        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
         return ExitCode.OK;
     }
 
-    private RunFolder oldFolder() {
+    static void checkStopAfter(Double seconds) {
+        if (seconds != null && (!(seconds > 0) || Double.isInfinite(seconds))) {
+            throw new InvalidInputException("--stop-after is " + seconds + "; expected a number of seconds above 0");
+        }
+    }
+
+    private void refuseSettings() {
         for (OptionSpec option : spec.commandLine().getParseResult().matchedOptions()) {
             if (!WITH_RESUME.contains(option.longestName())) {
                 throw new ParameterException(spec.commandLine(), option.longestName()
                         + " cannot be given with --resume: the run keeps its settings");
             }
         }
-        return RunFolder.open(resume);
     }
 
-    private RunFolder newFolder(ExecutionSettings execution) throws InterruptedException {
+    private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
         String sceneName = sceneName();
-        int actuators = SceneInfo.of(sceneName, execution).actuators();
-        EncodingKind kind = encoding != null ? encoding
-                : sceneName.startsWith("thesis/creature-2") ? EncodingKind.SPARSE : EncodingKind.DENSE;
+        int actuators = SceneInfo.of(sceneName, sceneOptions.overrides(), execution.simulator()).actuators();
+        EncodingKind kind = encoding != null ? encoding : EncodingKind.usualFor(sceneName);
         try {
             kind.forActuators(actuators);
         } catch (IllegalArgumentException e) {
             throw new InvalidInputException("scene " + sceneName + ": " + e.getMessage(), e);
         }
-        EvolutionSettings settings = new EvolutionSettings(sceneName, kind, actuators,
-                population != null ? population : preset.population(),
-                generations != null ? generations : preset.generations(), seed, operators, gaussianDeviation,
-                simulatorOptions.scheme(), simulatorOptions.duration(), simulatorOptions.overrides());
-        return RunFolder.create(outputDir != null ? outputDir : freeFolder(sceneName), settings);
+        return EvolutionSettings.of(sceneName, kind, actuators)
+                .withSize(population != null ? population : preset.population(), generations())
+                .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)
+                .withBackend(execution.backend())
+                .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides());
+    }
+
+    /** With a number of evaluations alone, that is what ends the run. */
+    private int generations() {
+        return generations != null ? generations
+                : evaluations != null ? EvolutionSettings.NO_LIMIT : preset.generations();
     }
 
     private String sceneName() {
@@ -124,7 +155,7 @@ final class EvolveCommand implements Callable<Integer> {
         if (creature != null && (creature < 1 || creature > 4)) {
             throw new InvalidInputException("--creature is " + creature + "; expected 1, 2, 3 or 4");
         }
-        return scene != null ? SimulatorOptions.scene(scene) : "thesis/creature-" + (creature != null ? creature : 1);
+        return scene != null ? SceneOptions.scene(scene) : "thesis/creature-" + (creature != null ? creature : 1);
     }
 
     /** runs/creature-1-seed-7, or with -2, -3 … if that is taken. */

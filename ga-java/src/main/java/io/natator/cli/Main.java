@@ -5,7 +5,8 @@ import picocli.CommandLine.Command;
 
 /** The {@code natator} program. Results go to standard output, logs and progress to standard error. */
 @Command(name = "natator", description = "Evolves and evaluates gaits of swimming soft bodies.",
-        subcommands = {EvolveCommand.class, EvaluateCommand.class, CompareFlexCommand.class, PlotCommand.class},
+        subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, CompareFlexCommand.class,
+            CompareOptimizersCommand.class, PlotCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})
@@ -21,7 +22,13 @@ public final class Main {
      */
     public static void main(String[] arguments) {
         System.setProperty("java.awt.headless", "true");
-        int status = commandLine().execute(arguments);
+        CommandLine command = commandLine();
+        int status = command.execute(arguments);
+        command.getOut().flush();
+        if (System.out.checkError() && status == CommandLine.ExitCode.OK) {
+            System.err.println("natator: standard output cannot be written");
+            status = CommandLine.ExitCode.SOFTWARE;
+        }
         if (status != CommandLine.ExitCode.OK) {
             System.exit(status);
         }

@@ -1,5 +1,7 @@
 package io.natator.cli;
 
+import io.natator.config.EvolutionSettings;
+import io.natator.config.OptimizerKind;
 import java.util.function.LongSupplier;
 
 /** How fast an evolution goes and how long it will still take, judged by the simulations so far. */
@@ -9,28 +11,31 @@ final class Pace {
     /** New chromosomes of a generation as a share of the population, before one is known (measured on JGAP: 1.49). */
     private static final double CHILDREN_PER_SELECTED = 1.5;
 
-    private final int generations;
-    private final int population;
+    private final EvolutionSettings settings;
     private final LongSupplier clock;
     private final long started;
+    private final long budget;
     private long done;
     private long expected;
 
     /**
      * Starts the clock.
      *
-     * @param clock in nanoseconds, as {@link System#nanoTime()}
+     * @param before simulations that the run has behind it
+     * @param clock  in nanoseconds, as {@link System#nanoTime()}
      */
-    Pace(int generations, int population, LongSupplier clock) {
-        this.generations = generations;
-        this.population = population;
+    Pace(EvolutionSettings settings, long before, LongSupplier clock) {
+        this.settings = settings;
+        this.budget = settings.evaluations() == null ? Long.MAX_VALUE : settings.evaluations() - before;
         this.clock = clock;
         this.started = clock.getAsLong();
     }
 
     void generationStarted(int generation, int simulations) {
-        double later = generation == 0 ? CHILDREN_PER_SELECTED * population : simulations;
-        expected = done + simulations + Math.round((generations - generation) * later);
+        boolean unknown = generation == 0 && settings.optimizer() == OptimizerKind.JGAP;
+        double later = unknown ? CHILDREN_PER_SELECTED * settings.population() : simulations;
+        expected = Math.min(budget, done + simulations
+                + Math.round((double) (settings.generations() - generation) * later));
     }
 
     void evaluated() {
@@ -53,7 +58,11 @@ final class Pace {
         if (rate() == 0.0) {
             return "?";
         }
-        long seconds = Math.round((expected() - done) / rate());
+        return readable(Math.round((expected() - done) / rate()));
+    }
+
+    /** A time as {@code 1h02m}, {@code 3m10s} or {@code 5s}. */
+    static String readable(long seconds) {
         if (seconds >= 3600) {
             return String.format("%dh%02dm", seconds / 3600, seconds % 3600 / 60);
         }

@@ -14,7 +14,7 @@ import me.tongfei.progressbar.ProgressBarStyle;
 /** Tells how an evolution goes: by a bar on a terminal, by one line per generation elsewhere. */
 final class Progress implements EvolutionListener, AutoCloseable {
 
-    private final int generations;
+    private final String generations;
     private final Pace pace;
     private final PrintWriter out;
     private final ProgressBar bar;
@@ -22,12 +22,13 @@ final class Progress implements EvolutionListener, AutoCloseable {
     /**
      * Starts the clock.
      *
+     * @param before   simulations that the run has behind it
      * @param out      for the lines
      * @param terminal whether to draw a bar instead, on standard error
      */
-    Progress(EvolutionSettings settings, PrintWriter out, boolean terminal) {
-        this.generations = settings.generations();
-        this.pace = new Pace(generations, settings.population(), System::nanoTime);
+    Progress(EvolutionSettings settings, long before, PrintWriter out, boolean terminal) {
+        this.generations = settings.generations() == EvolutionSettings.NO_LIMIT ? "" : "/" + settings.generations();
+        this.pace = new Pace(settings, before, System::nanoTime);
         this.out = out;
         this.bar = terminal ? new ProgressBarBuilder().setTaskName("").setInitialMax(1)
                 .setStyle(ProgressBarStyle.ASCII).showSpeed().build() : null;
@@ -53,11 +54,11 @@ final class Progress implements EvolutionListener, AutoCloseable {
     public void generationFinished(EvolutionState state) {
         GenerationSummary last = state.history().get(state.history().size() - 1);
         if (bar != null) {
-            bar.setExtraMessage(String.format(Locale.ROOT, " gen %d/%d best %.4f mean %.4f", last.generation(),
+            bar.setExtraMessage(String.format(Locale.ROOT, " gen %d%s best %.4f mean %.4f", last.generation(),
                     generations, last.best(), last.mean()));
             return;
         }
-        out.printf(Locale.ROOT, "generation %d/%d  best %.4f  mean %.4f  evaluations %d  %.1f/s  left %s%n",
+        out.printf(Locale.ROOT, "generation %d%s  best %.4f  mean %.4f  evaluations %d  %.1f/s  left %s%n",
                 last.generation(), generations, last.best(), last.mean(), state.evaluations(), pace.rate(),
                 pace.left());
         out.flush();

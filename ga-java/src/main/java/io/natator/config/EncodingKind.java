@@ -23,4 +23,9 @@ public enum EncodingKind {
     public Encoding forActuators(int actuators) {
         return this == DENSE ? new DenseEncoding(actuators) : new SparseEncoding(actuators);
     }
+
+    /** The encoding that the thesis used for a scene (2.7): sparse for creature 2, dense for the others. */
+    public static EncodingKind usualFor(String scene) {
+        return scene.startsWith("thesis/creature-2") ? SPARSE : DENSE;
+    }
 }

@@ -5,46 +5,115 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 /**
  * All that determines the outcome of an evolution: the same settings and simulator give the same run. Written to
- * {@code config.json}; how it is executed (workers, time limit, paths) is not part of it.
+ * {@code config.json}; how it is executed (workers, time limit, paths) is not part of it. Made by
+ * {@link #of(String, EncodingKind, int)}; settings that a file does not have are the defaults.
  *
  * @param scene             name or path of the scene
  * @param encoding          how genes stand for a gait
  * @param actuators         number of actuators of the scene's creature
- * @param population        chromosomes at the start and selected in each generation, at least 2 (thesis: 150)
+ * @param optimizer         what searches
+ * @param population        chromosomes at the start and selected in each generation (thesis: 150); for the other
+ *                          optimizers the evaluations of a generation; at least 2
  * @param generations       generations bred after the random one, at least 0 (thesis: 100)
+ * @param evaluations       simulations after which the run ends, within a generation if need be, at least 1; null for
+ *                          as many as the generations take
  * @param seed              of all random choices
  * @param operators         which genetic operators to use
  * @param gaussianDeviation deviation of the Gaussian mutation as a share of the gene's range, above 0; JGAP's own: 0.05
+ * @param fitness           what selection rewards
+ * @param vacuumCheck       whether the best of a generation, where it is a new best, is also run in vacuum
+ * @param backend           what the simulator computes on
  * @param scheme            scheme to ask the simulator for, or null for the scene's own
  * @param duration          simulated time in seconds, above 0, or null for the scene's own
  * @param overrides         JSON Merge Patch on the scene, or null
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record EvolutionSettings(String scene, EncodingKind encoding, int actuators, int population, int generations,
-        long seed, OperatorSet operators, double gaussianDeviation, Scheme scheme, Double duration,
+public record EvolutionSettings(String scene, EncodingKind encoding, int actuators, OptimizerKind optimizer,
+        int population, int generations, Long evaluations, long seed, OperatorSet operators, double gaussianDeviation,
+        FitnessKind fitness, Boolean vacuumCheck, Backend backend, Scheme scheme, Double duration,
         JsonNode overrides) {
+
+    /** Generations of a run that ends by its number of evaluations alone. */
+    public static final int NO_LIMIT = Integer.MAX_VALUE;
 
     /** Elites of 150 selected chromosomes (thesis 2.6). */
     private static final double ELITE_SHARE = 30.0 / 150.0;
 
     /**
-     * Checks the ranges.
+     * Checks the ranges and fills in defaults.
      *
      * @throws InvalidInputException naming the setting that is out of range
      */
     public EvolutionSettings {
         require(population >= 2, "population", population, "a whole number from 2");
         require(generations >= 0, "generations", generations, "a whole number from 0");
+        require(evaluations == null || evaluations >= 1, "evaluations", evaluations, "a whole number from 1");
         require(gaussianDeviation > 0 && gaussianDeviation <= 1, "gaussian-deviation", gaussianDeviation,
                 "a number above 0 and up to 1");
         require(duration == null || duration > 0 && duration < Double.POSITIVE_INFINITY, "duration", duration,
                 "a number of seconds above 0");
+        optimizer = optimizer == null ? OptimizerKind.JGAP : optimizer;
+        fitness = fitness == null ? FitnessKind.DISTANCE : fitness;
+        vacuumCheck = vacuumCheck != null && vacuumCheck;
+        backend = backend == null ? Backend.CPU : backend;
     }
 
     private static void require(boolean valid, String name, Object value, String expected) {
         if (!valid) {
             throw new InvalidInputException(name + " is " + value + "; expected " + expected);
         }
+    }
+
+    /** The thesis' settings for a scene, with seed 1 and the corrected operators, on the processor. */
+    public static EvolutionSettings of(String scene, EncodingKind encoding, int actuators) {
+        return new EvolutionSettings(scene, encoding, actuators, OptimizerKind.JGAP, Preset.THESIS.population(),
+                Preset.THESIS.generations(), null, 1, OperatorSet.CORRECTED, 0.05, FitnessKind.DISTANCE, false,
+                Backend.CPU, null, null, null);
+    }
+
+    /** These settings with another size. */
+    public EvolutionSettings withSize(int newPopulation, int newGenerations) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, newPopulation, newGenerations,
+                evaluations, seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration,
+                overrides);
+    }
+
+    /** These settings with a number of simulations, or null, after which the run ends. */
+    public EvolutionSettings withEvaluations(Long newEvaluations) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, newEvaluations,
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides);
+    }
+
+    /** These settings with another seed. */
+    public EvolutionSettings withSeed(long newSeed) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
+                newSeed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides);
+    }
+
+    /** These settings with another optimizer and, for JGAP, its operators. */
+    public EvolutionSettings withOptimizer(OptimizerKind newOptimizer, OperatorSet newOperators,
+            double newGaussianDeviation) {
+        return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
+                seed, newOperators, newGaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides);
+    }
+
+    /** These settings with another reward, and with or without the check of new bests in vacuum. */
+    public EvolutionSettings withFitness(FitnessKind newFitness, boolean newVacuumCheck) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
+                seed, operators, gaussianDeviation, newFitness, newVacuumCheck, backend, scheme, duration, overrides);
+    }
+
+    /** These settings on another backend. */
+    public EvolutionSettings withBackend(Backend newBackend) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, newBackend, scheme, duration, overrides);
+    }
+
+    /** These settings with the scene changed; null leaves what the scene has. */
+    public EvolutionSettings withScene(Scheme newScheme, Double newDuration, JsonNode newOverrides) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, newScheme, newDuration,
+                newOverrides);
     }
 
     /** How many of the selected are the best; 30 of 150 as in the thesis, the same share of other populations. */

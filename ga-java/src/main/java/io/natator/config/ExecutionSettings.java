@@ -4,13 +4,18 @@ import java.nio.file.Path;
 import java.time.Duration;
 
 /**
- * How an evolution is carried out; none of it changes the outcome.
+ * How evaluations are carried out; only the backend (and the GPU's model) changes the outcome, in the last digits.
  *
  * @param simulator the {@code natator-sim} program
- * @param workers   evaluations at the same time, at least 1
- * @param timeout   longest time for one attempt at an evaluation
+ * @param mode      how evaluations reach it
+ * @param backend   what it computes on
+ * @param device    number of the GPU, from 0
+ * @param workers   evaluations at the same time, at least 1; in mode batch the program decides
+ * @param timeout   longest time for one attempt at an evaluation, or null to derive it from the scene's cost
+ * @param cache     folder of evaluations that need not be done again, or null for none
  */
-public record ExecutionSettings(Path simulator, int workers, Duration timeout) {
+public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
+        Duration timeout, Path cache) {
 
     /**
      * Checks the ranges.
@@ -21,9 +26,37 @@ public record ExecutionSettings(Path simulator, int workers, Duration timeout) {
         if (workers < 1) {
             throw new InvalidInputException("workers is " + workers + "; expected a whole number from 1");
         }
-        if (timeout.isNegative() || timeout.isZero()) {
+        if (device < 0) {
+            throw new InvalidInputException("device is " + device + "; expected a whole number from 0");
+        }
+        if (timeout != null && (timeout.isNegative() || timeout.isZero())) {
             throw new InvalidInputException("timeout is " + timeout.toMillis() / 1000.0
                     + "; expected a number of seconds above 0");
         }
+    }
+
+    /** A process for each evaluation, on the processor, without a cache. */
+    public ExecutionSettings(Path simulator, int workers, Duration timeout) {
+        this(simulator, SimulatorMode.PROCESS, Backend.CPU, 0, workers, timeout, null);
+    }
+
+    /** These settings in another mode. */
+    public ExecutionSettings withMode(SimulatorMode newMode) {
+        return new ExecutionSettings(simulator, newMode, backend, device, workers, timeout, cache);
+    }
+
+    /** These settings on another backend. */
+    public ExecutionSettings withBackend(Backend newBackend) {
+        return new ExecutionSettings(simulator, mode, newBackend, device, workers, timeout, cache);
+    }
+
+    /** These settings with a time limit. */
+    public ExecutionSettings withTimeout(Duration newTimeout) {
+        return new ExecutionSettings(simulator, mode, backend, device, workers, newTimeout, cache);
+    }
+
+    /** These settings with another cache, or null for none. */
+    public ExecutionSettings withCache(Path newCache) {
+        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, newCache);
     }
 }

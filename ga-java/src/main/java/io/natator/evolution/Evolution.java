@@ -3,12 +3,11 @@ package io.natator.evolution;
 import io.natator.analysis.GenerationSummary;
 import io.natator.config.EvolutionSettings;
 import io.natator.encoding.Encoding;
+import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
-import io.natator.simulator.WorkerPool;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
 
 /**
  * Evolves the gait of one creature. The course depends on the settings and the simulator's answers only: not on the
@@ -18,9 +17,9 @@ public final class Evolution {
 
     private final EvolutionSettings settings;
     private final Encoding encoding;
-    private final WorkerPool pool;
+    private final Evaluator evaluator;
     private final List<EvolutionListener> listeners;
-    private final Map<Long, EvaluationRecord> replay;
+    private final List<EvaluationRecord> recorded;
 
     private int generation;
     private long evaluations;
@@ -30,37 +29,47 @@ public final class Evolution {
     /**
      * An evolution that has not begun.
      *
-     * @param pool      carries out the simulations; stays open
+     * @param evaluator carries out the simulations; stays open
      * @param listeners told of everything in this order
-     * @param replay    simulations by id that an interrupted run had already finished after its last checkpoint; empty
-     *                  for a new run
+     * @param recorded  simulations that an interrupted run had finished, in the order of their ids from 0; empty for a
+     *                  new run
      */
-    public Evolution(EvolutionSettings settings, WorkerPool pool, List<EvolutionListener> listeners,
-            Map<Long, EvaluationRecord> replay) {
+    public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
+            List<EvaluationRecord> recorded) {
         this.settings = settings;
         this.encoding = settings.encoding().forActuators(settings.actuators());
-        this.pool = pool;
+        this.evaluator = evaluator;
         this.listeners = List.copyOf(listeners);
-        this.replay = Map.copyOf(replay);
+        this.recorded = List.copyOf(recorded);
     }
 
     /**
-     * Runs to the last generation.
+     * Runs to the last generation, or until the settings' number of evaluations is reached.
      *
      * @param from where to continue, or null to begin with a random generation
      * @return the state after the last generation
-     * @throws EvolutionFailedException if most simulations of a generation fail
+     * @throws EvolutionFailedException  if most simulations of a generation fail
+     * @throws EvolutionStoppedException if the evaluator is closed or the calling thread interrupted
      */
     public EvolutionState run(EvolutionState from) {
         evaluations = from == null ? 0 : from.evaluations();
-        try (GeneticAlgorithm algorithm = new GeneticAlgorithm(settings, encoding.genes(), this::simulate)) {
-            EvolutionState state = from == null ? finish(null, algorithm.first()) : from;
-            while (state.generation() < settings.generations()) {
-                generation = state.generation() + 1;
-                state = finish(state, algorithm.next(state.population(), generation));
+        if (recorded.size() < evaluations) {
+            throw new IllegalArgumentException(recorded.size() + " simulations recorded; expected the " + evaluations
+                    + " up to where the evolution is to continue");
+        }
+        try (Optimizer optimizer = Optimizer.of(settings, encoding.genes(), this::simulate)) {
+            optimizer.recall(recorded.subList(0, (int) evaluations));
+            EvolutionState state = from;
+            while (state == null || !state.isLastOf(settings)) {
+                generation = state == null ? 0 : state.generation() + 1;
+                state = finish(state, optimizer.next(generation, state == null ? List.of() : state.population()));
             }
             return state;
         }
+    }
+
+    private long budgetLeft() {
+        return settings.evaluations() == null ? Long.MAX_VALUE : Math.max(settings.evaluations() - evaluations, 0);
     }
 
     /** The state after a generation, announced to the listeners. */
@@ -69,13 +78,13 @@ public final class Evolution {
         for (Individual individual : population) {
             SimulationResult result = individual.result();
             if (result.status() == SimulationResult.Status.OK
-                    && (best == null || result.distance() > best.result().distance())) {
+                    && (best == null || result.score() > best.result().score())) {
                 best = individual;
             }
         }
-        double[] distances = population.stream().mapToDouble(one -> one.result().distanceOrZero()).toArray();
+        double[] scores = population.stream().mapToDouble(one -> one.result().score()).toArray();
         List<GenerationSummary> history = new ArrayList<>(before == null ? List.of() : before.history());
-        history.add(GenerationSummary.of(generation, distances, simulated.size(),
+        history.add(GenerationSummary.of(generation, scores, simulated.size(),
                 count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED)));
         EvolutionState state = new EvolutionState(generation, evaluations, population, best, history);
         listeners.forEach(listener -> listener.generationFinished(state));
@@ -83,10 +92,11 @@ public final class Evolution {
     }
 
     /** Simulates the new genomes of the current generation, save those that the interrupted run had finished. */
-    private List<SimulationResult> simulate(List<List<Double>> genomes) {
+    private List<SimulationResult> simulate(List<List<Double>> proposed) {
         simulated.clear();
+        List<List<Double>> genomes = proposed.subList(0, (int) Math.min(proposed.size(), budgetLeft()));
         listeners.forEach(listener -> listener.generationStarted(generation, genomes.size()));
-        while (simulated.size() < genomes.size() && replay.containsKey(evaluations)) {
+        while (simulated.size() < genomes.size() && evaluations < recorded.size()) {
             accept(replayed(genomes.get(simulated.size())));
         }
         List<SimulationRequest> requests = new ArrayList<>();
@@ -95,20 +105,20 @@ public final class Evolution {
                     encoding.decode(genes), settings.duration(), settings.scheme(), settings.overrides()));
         }
         try {
-            pool.evaluateAll(requests, result -> {
+            evaluator.evaluateInOrder(requests, result -> {
                 List<Double> genes = genomes.get(simulated.size());
                 accept(new EvaluationRecord(generation, genes, encoding.decode(genes), result));
             });
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new EvolutionFailedException("interrupted", e);
+            throw new EvolutionStoppedException("stopped in generation " + generation + " after " + evaluations
+                    + " evaluations");
         }
         failIfMostFailed();
         return List.copyOf(simulated);
     }
 
     private EvaluationRecord replayed(List<Double> genes) {
-        EvaluationRecord found = replay.get(evaluations);
+        EvaluationRecord found = recorded.get((int) evaluations);
         if (!found.genes().equals(genes)) {
             throw new EvolutionFailedException("recorded evaluation " + evaluations
                     + " is of other genes than this evolution's: the run folder was changed, or made by another version");

@@ -1,6 +1,7 @@
 package io.natator.evolution;
 
 import io.natator.analysis.GenerationSummary;
+import io.natator.config.EvolutionSettings;
 import java.util.List;
 
 /**
@@ -20,5 +21,11 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
     public EvolutionState {
         population = List.copyOf(population);
         history = List.copyOf(history);
+    }
+
+    /** Whether an evolution with these settings goes no further than this state. */
+    public boolean isLastOf(EvolutionSettings settings) {
+        return generation >= settings.generations()
+                || settings.evaluations() != null && evaluations >= settings.evaluations();
     }
 }

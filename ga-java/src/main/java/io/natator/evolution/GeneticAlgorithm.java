@@ -25,10 +25,9 @@ import org.jgap.impl.StockRandomGenerator;
  *
  * <p>To be used by one thread; JGAP keeps part of a configuration in system properties named after thread and id.
  */
-final class GeneticAlgorithm implements AutoCloseable {
+final class GeneticAlgorithm implements Optimizer {
 
     private static final AtomicLong RUNS = new AtomicLong();
-    private static final long GOLDEN_RATIO = 0x9E3779B97F4A7C15L;
 
     private final EvolutionSettings settings;
     private final List<GeneRange> ranges;
@@ -36,7 +35,7 @@ final class GeneticAlgorithm implements AutoCloseable {
     private final StockRandomGenerator random = new StockRandomGenerator();
     private final Configuration configuration;
 
-    GeneticAlgorithm(EvolutionSettings settings, List<GeneRange> ranges, BatchEvaluator evaluator) {
+    GeneticAlgorithm(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
         this.settings = settings;
         this.ranges = ranges;
         this.breeder = new ThesisBreeder(settings, evaluator);
@@ -64,52 +63,37 @@ final class GeneticAlgorithm implements AutoCloseable {
         configuration.lockSettings();
     }
 
-    /** Generation 0: random chromosomes, evaluated. */
-    List<Individual> first() {
-        random.setSeed(seedOf(0));
+    @Override
+    public List<Individual> next(int generation, List<Individual> parents) {
+        random.setSeed(Seeds.of(settings.seed(), generation));
         try {
-            Population population = new Population(configuration, settings.population());
-            for (int i = 0; i < settings.population(); i++) {
-                IChromosome chromosome = Chromosome.randomInitialChromosome(configuration);
-                chromosome.increaseAge();
-                population.addChromosome(chromosome);
-            }
-            breeder.updateChromosomes(population, configuration);
-            return individuals(population);
+            return individuals(generation == 0 ? first() : children(parents));
         } catch (InvalidConfigurationException e) {
             throw new IllegalStateException(e);
         }
     }
 
-    /**
-     * The next generation, evaluated.
-     *
-     * @param parents    all individuals of the generation before
-     * @param generation its number, at least 1
-     */
-    List<Individual> next(List<Individual> parents, int generation) {
-        random.setSeed(seedOf(generation));
+    /** Random chromosomes, evaluated. */
+    private Population first() throws InvalidConfigurationException {
+        Population population = new Population(configuration, settings.population());
+        for (int i = 0; i < settings.population(); i++) {
+            IChromosome chromosome = Chromosome.randomInitialChromosome(configuration);
+            chromosome.increaseAge();
+            population.addChromosome(chromosome);
+        }
+        return breeder.evaluate(population, configuration);
+    }
+
+    private Population children(List<Individual> parents) throws InvalidConfigurationException {
         breeder.know(parents);
-        try {
-            Population population = new Population(configuration, parents.size());
-            for (Individual parent : parents) {
-                IChromosome chromosome = chromosome(parent.genes());
-                chromosome.setAge(parent.age());
-                chromosome.setFitnessValueDirectly(parent.result().fitness());
-                population.addChromosome(chromosome);
-            }
-            return individuals(breeder.evolve(population, configuration));
-        } catch (InvalidConfigurationException e) {
-            throw new IllegalStateException(e);
+        Population population = new Population(configuration, parents.size());
+        for (Individual parent : parents) {
+            IChromosome chromosome = chromosome(parent.genes());
+            chromosome.setAge(parent.age());
+            chromosome.setFitnessValueDirectly(parent.result().fitness());
+            population.addChromosome(chromosome);
         }
-    }
-
-    /** A seed of its own for each generation, mixed as in SplitMix64 (Steele, Lea, Flood 2014). */
-    private long seedOf(int generation) {
-        long z = settings.seed() + (generation + 1) * GOLDEN_RATIO;
-        z = (z ^ (z >>> 30)) * 0xBF58476D1CE4E5B9L;
-        z = (z ^ (z >>> 27)) * 0x94D049BB133111EBL;
-        return z ^ (z >>> 31);
+        return breeder.evolve(population, configuration);
     }
 
     private IChromosome chromosome(List<Double> values) throws InvalidConfigurationException {

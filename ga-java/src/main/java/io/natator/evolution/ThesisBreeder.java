@@ -24,11 +24,11 @@ import org.jgap.impl.GABreeder;
 final class ThesisBreeder extends GABreeder {
 
     private final transient EvolutionSettings settings;
-    private final transient BatchEvaluator evaluator;
+    private final transient GenerationEvaluator evaluator;
     /** Results of the chromosomes of the current population, by their genes. */
     private final transient Map<List<Double>, SimulationResult> known = new HashMap<>();
 
-    ThesisBreeder(EvolutionSettings settings, BatchEvaluator evaluator) {
+    ThesisBreeder(EvolutionSettings settings, GenerationEvaluator evaluator) {
         this.settings = settings;
         this.evaluator = evaluator;
     }
@@ -38,9 +38,7 @@ final class ThesisBreeder extends GABreeder {
     public Population evolve(Population parents, Configuration configuration) {
         Population selected = select(parents, configuration);
         Population children = alter(selected, configuration);
-        Population next = combine(selected, children);
-        updateChromosomes(next, configuration);
-        return next;
+        return evaluate(combine(selected, children), configuration);
     }
 
     /** The best (30 of 150), the rest (120) by roulette. */
@@ -88,9 +86,10 @@ final class ThesisBreeder extends GABreeder {
     /**
      * Gives every chromosome its fitness. All whose genes are not those of a known chromosome are simulated, as one
      * batch and each once; a child that crossover or mutation left unchanged is not.
+     *
+     * @return the population without what could no more be simulated, since the run has had its evaluations
      */
-    @Override
-    protected void updateChromosomes(Population population, Configuration configuration) {
+    Population evaluate(Population population, Configuration configuration) {
         Set<List<Double>> present = new LinkedHashSet<>();
         for (IChromosome chromosome : population.toChromosomes()) {
             present.add(genesOf(chromosome));
@@ -98,12 +97,21 @@ final class ThesisBreeder extends GABreeder {
         List<List<Double>> unknown = new ArrayList<>(present);
         unknown.removeIf(known::containsKey);
         List<SimulationResult> results = evaluator.evaluate(unknown);
-        for (int i = 0; i < unknown.size(); i++) {
+        for (int i = 0; i < results.size(); i++) {
             known.put(unknown.get(i), results.get(i));
         }
         known.keySet().retainAll(present);
-        for (IChromosome chromosome : population.toChromosomes()) {
-            chromosome.setFitnessValueDirectly(resultOf(chromosome).fitness());
+        try {
+            Population evaluated = new Population(configuration, population.size());
+            for (IChromosome chromosome : population.toChromosomes()) {
+                if (known.containsKey(genesOf(chromosome))) {
+                    chromosome.setFitnessValueDirectly(resultOf(chromosome).fitness());
+                    evaluated.addChromosome(chromosome);
+                }
+            }
+            return evaluated;
+        } catch (InvalidConfigurationException e) {
+            throw new IllegalStateException(e);
         }
     }
 

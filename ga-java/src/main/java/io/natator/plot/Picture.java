@@ -8,7 +8,7 @@ import org.knowm.xchart.VectorGraphicsEncoder;
 import org.knowm.xchart.internal.chartpart.Chart;
 
 /** A chart as SVG and PNG. */
-final class Picture {
+public final class Picture {
 
     private Picture() {
     }
@@ -20,7 +20,7 @@ final class Picture {
      * @return the PNG file
      * @throws IOException if that fails
      */
-    static Path save(Chart<?, ?> chart, Path file) throws IOException {
+    public static Path save(Chart<?, ?> chart, Path file) throws IOException {
         Files.createDirectories(file.toAbsolutePath().getParent());
         VectorGraphicsEncoder.saveVectorGraphic(chart, file.toString(), VectorGraphicsEncoder.VectorGraphicsFormat.SVG);
         BitmapEncoder.saveBitmap(chart, file.toString(), BitmapEncoder.BitmapFormat.PNG);

@@ -1,6 +1,5 @@
 package io.natator.simulator;
 
-import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.OutputStream;
@@ -9,8 +8,6 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Set;
-import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
@@ -27,15 +24,12 @@ final class NativeProgram implements AutoCloseable {
 
     /** A result is some 300 bytes; a scene's info a few kilobytes. */
     static final int MAX_OUTPUT_BYTES = 1 << 20;
-    private static final int KEPT_ERROR_BYTES = 4096;
     /** How long pipes may stay open after the program has ended, held by a descendant of it. */
     private static final long PIPE_GRACE_SECONDS = 2;
 
     private final Path program;
     private final Duration timeout;
-    private final Set<Process> running = ConcurrentHashMap.newKeySet();
-    private final Thread stopAtExit = new Thread(this::stop, "stop-simulators");
-    private volatile boolean stopped;
+    private final ProcessGroup processes = new ProcessGroup();
     private final ExecutorService pipes = Executors.newCachedThreadPool(task -> {
         Thread thread = new Thread(task, "simulator-pipe");
         thread.setDaemon(true);
@@ -49,7 +43,6 @@ final class NativeProgram implements AutoCloseable {
     NativeProgram(Path program, Duration timeout) {
         this.program = program;
         this.timeout = timeout;
-        Runtime.getRuntime().addShutdownHook(stopAtExit);
     }
 
     /**
@@ -60,44 +53,25 @@ final class NativeProgram implements AutoCloseable {
      *                              then killed
      */
     Output call(List<String> arguments, String input) throws SimulatorFailure, InterruptedException {
-        try {
-            return start(arguments, input);
-        } finally {
-            failIfStopped();
-        }
-    }
-
-    /** What a program says when we killed it, or when an interrupt from the keyboard did, says nothing about it. */
-    private void failIfStopped() throws InterruptedException {
-        if (stopped) {
-            throw new InterruptedException("stopped");
-        }
-    }
-
-    private Output start(List<String> arguments, String input) throws SimulatorFailure, InterruptedException {
-        failIfStopped();
         List<String> command = new ArrayList<>();
         command.add(program.toString());
         command.addAll(arguments);
-        Process process;
         try {
-            process = new ProcessBuilder(command).start();
-        } catch (IOException e) {
-            throw new SimulatorFailure("cannot start " + program + ": " + e.getMessage(), e);
-        }
-        running.add(process);
-        try {
-            return converse(process, input);
+            Process process = processes.start(command);
+            try {
+                return converse(process, input);
+            } finally {
+                processes.end(process);
+            }
         } finally {
-            kill(process);
-            running.remove(process);
+            processes.failIfStopped();
         }
     }
 
     private Output converse(Process process, String input) throws SimulatorFailure, InterruptedException {
         pipes.submit(() -> write(process, input));
         Future<byte[]> output = pipes.submit(() -> readLimited(process));
-        Future<byte[]> errors = pipes.submit(() -> readTail(process.getErrorStream()));
+        Future<String> errors = pipes.submit(() -> ErrorTail.read(process.getErrorStream()));
         if (!process.waitFor(timeout.toMillis(), TimeUnit.MILLISECONDS)) {
             throw new SimulatorFailure("no answer within " + timeout.toMillis() / 1000.0 + " s");
         }
@@ -105,13 +79,12 @@ final class NativeProgram implements AutoCloseable {
         if (text.length > MAX_OUTPUT_BYTES) {
             throw new SimulatorFailure("more than " + MAX_OUTPUT_BYTES + " bytes of output");
         }
-        String lastErrors = new String(await(errors), StandardCharsets.UTF_8).strip().replaceAll("\\s*\\R\\s*", " | ");
-        return new Output(process.exitValue(), new String(text, StandardCharsets.UTF_8), lastErrors);
+        return new Output(process.exitValue(), new String(text, StandardCharsets.UTF_8), await(errors));
     }
 
-    private static byte[] await(Future<byte[]> bytes) throws SimulatorFailure, InterruptedException {
+    private static <T> T await(Future<T> read) throws SimulatorFailure, InterruptedException {
         try {
-            return bytes.get(PIPE_GRACE_SECONDS, TimeUnit.SECONDS);
+            return read.get(PIPE_GRACE_SECONDS, TimeUnit.SECONDS);
         } catch (TimeoutException e) {
             throw new SimulatorFailure("output still open after the program ended", e);
         } catch (ExecutionException e) {
@@ -131,51 +104,15 @@ final class NativeProgram implements AutoCloseable {
         try (InputStream stdout = process.getInputStream()) {
             byte[] bytes = stdout.readNBytes(MAX_OUTPUT_BYTES + 1);
             if (bytes.length > MAX_OUTPUT_BYTES) {
-                kill(process);
+                ProcessGroup.kill(process);
             }
             return bytes;
         }
     }
 
-    private static byte[] readTail(InputStream stderr) throws IOException {
-        try (stderr) {
-            ByteArrayOutputStream kept = new ByteArrayOutputStream();
-            byte[] buffer = new byte[KEPT_ERROR_BYTES];
-            for (int count = stderr.read(buffer); count >= 0; count = stderr.read(buffer)) {
-                if (kept.size() + count > 2 * KEPT_ERROR_BYTES) {
-                    kept.reset();
-                }
-                kept.write(buffer, 0, count);
-            }
-            return kept.toByteArray();
-        }
-    }
-
-    /**
-     * Kills the program with all its descendants. Not by {@link Process#destroyForcibly()}, which also closes the pipes:
-     * that waits for a thread that is writing, and so for a descendant that holds the pipe open but does not read it.
-     */
-    private static void kill(Process process) {
-        if (process.isAlive()) {
-            List<ProcessHandle> descendants = process.descendants().toList();
-            process.toHandle().destroyForcibly();
-            descendants.forEach(ProcessHandle::destroyForcibly);
-        }
-    }
-
-    private void stop() {
-        stopped = true;
-        running.forEach(NativeProgram::kill);
-    }
-
     @Override
     public void close() {
-        stop();
+        processes.close();
         pipes.shutdownNow();
-        try {
-            Runtime.getRuntime().removeShutdownHook(stopAtExit);
-        } catch (IllegalStateException e) {
-            // The virtual machine is already shutting down, and runs the hook itself.
-        }
     }
 }

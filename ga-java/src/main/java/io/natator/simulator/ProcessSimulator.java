@@ -1,6 +1,5 @@
 package io.natator.simulator;
 
-import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import java.util.List;
@@ -14,18 +13,26 @@ import org.slf4j.LoggerFactory;
  */
 public final class ProcessSimulator implements Simulator {
 
+    /** How often an evaluation is tried. */
+    static final int ATTEMPTS = 2;
+
     private static final Logger LOG = LoggerFactory.getLogger(ProcessSimulator.class);
-    private static final int ATTEMPTS = 2;
     private static final int EXIT_OK = 0;
     private static final int EXIT_BAD_INPUT = 2;
     private static final int EXIT_UNSTABLE = 3;
-    private static final int SHOWN_CHARACTERS = 80;
 
     private final NativeProgram program;
+    private final List<String> arguments;
 
-    /** A simulator that starts the given program for every evaluation. */
+    /**
+     * A simulator that starts the given program for every evaluation.
+     *
+     * @param settings with a time limit
+     */
     public ProcessSimulator(ExecutionSettings settings) {
         this.program = new NativeProgram(settings.simulator(), settings.timeout());
+        this.arguments = List.of("evaluate", "--backend", settings.backend().argument(), "--device",
+                "" + settings.device());
     }
 
     @Override
@@ -34,7 +41,7 @@ public final class ProcessSimulator implements Simulator {
         String reason = "";
         for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
             try {
-                return answer(request, program.call(List.of("evaluate"), input));
+                return answer(request, program.call(arguments, input));
             } catch (SimulatorFailure e) {
                 reason = e.getMessage();
                 LOG.warn("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ATTEMPTS, reason);
@@ -47,42 +54,28 @@ public final class ProcessSimulator implements Simulator {
             throws SimulatorFailure {
         SimulationResult result;
         try {
-            result = Json.parse(output.text(), SimulationResult.class);
-        } catch (JsonProcessingException e) {
-            throw new SimulatorFailure("no valid result: " + Json.reason(e) + in(output), e);
+            result = Answer.read(output.text());
+        } catch (SimulatorFailure e) {
+            throw new SimulatorFailure(e.getMessage() + end(output), e);
         }
-        if (result.status() == SimulationResult.Status.ERROR && result.error() != null && output.exitStatus() != 0) {
+        if (result.status() == SimulationResult.Status.ERROR && output.exitStatus() != EXIT_OK) {
             throw new RequestRejectedException(result.error(), output.exitStatus() == EXIT_BAD_INPUT);
         }
-        String fault = faultOf(request, result, output.exitStatus());
-        if (fault != null) {
-            throw new SimulatorFailure("no valid result: " + fault + in(output));
+        int expected = result.status() == SimulationResult.Status.UNSTABLE ? EXIT_UNSTABLE : EXIT_OK;
+        if (result.id() == null || result.id() != request.id()) {
+            throw new SimulatorFailure("no valid result: id is " + result.id() + ", not " + request.id()
+                    + end(output));
+        }
+        if (output.exitStatus() != expected || result.status() == SimulationResult.Status.ERROR) {
+            throw new SimulatorFailure("no valid result: status " + result.status().name().toLowerCase()
+                    + " with " + end(output).substring(2));
         }
         return result;
     }
 
-    /** What contradicts the protocol in an answer, or null. */
-    private static String faultOf(SimulationRequest request, SimulationResult result, int exitStatus) {
-        if (result.id() == null || result.id() != request.id()) {
-            return "id is " + result.id() + ", not " + request.id();
-        }
-        if (result.status() == SimulationResult.Status.OK) {
-            return exitStatus != EXIT_OK ? "status ok with exit status " + exitStatus
-                    : result.distance() == null || !Double.isFinite(result.distance()) ? "no finite distance"
-                    : result.simulated() == null || !(result.simulated() >= 0) ? "no simulated time"
-                    : null;
-        }
-        if (result.status() == SimulationResult.Status.UNSTABLE) {
-            return exitStatus != EXIT_UNSTABLE ? "status unstable with exit status " + exitStatus : null;
-        }
-        return "status " + result.status() + " with exit status " + exitStatus;
-    }
-
-    private static String in(NativeProgram.Output output) {
-        String shown = output.text().strip();
-        shown = shown.length() <= SHOWN_CHARACTERS ? shown : shown.substring(0, SHOWN_CHARACTERS) + "…";
-        return "; exit status " + output.exitStatus() + ", output \"" + shown.replaceAll("\\R", " | ") + "\""
-                + (output.errorText().isEmpty() ? "" : ", errors \"" + output.errorText() + "\"");
+    private static String end(NativeProgram.Output output) {
+        return "; exit status " + output.exitStatus()
+                + (output.errorText().isEmpty() ? "" : ", errors " + Answer.shown(output.errorText()));
     }
 
     @Override

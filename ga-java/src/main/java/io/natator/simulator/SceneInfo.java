@@ -3,41 +3,64 @@ package io.natator.simulator;
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.core.JsonProcessingException;
-import io.natator.config.ExecutionSettings;
+import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.List;
 
 /**
  * What the simulator says about a scene ({@code natator-sim info SCENE --json}).
  *
- * @param scene     the scene's name or path
- * @param actuators number of actuators of its creature; 0 without a creature
+ * @param scene      the scene's name or path
+ * @param actuators  number of actuators of its creature; 0 without a creature
+ * @param particles  of body and fluid together
+ * @param duration   simulated time in seconds
+ * @param timeStep   of a frame, in seconds
+ * @param substeps   of a frame
+ * @param iterations of a substep
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
-public record SceneInfo(String scene, @JsonProperty(required = true) int actuators) {
+public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProperty(required = true) int actuators,
+        @JsonProperty(required = true) long particles, @JsonProperty(required = true) double duration,
+        @JsonProperty(required = true) double timeStep, @JsonProperty(required = true) int substeps,
+        @JsonProperty(required = true) int iterations) {
 
     /**
      * Asks the simulator about a scene.
      *
+     * @param overrides JSON Merge Patch on the scene, or null
+     * @param simulator the native program
      * @throws InvalidInputException if the simulator does not know the scene, or cannot be run
      * @throws InterruptedException  if the calling thread is interrupted
      */
-    public static SceneInfo of(String scene, ExecutionSettings settings) throws InterruptedException {
-        NativeProgram.Output output;
-        try (NativeProgram program = new NativeProgram(settings.simulator(), settings.timeout())) {
-            output = program.call(List.of("info", scene, "--json"), "");
-        } catch (SimulatorFailure e) {
-            throw new InvalidInputException("simulator does not describe scene " + scene + ": " + e.getMessage(), e);
+    public static SceneInfo of(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
+        List<String> arguments = new ArrayList<>(List.of("info", scene, "--json"));
+        if (overrides != null) {
+            arguments.addAll(List.of("--overrides", overrides.toString()));
         }
-        if (output.exitStatus() != 0) {
-            throw new InvalidInputException("scene " + scene + ": " + (output.errorText().isEmpty()
-                    ? "simulator ended with exit status " + output.exitStatus() : output.errorText()));
-        }
+        String text = ProgramInfo.ask(simulator, arguments, "scene " + scene);
         try {
-            return Json.parse(output.text(), SceneInfo.class);
+            return Json.parse(text, SceneInfo.class);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("simulator does not describe scene " + scene + ": " + Json.reason(e), e);
         }
+    }
+
+    /**
+     * The scene itself as one line of JSON, with all that it builds on: what a simulation of it depends on, besides the
+     * rest of the request and the program.
+     *
+     * @param overrides JSON Merge Patch on the scene, or null
+     * @throws InvalidInputException if the simulator does not know the scene, or cannot be run
+     * @throws InterruptedException  if the calling thread is interrupted
+     */
+    public static String definition(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
+        List<String> arguments = new ArrayList<>(List.of("info", scene, "--json", "--definition"));
+        if (overrides != null) {
+            arguments.addAll(List.of("--overrides", overrides.toString()));
+        }
+        return ProgramInfo.ask(simulator, arguments, "scene " + scene);
     }
 }

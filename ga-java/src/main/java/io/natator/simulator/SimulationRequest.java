@@ -24,4 +24,9 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
     public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides) {
         this(id, scene, gait, duration, scheme, overrides, null);
     }
+
+    /** This request with another id. */
+    public SimulationRequest withId(long newId) {
+        return new SimulationRequest(newId, scene, gait, duration, scheme, overrides, perturbation);
+    }
 }

@@ -58,14 +58,25 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         return new SimulationResult(id, Status.FAILED, null, null, null, null, null, null, null, null, reason);
     }
 
+    /** This result under another id. */
+    public SimulationResult withId(long newId) {
+        return new SimulationResult(newId, status, distance, stopped, simulated, frames, scheme, precision, hash,
+                unstable, error);
+    }
+
     /** The signed distance swum, or 0 where there is none because the evaluation was unstable or failed. */
     public double distanceOrZero() {
         return status == Status.OK ? distance : 0.0;
     }
 
-    /** The fitness that selection works with: the distance swum forwards, never negative nor NaN. */
+    /** What is to be great: the signed distance swum, or 0 where there is none. */
+    public double score() {
+        return distanceOrZero();
+    }
+
+    /** The fitness that selection works with: the score of what swims forwards, never negative nor NaN. */
     public double fitness() {
-        return Math.max(distanceOrZero(), 0.0);
+        return Math.max(score(), 0.0);
     }
 
     /** Mean speed over the simulated time in scene units per second, or 0 where there is no distance. */

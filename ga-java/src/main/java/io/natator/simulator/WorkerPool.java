@@ -2,20 +2,27 @@ package io.natator.simulator;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.concurrent.BlockingQueue;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 import java.util.concurrent.Future;
+import java.util.concurrent.FutureTask;
+import java.util.concurrent.LinkedBlockingQueue;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 
-/** Carries out a batch of evaluations on a fixed number of threads. */
-public final class WorkerPool implements AutoCloseable {
+/** Evaluates on a fixed number of threads, one request each at a time. */
+public final class WorkerPool implements Evaluator {
+
+    private static final long POLL_MILLISECONDS = 100;
 
     private final Simulator simulator;
     private final ExecutorService workers;
 
     /**
-     * A pool that does not own the simulator.
+     * A pool that owns the simulator.
      *
      * @param count evaluations at the same time, at least 1
      */
@@ -28,39 +35,63 @@ public final class WorkerPool implements AutoCloseable {
         });
     }
 
-    /**
-     * Evaluates all requests. Results are handed over on the calling thread in the order of the requests, each as soon
-     * as it and all before it are there; so nothing after this point can depend on the number of workers.
-     *
-     * @param inOrder called once for each request
-     * @throws RequestRejectedException if the simulator refuses a request; the other evaluations are abandoned
-     * @throws InterruptedException     if the calling thread is interrupted; the evaluations are abandoned
-     */
-    public void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> inOrder)
+    @Override
+    public void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
             throws InterruptedException {
-        List<Future<SimulationResult>> results = new ArrayList<>();
-        for (SimulationRequest request : requests) {
-            results.add(workers.submit(() -> simulator.evaluate(request)));
-        }
+        BlockingQueue<Future<SimulationResult>> finished = new LinkedBlockingQueue<>();
+        List<Future<SimulationResult>> tasks = new ArrayList<>();
         try {
-            for (Future<SimulationResult> result : results) {
-                inOrder.accept(result.get());
+            for (SimulationRequest request : requests) {
+                FutureTask<SimulationResult> task = new FutureTask<>(() -> simulator.evaluate(request)) {
+                    @Override
+                    protected void done() {
+                        finished.add(this);
+                    }
+                };
+                tasks.add(task);
+                workers.execute(task);
             }
+            for (int i = 0; i < requests.size(); i++) {
+                whenDone.accept(take(finished).get());
+            }
+        } catch (RejectedExecutionException e) {
+            throw stopped(e);
         } catch (ExecutionException e) {
             if (e.getCause() instanceof RuntimeException cause) {
                 throw cause;
             }
             if (e.getCause() instanceof InterruptedException) {
-                throw new InterruptedException("evaluation was stopped");
+                throw stopped(e);
             }
             throw new IllegalStateException("evaluation ended unexpectedly", e.getCause());
         } finally {
-            results.forEach(result -> result.cancel(true));
+            tasks.forEach(task -> task.cancel(true));
         }
+    }
+
+    /** What was still waiting for a worker when the pool was closed never finishes. */
+    private Future<SimulationResult> take(BlockingQueue<Future<SimulationResult>> finished)
+            throws InterruptedException {
+        for (;;) {
+            Future<SimulationResult> task = finished.poll(POLL_MILLISECONDS, TimeUnit.MILLISECONDS);
+            if (workers.isShutdown()) {
+                throw new InterruptedException("evaluations were stopped");
+            }
+            if (task != null) {
+                return task;
+            }
+        }
+    }
+
+    private static InterruptedException stopped(Exception cause) {
+        InterruptedException stopped = new InterruptedException("evaluations were stopped");
+        stopped.initCause(cause);
+        return stopped;
     }
 
     @Override
     public void close() {
         workers.shutdownNow();
+        simulator.close();
     }
 }

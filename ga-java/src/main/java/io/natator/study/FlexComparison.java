@@ -1,9 +1,8 @@
 package io.natator.study;
 
+import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
-import io.natator.simulator.Simulator;
-import io.natator.simulator.WorkerPool;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -48,17 +47,16 @@ final class FlexComparison {
     /**
      * Carries out the evaluations that are missing.
      *
-     * @param only    name of the one variant to evaluate, or null for all
-     * @param workers evaluations at the same time, at least 1
+     * @param only name of the one variant to evaluate, or null for all
      * @return one comparison for each interval of each variant that has results, in the order of the variants
      */
-    List<Comparison> run(Simulator simulator, int workers, String only) throws InterruptedException {
+    List<Comparison> run(Evaluator evaluator, String only) throws InterruptedException {
         try (TrialLog log = new TrialLog(logFile, trials, simulatorDigest)) {
             List<Trial> missing = trials.stream()
                     .filter(trial -> only == null || trial.variant().name().equals(only))
                     .filter(trial -> log.resultOf(trial) == null)
                     .toList();
-            evaluate(missing, simulator, workers, log);
+            evaluate(missing, evaluator, log);
             return variants.stream()
                     .flatMap(variant -> Arrays.stream(Interval.values()).map(interval -> compare(variant, interval, log)))
                     .filter(comparison -> comparison.ours().count() > 0)
@@ -66,22 +64,20 @@ final class FlexComparison {
         }
     }
 
-    private static void evaluate(List<Trial> missing, Simulator simulator, int workers, TrialLog log)
+    private static void evaluate(List<Trial> missing, Evaluator evaluator, TrialLog log)
             throws InterruptedException {
         List<SimulationRequest> requests = new ArrayList<>();
         for (Trial trial : missing) {
             requests.add(trial.request(requests.size()));
         }
-        try (WorkerPool pool = new WorkerPool(simulator, workers)) {
-            ListIterator<Trial> next = missing.listIterator();
-            pool.evaluateAll(requests, result -> {
-                SimulationRequest request = requests.get(next.nextIndex());
-                Trial trial = next.next();
-                log.append(trial, request, result);
-                LOG.info("{} of {}: {}, {}, seed {}: {}", next.nextIndex(), missing.size(), trial.variant().name(),
-                        trial.interval().label(), trial.seed(), outcome(result));
-            });
-        }
+        ListIterator<Trial> next = missing.listIterator();
+        evaluator.evaluateInOrder(requests, result -> {
+            SimulationRequest request = requests.get(next.nextIndex());
+            Trial trial = next.next();
+            log.append(trial, request, result);
+            LOG.info("{} of {}: {}, {}, seed {}: {}", next.nextIndex(), missing.size(), trial.variant().name(),
+                    trial.interval().label(), trial.seed(), outcome(result));
+        });
     }
 
     private static String outcome(SimulationResult result) {

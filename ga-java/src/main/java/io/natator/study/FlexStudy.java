@@ -4,8 +4,7 @@ import io.natator.checkpoint.Environment;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.simulator.ProcessSimulator;
-import io.natator.simulator.Simulator;
+import io.natator.simulator.Evaluator;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
@@ -46,9 +45,9 @@ public record FlexStudy(Path variantsFile, Path directory, int runs) {
         }
         Environment environment = Environment.present(execution);
         List<Comparison> comparisons;
-        try (Simulator simulator = new ProcessSimulator(execution)) {
+        try (Evaluator evaluator = Evaluator.open(execution)) {
             comparisons = new FlexComparison(variants, runs, directory.resolve("evaluations.jsonl"),
-                    environment.simulatorSha256()).run(simulator, execution.workers(), only);
+                    environment.simulatorSha256()).run(evaluator, only);
         }
         try {
             Files.writeString(directory.resolve("environment.json"), Json.document(environment));

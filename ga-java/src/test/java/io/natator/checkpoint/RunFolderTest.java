@@ -9,11 +9,16 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.Evolution;
+import io.natator.evolution.EvolutionFailedException;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.ToySimulator;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.Simulator;
 import io.natator.simulator.WorkerPool;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -42,8 +47,8 @@ class RunFolderTest {
     }
 
     private static EvolutionSettings settings(OperatorSet operators) {
-        return new EvolutionSettings("thesis/creature-3", EncodingKind.DENSE, 5, 12, 4, 99, operators, 0.05, null, null,
-                null);
+        return EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5).withSize(12, 4).withSeed(99)
+                .withOptimizer(OptimizerKind.JGAP, operators, 0.05);
     }
 
     /** Runs, or continues, what is in the folder. */
@@ -52,7 +57,7 @@ class RunFolderTest {
         listeners.addAll(List.of(more));
         ToySimulator simulator = new ToySimulator();
         try (folder; WorkerPool pool = new WorkerPool(simulator, 3)) {
-            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.unfinishedGeneration())
+            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded())
                     .run(folder.checkpoint());
             folder.writeResults(end, null);
         }
@@ -185,6 +190,42 @@ class RunFolderTest {
 
         assertThatThrownBy(() -> RunFolder.create(run, settings(OperatorSet.CORRECTED)))
                 .isInstanceOf(InvalidInputException.class).hasMessageContaining("cannot be made");
+    }
+
+    /** Root may write anywhere, so the folder is one in which nobody can. */
+    @Test
+    void aFolderThatCannotBeWrittenIsTold() {
+        assertThatThrownBy(() -> RunFolder.create(Path.of("/proc/self/fdinfo"), settings(OperatorSet.CORRECTED)))
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("output folder /proc/self/fdinfo");
+    }
+
+    @Test
+    void aGenerationThatFailedIsSimulatedAnew() throws IOException {
+        evolve(RunFolder.create(temporary.resolve("whole"), settings(OperatorSet.CORRECTED)));
+        RunFolder broken = RunFolder.create(run, settings(OperatorSet.CORRECTED));
+        Simulator failing = new Simulator() {
+            @Override
+            public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+                try (ToySimulator toy = new ToySimulator()) {
+                    return request.id() < 15 ? toy.evaluate(request)
+                            : SimulationResult.failed(request.id(), "no memory");
+                }
+            }
+
+            @Override
+            public void close() {
+                // Nothing is held.
+            }
+        };
+        try (broken; WorkerPool pool = new WorkerPool(failing, 2)) {
+            Evolution evolution = new Evolution(broken.settings(), pool, List.of(broken), List.of());
+            assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(EvolutionFailedException.class)
+                    .hasMessageContaining("simulations failed, the first: no memory");
+        }
+
+        evolve(RunFolder.open(run));
+
+        assertThat(lastingFiles(run)).isEqualTo(lastingFiles(temporary.resolve("whole")));
     }
 
     @Test

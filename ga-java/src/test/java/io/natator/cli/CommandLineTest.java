@@ -36,6 +36,10 @@ class CommandLineTest {
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of(arguments));
         all.addAll(1, List.of("--simulator-path", simulator.toString()));
+        if (!arguments[0].equals("evaluate")) {
+            // The fake's faults are not what the cache is to keep.
+            all.add(1, "--no-cache");
+        }
         return command.execute(all.toArray(String[]::new));
     }
 
@@ -77,6 +81,59 @@ class CommandLineTest {
                 "evaluations.jsonl")) {
             assertThat(file("four", name)).as(name).isEqualTo(file("one", name));
         }
+    }
+
+    @ParameterizedTest
+    @CsvSource({"jgap", "cma-es", "random"})
+    void theModeDoesNotChangeAByte(String optimizer) throws IOException {
+        for (String mode : List.of("process", "resident", "batch")) {
+            assertThat(evolve(mode, "--simulator", mode, "--workers", "3", "--optimizer", optimizer, "--evaluations",
+                    "29")).as(err.toString()).isZero();
+        }
+
+        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
+                "evaluations.jsonl")) {
+            assertThat(file("resident", name)).as(name).isEqualTo(file("process", name));
+            assertThat(file("batch", name)).as(name).isEqualTo(file("process", name));
+        }
+        assertThat(file("process", "evaluations.jsonl").lines()).hasSize(29);
+    }
+
+    @Test
+    void stopsInTimeAndContinues() throws IOException {
+        Files.writeString(folder.resolve("slow"), "0.1");
+        assertThat(evolve("run", "--workers", "1", "--stop-after", "1.5")).isZero();
+        assertThat(err.toString()).endsWith("time is up; continue by: natator resume " + folder.resolve("run") + "\n");
+        assertThat(file("run", "evaluations.jsonl").lines()).hasSizeBetween(1, 20);
+        Files.delete(folder.resolve("slow"));
+
+        assertThat(natator("resume", folder.resolve("run").toString(), "--simulator", "resident")).isZero();
+        assertThat(evolve("whole")).isZero();
+
+        for (String name : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
+            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
+        }
+    }
+
+    @Test
+    void comparesOptimizersInPieces() throws IOException {
+        String[] study = {"compare-optimizers", "--output-dir", folder.resolve("study").toString(), "--creatures", "1",
+            "--seeds", "2", "--evaluations", "30", "--population", "6", "--simulator", "batch"};
+        List<String> piece = new ArrayList<>(List.of(study));
+        piece.addAll(List.of("--stop-after", "0.3"));
+        assertThat(natator(piece.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("of 8 runs finished; the same command continues");
+
+        assertThat(natator(study)).as(err.toString()).isZero();
+        assertThat(file("study", "README.md")).contains("8 of 8 runs are finished", "| jgap-corrected | 6 | 2 |",
+                "| jgap-stock | 6 | 2 |", "| cma-es | 8 | 2 |", "| random | 6 | 2 |");
+        assertThat(folder.resolve("study/creature-1.png")).isNotEmptyFile();
+    }
+
+    @Test
+    void aMissingGpuIsOneLine() {
+        assertThat(evolve("run", "--backend", "cuda")).isEqualTo(1);
+        assertThat(err.toString().strip()).isEqualTo("natator evolve: simulator: no such device here");
     }
 
     @Test
@@ -144,6 +201,12 @@ class CommandLineTest {
         "--creature 5|--creature is 5; expected 1, 2, 3 or 4",
         "--creature 1 --scene thesis/creature-2|exclude each other",
         "--workers 0|workers is 0",
+        "--device -1|device is -1",
+        "--evaluations 0|evaluations is 0",
+        "--stop-after 0|--stop-after is 0.0",
+        "--simulator thread|expected one of",
+        "--backend opencl|expected one of",
+        "--optimizer best|expected one of",
         "--timeout 0|--timeout is 0.0",
         "--timeout NaN|--timeout is NaN",
         "--duration -1|duration is -1.0",

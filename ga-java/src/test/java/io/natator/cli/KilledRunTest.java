@@ -3,78 +3,169 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.simulator.FakeSimulator;
-import java.io.File;
 import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.Writer;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
-/** The program as a process of its own, killed as by {@code kill -9} or ended as by Ctrl-C, and continued. */
-@Timeout(value = 90, unit = TimeUnit.SECONDS)
+/** The program as a process of its own: killed as by {@code kill -9}, ended as by Ctrl-C, without room to write. */
+@Timeout(value = 180, unit = TimeUnit.SECONDS)
 class KilledRunTest {
 
-    private static final int KILLS = 6;
+    private static final List<String> RESULTS =
+            List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl");
+    private static final List<String> SETTINGS =
+            List.of("--population", "30", "--evaluations", "400", "--simulator", "resident", "--workers", "2",
+                    "--no-cache");
 
     @TempDir
     private Path folder;
+    private Path log;
 
-    private ProcessBuilder natator(String... arguments) {
-        List<String> command = new ArrayList<>(List.of(
-                Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-XX:TieredStopAtLevel=1", "-cp",
-                System.getProperty("java.class.path"), Main.class.getName(), "evolve", "--simulator-path",
-                folder.resolve("fake-simulator.sh").toString()));
-        command.addAll(List.of(arguments));
-        return new ProcessBuilder(command).redirectErrorStream(true)
-                .redirectOutput(new File(folder.toFile(), "log.txt"));
-    }
-
-    private ProcessBuilder start(Path run) {
-        return natator("--population", "20", "--generations", "8", "--workers", "2", "--output-dir", run.toString());
-    }
-
-    @Test
-    void resumesExactly() throws IOException, InterruptedException {
+    @BeforeEach
+    void fake() throws IOException {
         FakeSimulator.in(folder);
-        Path whole = folder.resolve("whole");
-        Path killed = folder.resolve("killed");
-        assertThat(start(whole).start().waitFor()).as(Files.readString(folder.resolve("log.txt"))).isZero();
+        // An evaluation takes 10 ms, so that a run lasts long enough to be killed many times.
+        Files.writeString(folder.resolve("slow"), "0.01");
+        log = folder.resolve("log.txt");
+    }
 
-        Random random = new Random(1);
-        int kills = killWhenRunning(start(killed), killed, random) ? 1 : 0;
-        while (kills < KILLS && killWhenRunning(natator("--workers", "2", "--resume", killed.toString()), killed, random)) {
-            kills++;
-        }
-        assertThat(kills).as("runs killed before their end").isGreaterThanOrEqualTo(2);
-        assertThat(natator("--resume", killed.toString()).start().waitFor()).isZero();
+    private List<String> command(String name, String... arguments) {
+        List<String> command = new ArrayList<>(List.of(
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-XX:TieredStopAtLevel=1",
+                "-XX:-UsePerfData", "-cp", System.getProperty("java.class.path"), Main.class.getName(), name,
+                "--simulator-path", folder.resolve("fake-simulator.sh").toString()));
+        command.addAll(List.of(arguments));
+        return command;
+    }
 
-        for (String name : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
-            assertThat(killed.resolve(name)).hasSameTextualContentAs(whole.resolve(name));
+    private Process start(List<String> command) throws IOException {
+        return new ProcessBuilder(command).redirectErrorStream(true).redirectOutput(log.toFile()).start();
+    }
+
+    /** A run without any trouble, in this process. */
+    private Path whole(String... more) throws IOException {
+        Path run = folder.resolve("whole");
+        Path slow = folder.resolve("slow");
+        Files.delete(slow);
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator-path",
+                folder.resolve("fake-simulator.sh").toString(), "--output-dir", run.toString()));
+        arguments.addAll(SETTINGS);
+        arguments.addAll(List.of(more));
+        PrintWriter nowhere = new PrintWriter(Writer.nullWriter());
+        assertThat(Main.commandLine().setOut(nowhere).setErr(nowhere).execute(arguments.toArray(String[]::new)))
+                .isZero();
+        Files.writeString(slow, "0.01");
+        return run;
+    }
+
+    private List<String> evolve(Path run, String... more) {
+        List<String> command = command("evolve", "--output-dir", run.toString());
+        command.addAll(SETTINGS);
+        command.addAll(List.of(more));
+        return command;
+    }
+
+    private static void assertSame(Path run, Path whole) {
+        for (String name : RESULTS) {
+            assertThat(run.resolve(name)).hasSameBinaryContentAs(whole.resolve(name));
         }
     }
 
-    /** Kills a run some time after it has written an evaluation; false if it ended before. */
-    private static boolean killWhenRunning(ProcessBuilder builder, Path run, Random random)
-            throws IOException, InterruptedException {
-        Path log = run.resolve("evaluations.jsonl");
-        long before = Files.exists(log) ? Files.size(log) : 0;
-        Process process = builder.start();
-        while (process.isAlive() && (!Files.exists(log) || Files.size(log) <= before)) {
-            Thread.sleep(5);
+    @ParameterizedTest
+    @CsvSource({"jgap, 18", "cma-es, 16", "random, 16"})
+    void fiftyKillsChangeNothing(String optimizer, int kills) throws IOException, InterruptedException {
+        Path whole = whole("--optimizer", optimizer);
+        Path run = folder.resolve("killed");
+        Random random = new Random(kills);
+        Process first = start(evolve(run, "--optimizer", optimizer));
+        assertThat(killed(first, run, random)).isTrue();
+        for (int i = 1; i < kills; i++) {
+            Process next = start(command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", run.toString()));
+            assertThat(killed(next, run, random)).as("kill %d came before the end", i).isTrue();
         }
-        Thread.sleep(random.nextInt(150));
+        Files.delete(folder.resolve("slow"));
+
+        assertThat(start(command("evolve", "--no-cache", "--resume", run.toString())).waitFor()).as(Files.readString(log)).isZero();
+
+        assertSame(run, whole);
+    }
+
+    /**
+     * Kills a process soon after it has written an evaluation, or at any moment before; one in four is asked to end.
+     *
+     * @return false if it had ended before
+     */
+    private boolean killed(Process process, Path run, Random random) throws IOException, InterruptedException {
+        Path evaluations = run.resolve("evaluations.jsonl");
+        long before = Files.exists(evaluations) ? Files.size(evaluations) : 0;
+        boolean anyMoment = Files.exists(run.resolve("config.json")) && random.nextInt(3) == 0;
+        if (anyMoment) {
+            Thread.sleep(random.nextInt(500));
+        } else {
+            while (process.isAlive() && (!Files.exists(evaluations) || Files.size(evaluations) <= before)) {
+                Thread.sleep(2);
+            }
+            Thread.sleep(random.nextInt(60));
+        }
+        boolean polite = random.nextInt(4) == 0;
         boolean alive = process.isAlive();
-        (random.nextBoolean() ? process.destroyForcibly() : endPolitely(process)).waitFor();
+        if (polite) {
+            process.destroy();
+        } else {
+            process.destroyForcibly();
+        }
+        process.waitFor();
+        if (polite && !anyMoment) {
+            assertThat(Files.readString(log)).contains("interrupted; continue by: natator resume " + run)
+                    .doesNotContain("Exception", "internal error");
+        }
         return alive;
     }
 
-    private static Process endPolitely(Process process) {
-        process.destroy();
-        return process;
+    /** A limit on the size of files ends a write as a full disk does. */
+    @Test
+    void aFullDiskIsOneLineAndLosesNothing() throws IOException, InterruptedException {
+        Path whole = whole();
+        Path run = folder.resolve("full");
+        Files.delete(folder.resolve("slow"));
+        List<String> limited = new ArrayList<>(List.of("bash", "-c", "ulimit -f 40; exec \"$@\"", "natator"));
+        limited.addAll(evolve(run));
+
+        assertThat(start(limited).waitFor()).isEqualTo(1);
+
+        assertThat(Files.readAllLines(log)).last().asString().startsWith("natator evolve: cannot write " + run)
+                .contains("File too large");
+        assertThat(Files.size(run.resolve("evaluations.jsonl"))).isGreaterThan(10_000);
+        assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
+        assertSame(run, whole);
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {">&-", ">/dev/full"})
+    void aClosedOutputLosesNothing(String redirection) throws IOException, InterruptedException {
+        Path whole = whole();
+        Path run = folder.resolve("closed");
+        Files.delete(folder.resolve("slow"));
+        List<String> closed = new ArrayList<>(List.of("bash", "-c", "exec \"$@\" " + redirection, "natator"));
+        closed.addAll(evolve(run));
+        Process process = new ProcessBuilder(closed).redirectError(log.toFile()).start();
+
+        assertThat(process.waitFor()).isEqualTo(1);
+
+        assertThat(Files.readAllLines(log)).last().isEqualTo("natator: standard output cannot be written");
+        assertSame(run, whole);
     }
 }

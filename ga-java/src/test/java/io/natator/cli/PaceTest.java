@@ -2,14 +2,19 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicLong;
 import org.junit.jupiter.api.Test;
 
 class PaceTest {
 
+    private static final EvolutionSettings SETTINGS =
+            EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, 2);
+
     private final AtomicLong clock = new AtomicLong();
-    private final Pace pace = new Pace(2, 10, clock::get);
+    private final Pace pace = new Pace(SETTINGS, 0, clock::get);
 
     private void evaluate(int count, long seconds) {
         for (int i = 0; i < count; i++) {
@@ -29,6 +34,14 @@ class PaceTest {
         assertThat(pace.rate()).isEqualTo(2.0);
         assertThat(pace.expected()).isEqualTo(10 + 20 + 20);
         assertThat(pace.left()).isEqualTo("20s");
+    }
+
+    @Test
+    void expectsNoMoreThanTheRunMayTake() {
+        Pace limited = new Pace(SETTINGS.withEvaluations(35L), 10, clock::get);
+
+        limited.generationStarted(1, 20);
+        assertThat(limited.expected()).isEqualTo(25);
     }
 
     @Test

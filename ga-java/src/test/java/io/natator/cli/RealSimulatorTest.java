@@ -3,6 +3,8 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.Savings;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.io.PrintWriter;
@@ -62,6 +64,43 @@ class RealSimulatorTest {
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
+    }
+
+    /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
+    @Test
+    void everyModeGivesTheSameBits() throws IOException {
+        List<String> logs = new ArrayList<>();
+        for (String mode : List.of("process", "resident", "batch")) {
+            Path run = folder.resolve(mode);
+            assertThat(natator("evolve", "--population", "6", "--generations", "1", "--duration", "0.1", "--workers",
+                    "2", "--no-cache", "--simulator", mode, "--output-dir", run.toString())).as(err.toString()).isZero();
+            logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
+        }
+
+        assertThat(logs.get(0)).contains("\"hash\":");
+        assertThat(logs.get(1)).isEqualTo(logs.get(0));
+        assertThat(logs.get(2)).isEqualTo(logs.get(0));
+    }
+
+    /** The definition of the scene, as the real simulator gives it, is a part of the key. */
+    @Test
+    void aSecondRunTakesItsResultsFromTheCache() throws IOException {
+        for (String name : List.of("first", "second", "without")) {
+            List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1",
+                    "--duration", "0.05", "--output-dir", folder.resolve(name).toString()));
+            if (name.equals("without")) {
+                arguments.add("--no-cache");
+            }
+            assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        }
+
+        for (String file : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
+            assertThat(folder.resolve("second").resolve(file))
+                    .hasSameBinaryContentAs(folder.resolve("without").resolve(file));
+        }
+        Savings savings = RunFolder.savings(folder.resolve("second"));
+        assertThat(savings.fromCache()).isEqualTo(savings.evaluations()).isPositive();
+        assertThat(RunFolder.savings(folder.resolve("without")).fromCache()).isZero();
     }
 
     @ParameterizedTest

@@ -11,8 +11,9 @@ import org.junit.jupiter.params.provider.CsvSource;
 class EvolutionSettingsTest {
 
     private static EvolutionSettings settings(int population, int generations, double deviation, Double duration) {
-        return new EvolutionSettings("thesis/creature-1", EncodingKind.DENSE, 2, population, generations, 1,
-                OperatorSet.CORRECTED, deviation, Scheme.FLEX, duration, null);
+        return EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(population, generations)
+                .withOptimizer(OptimizerKind.JGAP, OperatorSet.CORRECTED, deviation)
+                .withScene(Scheme.FLEX, duration, null);
     }
 
     @ParameterizedTest

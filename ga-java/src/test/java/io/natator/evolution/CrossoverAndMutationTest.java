@@ -5,6 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
 import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.List;
@@ -28,8 +29,8 @@ class CrossoverAndMutationTest {
 
     private List<IChromosome> children(OperatorSet set, int position, Population population)
             throws InvalidConfigurationException {
-        EvolutionSettings settings = new EvolutionSettings("thesis/creature-1", EncodingKind.DENSE, 2, SIZE, 1, 1, set,
-                0.05, null, null, null);
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                .withSize(SIZE, 1).withOptimizer(OptimizerKind.JGAP, set, 0.05);
         GeneticOperator operator = Operators.alterers(settings, jgap.configuration, jgap.random).get(position);
         List<IChromosome> children = new ArrayList<>();
         operator.operate(population, children);

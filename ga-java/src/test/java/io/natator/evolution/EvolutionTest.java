@@ -8,6 +8,7 @@ import io.natator.analysis.GenerationSummary;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.Simulator;
@@ -16,7 +17,6 @@ import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
-import java.util.Map;
 import java.util.Set;
 import java.util.function.Function;
 import org.junit.jupiter.api.Test;
@@ -26,14 +26,14 @@ import org.junit.jupiter.params.provider.EnumSource;
 class EvolutionTest {
 
     private static EvolutionSettings settings(OperatorSet operators, int population, int generations, long seed) {
-        return new EvolutionSettings("thesis/creature-3", EncodingKind.DENSE, 5, population, generations, seed,
-                operators, 0.05, null, null, null);
+        return EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5).withSize(population, generations)
+                .withSeed(seed).withOptimizer(OptimizerKind.JGAP, operators, 0.05);
     }
 
     private static EvolutionState run(EvolutionSettings settings, Simulator simulator, int workers,
             EvolutionListener... listeners) {
         try (WorkerPool pool = new WorkerPool(simulator, workers)) {
-            return new Evolution(settings, pool, List.of(listeners), Map.of()).run(null);
+            return new Evolution(settings, pool, List.of(listeners), List.of()).run(null);
         }
     }
 
@@ -69,8 +69,14 @@ class EvolutionTest {
     @EnumSource(OperatorSet.class)
     void continuesFromAnyGenerationAsIfNeverInterrupted(OperatorSet operators) {
         List<EvolutionState> states = new ArrayList<>();
+        List<EvaluationRecord> recorded = new ArrayList<>();
         EvolutionSettings settings = settings(operators, 20, 6, 8);
         EvolutionState whole = run(settings, new ToySimulator(), 2, new EvolutionListener() {
+            @Override
+            public void evaluated(EvaluationRecord evaluation) {
+                recorded.add(evaluation);
+            }
+
             @Override
             public void generationFinished(EvolutionState state) {
                 states.add(state);
@@ -80,7 +86,7 @@ class EvolutionTest {
         assertThat(states).hasSize(7);
         for (EvolutionState state : states) {
             try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-                assertThat(new Evolution(settings, pool, List.of(), Map.of()).run(state)).isEqualTo(whole);
+                assertThat(new Evolution(settings, pool, List.of(), recorded).run(state)).isEqualTo(whole);
             }
         }
     }

@@ -1,5 +1,7 @@
 package io.natator.simulator;
 
+import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
+import static io.natator.simulator.Processes.openFiles;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -12,7 +14,6 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.concurrent.TimeUnit;
-import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -36,7 +37,7 @@ class ProcessSimulatorTest {
         SimulationResult result = evaluate("thesis/creature-1", 20);
 
         assertThat(result).isEqualTo(new SimulationResult(7L, Status.OK, -1.3925, "completed", 4.0, 240, "flex",
-                "float", "0000000000000007", null, null));
+                "float", "0000000052ffdd20", null, null));
         assertThat(result.fitness()).isZero();
         assertThat(result.speed()).isEqualTo(-1.3925 / 4);
     }
@@ -156,18 +157,5 @@ class ProcessSimulatorTest {
             assertThat(openFiles()).isLessThanOrEqualTo(before + 3);
         }
         assertThatNoChildIsLeft();
-    }
-
-    private static long openFiles() throws IOException {
-        try (Stream<Path> files = Files.list(Path.of("/proc/self/fd"))) {
-            return files.count();
-        }
-    }
-
-    private static void assertThatNoChildIsLeft() throws InterruptedException {
-        for (int i = 0; i < 100 && ProcessHandle.current().descendants().findAny().isPresent(); i++) {
-            Thread.sleep(20);
-        }
-        assertThat(ProcessHandle.current().descendants().map(child -> child.info().toString())).isEmpty();
     }
 }

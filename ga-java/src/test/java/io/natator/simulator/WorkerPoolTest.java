@@ -27,7 +27,7 @@ class WorkerPoolTest {
         });
         List<Long> ids = new ArrayList<>();
         try (WorkerPool pool = new WorkerPool(slowFirst, 4)) {
-            pool.evaluateAll(requests(50), result -> ids.add(result.id()));
+            pool.evaluateInOrder(requests(50), result -> ids.add(result.id()));
         }
 
         assertThat(ids).containsExactlyElementsOf(LongStream.range(0, 50).boxed().toList());
@@ -47,7 +47,7 @@ class WorkerPoolTest {
         });
         List<SimulationResult> results = new ArrayList<>();
         try (WorkerPool pool = new WorkerPool(meeting, 3)) {
-            pool.evaluateAll(requests(9), results::add);
+            pool.evaluateInOrder(requests(9), results::add);
         }
 
         assertThat(results).hasSize(9);
@@ -59,7 +59,7 @@ class WorkerPoolTest {
             throw new RequestRejectedException("unknown scene", true);
         });
         try (WorkerPool pool = new WorkerPool(rejecting, 2)) {
-            assertThatThrownBy(() -> pool.evaluateAll(requests(5), result -> { }))
+            assertThatThrownBy(() -> pool.evaluateInOrder(requests(5), result -> { }))
                     .isInstanceOf(RequestRejectedException.class).hasMessage("unknown scene");
         }
     }

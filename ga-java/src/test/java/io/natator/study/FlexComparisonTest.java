@@ -7,6 +7,7 @@ import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SimulationResult.Status;
 import io.natator.simulator.Simulator;
+import io.natator.simulator.WorkerPool;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -90,7 +91,7 @@ class FlexComparisonTest {
         assertThat(simulator.requests).hasSize(2 * RUNS)
                 .allMatch(request -> request.overrides().equals(changed.overrides()));
         simulator.requests.clear();
-        new FlexComparison(List.of(FIRST), RUNS, log, "another program").run(simulator, 1, null);
+        new FlexComparison(List.of(FIRST), RUNS, log, "another program").run(new WorkerPool(simulator, 1), null);
         assertThat(simulator.requests).hasSize(2 * RUNS);
     }
 
@@ -98,7 +99,7 @@ class FlexComparisonTest {
     void moreRunsAddToThoseThatAreThere() throws InterruptedException {
         study(FIRST);
         simulator.requests.clear();
-        new FlexComparison(List.of(FIRST), RUNS + 2, log, "program").run(simulator, 1, null);
+        new FlexComparison(List.of(FIRST), RUNS + 2, log, "program").run(new WorkerPool(simulator, 1), null);
         assertThat(simulator.requests).hasSize(2 * 2);
     }
 
@@ -107,9 +108,9 @@ class FlexComparisonTest {
         study(FIRST);
         simulator.requests.clear();
         FlexComparison both = new FlexComparison(List.of(FIRST, SECOND), RUNS, log, "program");
-        assertThat(both.run(simulator, 1, "first")).hasSize(2);
+        assertThat(both.run(new WorkerPool(simulator, 1), "first")).hasSize(2);
         assertThat(simulator.requests).isEmpty();
-        assertThat(both.run(simulator, 1, "second")).hasSize(4);
+        assertThat(both.run(new WorkerPool(simulator, 1), "second")).hasSize(4);
     }
 
     @Test
@@ -117,7 +118,7 @@ class FlexComparisonTest {
         study(FIRST, SECOND);
         String one = Files.readString(log);
         Files.delete(log);
-        new FlexComparison(List.of(FIRST, SECOND), RUNS, log, "program").run(simulator, 4, null);
+        new FlexComparison(List.of(FIRST, SECOND), RUNS, log, "program").run(new WorkerPool(simulator, 4), null);
         assertThat(Files.readString(log)).isEqualTo(one);
     }
 
@@ -130,7 +131,7 @@ class FlexComparisonTest {
     }
 
     private List<Comparison> study(Variant... variants) throws InterruptedException {
-        return new FlexComparison(List.of(variants), RUNS, log, "program").run(simulator, 1, null);
+        return new FlexComparison(List.of(variants), RUNS, log, "program").run(new WorkerPool(simulator, 1), null);
     }
 
     /** Swims at the speed seed + damping, whatever the time. */

@@ -2,26 +2,15 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
-import io.natator.simulator.SimulatorLocator;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import picocli.CommandLine.Option;
 
-/** Options of every command that simulates. */
-final class SimulatorOptions {
-
-    @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
-            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else build/release/bin/natator-sim.")
-    private Path simulatorPath;
-
-    @Option(names = "--timeout", paramLabel = "SECONDS", defaultValue = "120",
-            description = "Longest time for one attempt at an evaluation. Default: ${DEFAULT-VALUE}.")
-    private double timeoutSeconds;
+/** Options that change what is simulated. */
+final class SceneOptions {
 
     @Option(names = "--scheme", paramLabel = "SCHEME",
             description = "How to solve: flex or conserving. Default: the scene's.")
@@ -34,15 +23,6 @@ final class SimulatorOptions {
     @Option(names = "--overrides", paramLabel = "JSON|FILE",
             description = "JSON Merge Patch on the scene: an object, or a file that holds one.")
     private String overrides;
-
-    ExecutionSettings execution(int workers) {
-        if (!(timeoutSeconds > 0) || Double.isInfinite(timeoutSeconds)) {
-            throw new InvalidInputException("--timeout is " + timeoutSeconds
-                    + "; expected a number of seconds above 0");
-        }
-        return new ExecutionSettings(SimulatorLocator.locate(simulatorPath), workers,
-                Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))));
-    }
 
     Scheme scheme() {
         return scheme;

@@ -1,0 +1,2 @@
+/** Evaluations that are never done twice. */
+package io.natator.cache;

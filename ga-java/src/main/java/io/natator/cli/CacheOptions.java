@@ -1,0 +1,17 @@
+package io.natator.cli;
+
+import io.natator.cache.EvaluationCache;
+import io.natator.config.ExecutionSettings;
+import picocli.CommandLine.Option;
+
+/** Whether results of earlier runs are used. */
+final class CacheOptions {
+
+    @Option(names = "--no-cache", description = "Evaluate everything anew. Otherwise results that an earlier evaluation "
+            + "left in ~/.cache/natator/evaluations ($NATATOR_CACHE/evaluations) are used; they are the same.")
+    private boolean off;
+
+    ExecutionSettings in(ExecutionSettings execution) {
+        return off ? execution : execution.withCache(EvaluationCache.ofUser());
+    }
+}

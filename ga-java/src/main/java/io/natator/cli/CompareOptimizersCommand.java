@@ -1,0 +1,176 @@
+package io.natator.cli;
+
+import io.natator.config.Backend;
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.SimulatorMode;
+import io.natator.evolution.EvolutionListener;
+import io.natator.run.EvolutionRun;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.SceneInfo;
+import io.natator.study.optimizer.Contestant;
+import io.natator.study.optimizer.OptimizerStudy;
+import java.io.PrintWriter;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Arrays;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+/** {@code natator compare-optimizers}: optimizers side by side at an equal number of evaluations. */
+@Command(name = "compare-optimizers", mixinStandardHelpOptions = true,
+        description = {"Runs optimizers on creatures with several seeds, each for the same number of evaluations, and "
+            + "draws their best distance against the evaluations.",
+            "The same command continues a study that was stopped."})
+final class CompareOptimizersCommand implements Callable<Integer> {
+
+    private static final int RUNS_AT_ONCE = 2;
+    private static final int RUNS_AT_ONCE_IN_BATCHES = 32;
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SceneOptions sceneOptions;
+
+    @Mixin
+    private ExecutionOptions executionOptions;
+
+    @Mixin
+    private CacheOptions cacheOptions;
+
+    @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where runs and results go.")
+    private Path directory;
+
+    @Option(names = "--creatures", paramLabel = "N", split = ",", defaultValue = "1,2",
+            description = "Creatures of the thesis, 1 to 4. Default: ${DEFAULT-VALUE}.")
+    private List<Integer> creatures;
+
+    @Option(names = "--optimizers", paramLabel = "NAME", split = ",",
+            defaultValue = "jgap-corrected,jgap-stock,cma-es,random", description = "Default: ${DEFAULT-VALUE}.")
+    private List<String> optimizers;
+
+    @Option(names = "--seeds", paramLabel = "N", defaultValue = "10",
+            description = "Runs of each optimizer on each creature, from 1. Default: ${DEFAULT-VALUE}.")
+    private int seeds;
+
+    @Option(names = "--evaluations", paramLabel = "N", defaultValue = "600",
+            description = "Evaluations of each run, from 1. Default: ${DEFAULT-VALUE}.")
+    private long evaluations;
+
+    @Option(names = "--population", paramLabel = "N", defaultValue = "24",
+            description = "Chromosomes of JGAP, from 2. Default: ${DEFAULT-VALUE}.")
+    private int population;
+
+    @Option(names = "--cma-es-population", paramLabel = "N",
+            description = "Points in a generation of CMA-ES, from 2. Default: 4 + 3 ln n with n genes.")
+    private Integer cmaEsPopulation;
+
+    @Option(names = "--runs-at-once", paramLabel = "N", description = "Runs under way at the same time; their "
+            + "generations share a batch. Default: " + RUNS_AT_ONCE_IN_BATCHES + " with --simulator batch, else "
+            + RUNS_AT_ONCE + ".")
+    private Integer runsAtOnce;
+
+    @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
+    private Double stopAfter;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        EvolveCommand.checkStopAfter(stopAfter);
+        ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
+        int atOnce = runsAtOnce != null ? runsAtOnce
+                : execution.mode() == SimulatorMode.BATCH ? RUNS_AT_ONCE_IN_BATCHES : RUNS_AT_ONCE;
+        if (atOnce < 1) {
+            throw new InvalidInputException("--runs-at-once is " + atOnce + "; expected a whole number from 1");
+        }
+        Map<String, EvolutionSettings> scenes = scenes(execution);
+        OptimizerStudy study = new OptimizerStudy(scenes, contestants(), seeds, cmaEsPopulation, directory);
+        boolean all = run(study, withTimeLimit(execution, scenes), atOnce);
+        PrintWriter out = spec.commandLine().getOut();
+        if (!all) {
+            out.printf("%d of %d runs finished; the same command continues%n", study.finished(), study.size());
+        }
+        out.println(study.report(command()));
+        return ExitCode.OK;
+    }
+
+    private boolean run(OptimizerStudy study, ExecutionSettings execution, int atOnce) throws InterruptedException {
+        PrintWriter err = spec.commandLine().getErr();
+        try (Evaluator evaluator = Evaluator.open(execution);
+                Stopper stopper = new Stopper(evaluator, stopAfter, () -> {
+                    err.println("interrupted; the same command continues");
+                    err.flush();
+                })) {
+            StudyProgress progress = new StudyProgress(study, err) {
+                @Override
+                public EvolutionListener forRun() {
+                    return execution.mode() == SimulatorMode.BATCH ? stopper.beforeLateGenerations()
+                            : new EvolutionListener() { };
+                }
+            };
+            return study.run(execution, evaluator, atOnce, progress);
+        }
+    }
+
+    private Map<String, EvolutionSettings> scenes(ExecutionSettings execution) throws InterruptedException {
+        Map<String, EvolutionSettings> scenes = new LinkedHashMap<>();
+        for (int creature : creatures) {
+            if (creature < 1 || creature > 4) {
+                throw new InvalidInputException("--creatures has " + creature + "; expected 1, 2, 3 or 4");
+            }
+            String scene = "thesis/creature-" + creature;
+            int actuators = SceneInfo.of(scene, sceneOptions.overrides(), execution.simulator()).actuators();
+            scenes.put("creature-" + creature, EvolutionSettings.of(scene, EncodingKind.usualFor(scene), actuators)
+                    .withSize(population, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations)
+                    .withBackend(execution.backend())
+                    .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides()));
+        }
+        return scenes;
+    }
+
+    /** The longest of the limits that suit the scenes, unless one was given. */
+    private static ExecutionSettings withTimeLimit(ExecutionSettings execution,
+            Map<String, EvolutionSettings> scenes) throws InterruptedException {
+        Duration longest = Duration.ZERO;
+        for (EvolutionSettings settings : scenes.values()) {
+            Duration limit = EvolutionRun.withTimeLimit(execution, settings).timeout();
+            longest = longest.compareTo(limit) < 0 ? limit : longest;
+        }
+        return execution.withTimeout(longest);
+    }
+
+    private List<Contestant> contestants() {
+        List<String> known = Arrays.stream(Contestant.values()).map(Contestant::label).toList();
+        return optimizers.stream().map(name -> {
+            int index = known.indexOf(name.toLowerCase(Locale.ROOT));
+            if (index < 0) {
+                throw new InvalidInputException("--optimizers has " + name + "; expected some of "
+                        + String.join(",", known));
+            }
+            return Contestant.values()[index];
+        }).toList();
+    }
+
+    /** The command line, but for what does not change the outcome. */
+    private String command() {
+        StringBuilder command = new StringBuilder("java -jar ga-java/target/natator.jar compare-optimizers");
+        for (var option : spec.commandLine().getParseResult().matchedOptions()) {
+            if (!List.of("--stop-after", "--simulator-path", "--workers", "--timeout", "--no-cache").contains(option.longestName())) {
+                command.append(' ').append(option.longestName()).append(' ')
+                        .append(String.join(",", option.originalStringValues()));
+            }
+        }
+        return command.toString();
+    }
+}

@@ -1,0 +1,62 @@
+package io.natator.cli;
+
+import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.SimulatorMode;
+import io.natator.simulator.SimulatorLocator;
+import java.nio.file.Path;
+import java.time.Duration;
+import picocli.CommandLine.Option;
+
+/** Options that say how evaluations are carried out. */
+final class ExecutionOptions {
+
+    @Option(names = "--simulator", paramLabel = "MODE", description = "How evaluations reach the native program: "
+            + "process (one for each), resident (processes kept alive) or batch (a generation at once). The results are "
+            + "the same. Default: batch with --backend cuda, else process.")
+    private SimulatorMode mode;
+
+    @Option(names = "--backend", paramLabel = "BACKEND",
+            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: cpu, or the resumed run's.")
+    private Backend backend;
+
+    @Option(names = "--device", paramLabel = "N", defaultValue = "0",
+            description = "Number of the GPU. Default: ${DEFAULT-VALUE}.")
+    private int device;
+
+    @Option(names = "--workers", paramLabel = "N",
+            description = "Evaluations at the same time; the result does not depend on it. Default: all processors.")
+    private Integer workers;
+
+    @Option(names = "--timeout", paramLabel = "SECONDS", description = "Longest time for one attempt at an evaluation. "
+            + "Default: what follows from the scene's cost, for the thesis' scenes two minutes.")
+    private Double timeoutSeconds;
+
+    @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
+            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else build/release/bin/natator-sim.")
+    private Path simulatorPath;
+
+    /** The backend that was asked for, or null. */
+    Backend backend() {
+        return backend;
+    }
+
+    /**
+     * The settings, with a null time limit if none was given.
+     *
+     * @param otherwise the backend if none was given
+     */
+    ExecutionSettings execution(Backend otherwise) {
+        if (timeoutSeconds != null && (!(timeoutSeconds > 0) || Double.isInfinite(timeoutSeconds))) {
+            throw new InvalidInputException("--timeout is " + timeoutSeconds
+                    + "; expected a number of seconds above 0");
+        }
+        Backend chosen = backend != null ? backend : otherwise;
+        return new ExecutionSettings(SimulatorLocator.locate(simulatorPath),
+                mode != null ? mode : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS, chosen,
+                device, workers != null ? workers : Runtime.getRuntime().availableProcessors(),
+                timeoutSeconds == null ? null
+                        : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null);
+    }
+}

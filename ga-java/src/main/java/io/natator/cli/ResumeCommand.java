@@ -1,0 +1,54 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.RunFolder;
+import java.nio.file.Path;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator resume}: continues a run. */
+@Command(name = "resume", mixinStandardHelpOptions = true,
+        description = {"Continues a run that was interrupted.",
+            "Its outcome is that of an uninterrupted one, unless it continues on another backend."})
+final class ResumeCommand implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private ExecutionOptions executionOptions;
+
+    @Mixin
+    private CacheOptions cacheOptions;
+
+    @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
+    private Double stopAfter;
+
+    @Parameters(paramLabel = "RUN", description = "Run folder.")
+    private Path folder;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        resume(folder, executionOptions, cacheOptions, stopAfter, spec);
+        return ExitCode.OK;
+    }
+
+    static void resume(Path directory, ExecutionOptions options, CacheOptions cache, Double stopAfter,
+            CommandSpec spec) throws InterruptedException {
+        EvolveCommand.checkStopAfter(stopAfter);
+        RunFolder folder = RunFolder.open(directory);
+        if (options.backend() != null && options.backend() != folder.settings().backend()) {
+            spec.commandLine().getErr().println("backend was " + folder.settings().backend().argument()
+                    + ", is now " + options.backend().argument() + ": last digits, and with them gaits, will differ "
+                    + "from those of a run that kept it");
+            folder.changeBackend(options.backend());
+        }
+        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder,
+                cache.in(options.execution(folder.settings().backend())), stopAfter);
+    }
+}

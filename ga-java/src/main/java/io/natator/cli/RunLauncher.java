@@ -1,0 +1,67 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.SimulatorMode;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionStoppedException;
+import io.natator.run.EvolutionRun;
+import io.natator.simulator.Evaluator;
+import java.io.PrintWriter;
+import java.util.ArrayList;
+import java.util.List;
+
+/** Runs the evolution of a folder for the command line: progress, an early stop, the report. */
+final class RunLauncher {
+
+    private final PrintWriter out;
+    private final PrintWriter err;
+
+    RunLauncher(PrintWriter out, PrintWriter err) {
+        this.out = out;
+        this.err = err;
+    }
+
+    /**
+     * Runs to the end, or as long as there is time.
+     *
+     * @param folder    closed afterwards
+     * @param stopAfter seconds, or null
+     */
+    void run(RunFolder folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
+        try (folder) {
+            ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
+            String how = "continue by: natator resume " + folder.directory();
+            try (Evaluator evaluator = Evaluator.open(limited);
+                    Stopper stopper = new Stopper(evaluator, stopAfter, () -> say("interrupted; " + how))) {
+                evolve(folder, limited, evaluator, stopper, how);
+            }
+        }
+    }
+
+    private void evolve(RunFolder folder, ExecutionSettings execution, Evaluator evaluator, Stopper stopper, String how)
+            throws InterruptedException {
+        List<EvolutionListener> listeners = new ArrayList<>();
+        long before = folder.checkpoint() == null ? 0 : folder.checkpoint().evaluations();
+        try (Progress progress = new Progress(folder.settings(), before, err, System.console() != null)) {
+            listeners.add(progress);
+            if (execution.mode() == SimulatorMode.BATCH) {
+                listeners.add(stopper.beforeLateGenerations());
+            }
+            EvolutionRun.Outcome outcome = new EvolutionRun(folder).run(execution, evaluator,
+                    listeners.toArray(EvolutionListener[]::new));
+            new RunReport(out).print(folder.settings(), outcome);
+            out.println("  run folder  " + folder.directory());
+            out.flush();
+        } catch (EvolutionStoppedException | InterruptedException e) {
+            if (stopper.isTimeUp()) {
+                say("time is up; " + how);
+            }
+        }
+    }
+
+    private void say(String line) {
+        err.println(line);
+        err.flush();
+    }
+}

@@ -1,0 +1,37 @@
+package io.natator.evolution;
+
+import io.natator.config.EvolutionSettings;
+import io.natator.encoding.GeneRange;
+import io.natator.simulator.SimulationResult;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.SplittableRandom;
+
+/** Uniformly random genomes, as many in each generation as the population's size. */
+final class RandomSearch implements Optimizer {
+
+    private final EvolutionSettings settings;
+    private final List<GeneRange> ranges;
+    private final GenerationEvaluator evaluator;
+
+    RandomSearch(EvolutionSettings settings, List<GeneRange> ranges, GenerationEvaluator evaluator) {
+        this.settings = settings;
+        this.ranges = ranges;
+        this.evaluator = evaluator;
+    }
+
+    @Override
+    public List<Individual> next(int generation, List<Individual> before) {
+        SplittableRandom random = new SplittableRandom(Seeds.of(settings.seed(), generation));
+        List<List<Double>> genomes = new ArrayList<>();
+        for (int i = 0; i < settings.population(); i++) {
+            genomes.add(ranges.stream().map(range -> random.nextDouble(range.lower(), range.upper())).toList());
+        }
+        List<SimulationResult> results = evaluator.evaluate(genomes);
+        List<Individual> individuals = new ArrayList<>();
+        for (int i = 0; i < results.size(); i++) {
+            individuals.add(new Individual(genomes.get(i), 0, results.get(i)));
+        }
+        return individuals;
+    }
+}

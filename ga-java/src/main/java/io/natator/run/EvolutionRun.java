@@ -1,0 +1,120 @@
+package io.natator.run;
+
+import io.natator.cache.CachedEvaluator;
+import io.natator.cache.EvaluationCache;
+import io.natator.checkpoint.Environment;
+import io.natator.checkpoint.RunFolder;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.encoding.Gait;
+import io.natator.evolution.Evolution;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionState;
+import io.natator.evolution.Individual;
+import io.natator.report.FitnessPlot;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.RequestRejectedException;
+import io.natator.simulator.SceneInfo;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.TimeLimit;
+import io.natator.simulator.Vacuum;
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.LongSupplier;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/** Carries out the evolution of a run folder from wherever it stands to its end. */
+public final class EvolutionRun {
+
+    private static final Logger LOG = LoggerFactory.getLogger(EvolutionRun.class);
+
+    private final RunFolder folder;
+    private final EvolutionSettings settings;
+
+    /**
+     * What came of a run.
+     *
+     * @param state  after the last generation
+     * @param vacuum what the best gait does in vacuum; null without a best gait
+     */
+    public record Outcome(EvolutionState state, SimulationResult vacuum) {
+    }
+
+    /** A run whose folder stays open. */
+    public EvolutionRun(RunFolder folder) {
+        this.folder = folder;
+        this.settings = folder.settings();
+    }
+
+    /**
+     * The execution with a time limit that suits the scene, if it has none.
+     *
+     * @throws io.natator.config.InvalidInputException if the simulator does not know the scene
+     * @throws InterruptedException                    if the calling thread is interrupted
+     */
+    public static ExecutionSettings withTimeLimit(ExecutionSettings execution, EvolutionSettings settings)
+            throws InterruptedException {
+        return execution.timeout() != null ? execution : execution.withTimeout(TimeLimit.of(
+                SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()), settings.duration()));
+    }
+
+    /**
+     * Evolves, and writes everything into the folder: after each evaluation, each generation, and at the end.
+     *
+     * @param execution how the evaluator works, for the record
+     * @param evaluator carries out the evaluations; stays open
+     * @param listeners told of the evolution's course
+     * @throws io.natator.evolution.EvolutionStoppedException if the evaluator is closed, or the calling thread
+     *                                                        interrupted; the run can be continued
+     * @throws io.natator.evolution.EvolutionFailedException  if most simulations of a generation fail
+     */
+    public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
+            throws InterruptedException {
+        folder.write(Environment.present(execution));
+        if (execution.cache() == null) {
+            return run(execution, evaluator, () -> 0, List.of(listeners));
+        }
+        CachedEvaluator cached = new CachedEvaluator(evaluator, new EvaluationCache(execution.cache()), execution);
+        return run(execution, cached, cached::found, List.of(listeners));
+    }
+
+    private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found,
+            List<EvolutionListener> listeners) throws InterruptedException {
+        double duration = settings.duration() != null ? settings.duration()
+                : SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()).duration();
+        List<EvolutionListener> all = new ArrayList<>(List.of(folder, new SavingsCounter(folder, duration, found)));
+        all.addAll(listeners);
+        EvolutionState state = new Evolution(settings, evaluator, all, folder.recorded()).run(folder.checkpoint());
+        SimulationResult vacuum = inVacuum(state.best(), evaluator);
+        folder.writeResults(state, vacuum);
+        draw(state);
+        return new Outcome(state, vacuum);
+    }
+
+    /** What the best gait does without water: a gait that advances there is no swimming. */
+    private SimulationResult inVacuum(Individual best, Evaluator evaluator) throws InterruptedException {
+        if (best == null) {
+            return null;
+        }
+        Gait gait = settings.encoding().forActuators(settings.actuators()).decode(best.genes());
+        SimulationRequest request = new SimulationRequest(best.result().id(), settings.scene(), gait,
+                settings.duration(), settings.scheme(), settings.overrides());
+        try {
+            return evaluator.evaluate(Vacuum.of(request, settings.duration()));
+        } catch (RequestRejectedException e) {
+            return SimulationResult.failed(request.id(), e.getMessage());
+        }
+    }
+
+    private void draw(EvolutionState state) {
+        try {
+            FitnessPlot.draw(settings.scene() + ", seed " + settings.seed(), state.history(), folder.plots());
+        } catch (IOException | LinkageError e) {
+            // A Java without its graphics libraries (or fonts) still has the curve in generations.csv.
+            LOG.warn("fitness curve not drawn: {}", e.toString());
+        }
+    }
+}

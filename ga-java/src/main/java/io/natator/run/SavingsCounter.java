@@ -1,0 +1,57 @@
+package io.natator.run;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.Savings;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionState;
+import io.natator.simulator.SimulationResult;
+import java.util.function.LongSupplier;
+
+/** Counts what a run does not have to simulate, and writes it into its folder after each generation. */
+final class SavingsCounter implements EvolutionListener {
+
+    private final RunFolder folder;
+    private final double duration;
+    private final LongSupplier found;
+    private final long foundBefore;
+    private long evaluations;
+    private long stoppedEarly;
+    private double simulated;
+
+    /**
+     * Counts on from the folder's checkpoint.
+     *
+     * @param duration of a simulation that nothing ends early, in seconds
+     * @param found    results from the cache since this run began or was continued
+     */
+    SavingsCounter(RunFolder folder, double duration, LongSupplier found) {
+        this.folder = folder;
+        this.duration = duration;
+        this.found = found;
+        Savings before = RunFolder.savings(folder.directory());
+        this.foundBefore = before == null ? 0 : before.fromCache();
+        if (folder.checkpoint() != null) {
+            folder.recorded().subList(0, (int) folder.checkpoint().evaluations()).forEach(this::evaluated);
+        }
+    }
+
+    @Override
+    public void evaluated(EvaluationRecord evaluation) {
+        SimulationResult result = evaluation.result();
+        evaluations++;
+        if (result.status() == SimulationResult.Status.OK && !"completed".equals(result.stopped())) {
+            stoppedEarly++;
+            simulated += result.simulated();
+        } else {
+            simulated += duration;
+        }
+    }
+
+    @Override
+    public void generationFinished(EvolutionState state) {
+        long unchanged = state.history().stream().mapToLong(one -> one.population() - one.evaluations()).sum();
+        folder.write(new Savings(evaluations, unchanged, foundBefore + found.getAsLong(), stoppedEarly, simulated,
+                evaluations * duration));
+    }
+}

@@ -1,0 +1,44 @@
+package io.natator.study.optimizer;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import java.nio.file.Path;
+
+/**
+ * One run of the study.
+ *
+ * @param scene      short name of the scene
+ * @param contestant what searches
+ * @param settings   all that determines the run
+ * @param directory  its run folder
+ */
+record OptimizerRun(String scene, Contestant contestant, EvolutionSettings settings, Path directory) {
+
+    /**
+     * Opens its folder, or makes it.
+     *
+     * @throws InvalidInputException if there is a run of other settings in it
+     */
+    RunFolder open() {
+        if (!RunFolder.exists(directory)) {
+            return RunFolder.create(directory, settings);
+        }
+        RunFolder folder = RunFolder.open(directory);
+        if (!folder.settings().equals(settings)) {
+            folder.close();
+            throw new InvalidInputException(directory + " was begun with other settings; choose another --output-dir, "
+                    + "or the options that it was begun with");
+        }
+        return folder;
+    }
+
+    /** Best fitness after each evaluation. */
+    double[] curve() {
+        double[] best = RunFolder.evaluations(directory).stream().mapToDouble(one -> one.result().fitness()).toArray();
+        for (int i = 1; i < best.length; i++) {
+            best[i] = Math.max(best[i], best[i - 1]);
+        }
+        return best;
+    }
+}

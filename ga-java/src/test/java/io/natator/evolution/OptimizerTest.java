@@ -1,0 +1,119 @@
+package io.natator.evolution;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
+import io.natator.simulator.WorkerPool;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.EnumSource;
+
+class OptimizerTest {
+
+    private static EvolutionSettings settings(OptimizerKind optimizer, long evaluations, long seed) {
+        return EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
+                .withSize(20, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations).withSeed(seed)
+                .withOptimizer(optimizer, OperatorSet.CORRECTED, 0.05);
+    }
+
+    private static EvolutionState run(EvolutionSettings settings, EvolutionState from, List<EvaluationRecord> recorded,
+            EvolutionListener... listeners) {
+        try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
+            return new Evolution(settings, pool, List.of(listeners), recorded).run(from);
+        }
+    }
+
+    /** Keeps all that a run folder keeps. */
+    private static final class Recorder implements EvolutionListener {
+        private final List<EvolutionState> states = new ArrayList<>();
+        private final List<EvaluationRecord> evaluations = new ArrayList<>();
+
+        @Override
+        public void evaluated(EvaluationRecord evaluation) {
+            evaluations.add(evaluation);
+        }
+
+        @Override
+        public void generationFinished(EvolutionState state) {
+            states.add(state);
+        }
+    }
+
+    @ParameterizedTest
+    @EnumSource(OptimizerKind.class)
+    void takesExactlyTheEvaluationsThatItMay(OptimizerKind optimizer) {
+        Recorder recorder = new Recorder();
+
+        EvolutionState end = run(settings(optimizer, 333, 4), null, List.of(), recorder);
+
+        assertThat(end.evaluations()).isEqualTo(333);
+        assertThat(recorder.evaluations).hasSize(333);
+        assertThat(end.best().result().distance()).isEqualTo(recorder.evaluations.stream()
+                .mapToDouble(one -> one.result().distance()).max().orElseThrow());
+    }
+
+    @ParameterizedTest
+    @EnumSource(OptimizerKind.class)
+    void continuesFromAnyGenerationAsIfNeverInterrupted(OptimizerKind optimizer) {
+        Recorder recorder = new Recorder();
+        EvolutionSettings settings = settings(optimizer, 250, 8);
+        EvolutionState whole = run(settings, null, List.of(), recorder);
+
+        for (EvolutionState state : recorder.states) {
+            for (long more : List.of(0L, 7L)) {
+                int kept = (int) Math.min(state.evaluations() + more, recorder.evaluations.size());
+                assertThat(run(settings, state, recorder.evaluations.subList(0, kept))).isEqualTo(whole);
+            }
+        }
+        assertThat(run(settings(optimizer, 250, 9), null, List.of()).population()).isNotEqualTo(whole.population());
+    }
+
+    /** The toy's optimum, 0.5, lies inside the ranges of all ten genes; a hundredth off in each gives 0.499. */
+    @Test
+    void cmaEsFindsTheOptimumOfASmoothFunction() {
+        EvolutionState cmaEs = run(settings(OptimizerKind.CMA_ES, 3000, 1), null, List.of());
+        EvolutionState random = run(settings(OptimizerKind.RANDOM, 3000, 1), null, List.of());
+
+        assertThat(cmaEs.best().result().distance()).isBetween(0.4999, 0.5);
+        assertThat(random.best().result().distance()).isBetween(-0.3, 0.45);
+    }
+
+    /** Once one search has converged to the last bit, the budget goes to another. */
+    @Test
+    void cmaEsBeginsAnewWhenItHasConverged() {
+        Recorder recorder = new Recorder();
+
+        run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, EvolutionSettings.NO_LIMIT)
+                .withEvaluations(3000L).withOptimizer(OptimizerKind.CMA_ES, OperatorSet.CORRECTED, 0.05), null,
+                List.of(), recorder);
+
+        boolean converged = false;
+        int restarts = 0;
+        for (EvolutionState state : recorder.states) {
+            double spread = state.history().get(state.generation()).best() - state.history().get(state.generation())
+                    .worst();
+            restarts += converged && spread > 0.1 ? 1 : 0;
+            converged = spread < 1e-10;
+        }
+        assertThat(restarts).isPositive();
+    }
+
+    @ParameterizedTest
+    @EnumSource(OptimizerKind.class)
+    void genesStayWithinTheirRanges(OptimizerKind optimizer) {
+        Recorder recorder = new Recorder();
+        run(settings(optimizer, 400, 2), null, List.of(), recorder);
+
+        var ranges = EncodingKind.DENSE.forActuators(5).genes();
+        assertThat(recorder.evaluations).allSatisfy(evaluation -> {
+            for (int i = 0; i < ranges.size(); i++) {
+                assertThat(ranges.get(i).contains(evaluation.genes().get(i))).isTrue();
+            }
+        });
+    }
+}
