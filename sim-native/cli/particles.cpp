@@ -13,6 +13,8 @@ struct Options {
     std::string file;
     std::string output;
     std::string precision = "float";
+    std::string backend = "cpu";
+    int device = 0;
 };
 
 std::string experiment_name(const std::string& file, const nlohmann::json& experiment, std::size_t index) {
@@ -26,10 +28,11 @@ void run_particles(const Options& options, int& status) {
     if (!experiments.is_array()) throw InputError(options.file + ": is not an array of experiments");
     const Precision precision =
         options.precision == "double" ? Precision::double_precision : Precision::single_precision;
+    const std::optional<int> gpu = options.backend == "cuda" ? std::optional(options.device) : std::nullopt;
     nlohmann::json results = nlohmann::json::array();
     for (std::size_t i = 0; i < experiments.size(); ++i) {
-        results.push_back(
-            run_particle_experiment(experiments[i], experiment_name(options.file, experiments[i], i), precision));
+        const std::string name = experiment_name(options.file, experiments[i], i);
+        results.push_back(run_particle_experiment(experiments[i], name, precision, gpu));
         const auto& frames = results.back()["frames"];
         if (!frames.empty() && frames.back().contains("unstable")) status = unstable;
     }
@@ -53,6 +56,12 @@ void add_particles(CLI::App& app, int& status) {
     command->add_option("--output,-o", options->output, "Write here instead of standard output");
     command->add_option("--precision", options->precision, "float or double")
         ->check(CLI::IsMember({"float", "double"}));
+    command->add_option("--backend", options->backend, "cpu or cuda (a GPU)")
+        ->check(CLI::IsMember({"cpu", "cuda"}))
+        ->capture_default_str();
+    command->add_option("--device", options->device, "Number of the GPU, see natator-sim info")
+        ->check(CLI::Range(0, 1023))
+        ->capture_default_str();
     command->callback([options, &status] { run_particles(*options, status); });
 }
 

@@ -1,122 +1,32 @@
-// Scheme flex against black-box measurements of NVIDIA Flex 1.2.0 (tests/conformance/README.md).
-#include <gtest/gtest.h>
+// Scheme flex on the CPU against black-box measurements of NVIDIA Flex 1.2.0.
+#include "conformance_checks.h"
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "io/particle_experiment.h"
-
-namespace natator {
+namespace natator::test {
 namespace {
 
-using nlohmann::json;
-
-const std::filesystem::path conformance_dir = NATATOR_CONFORMANCE_DIR;
-
-json read(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return json::parse(file);
+json on_cpu(const json& experiment, const std::string& name) {
+    return run_particle_experiment(experiment, name, Precision::single_precision);
 }
 
-std::vector<std::string> files_of(const std::string& folder) {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(conformance_dir / folder))
-        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
-/// Largest difference of any two numbers at the same place; infinite where the shapes differ.
-double largest_difference(const json& a, const json& b) {
-    if (a.is_number() && b.is_number()) return std::abs(a.get<double>() - b.get<double>());
-    if (!a.is_array() || !b.is_array() || a.size() != b.size()) return INFINITY;
-    double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, largest_difference(a[i], b[i]));
-    return largest;
-}
-
-double largest_trace_difference(const json& measured, const json& computed) {
-    if (measured.size() != computed.size()) return INFINITY;
-    double largest = 0;
-    for (std::size_t s = 0; s < measured.size(); ++s)
-        for (const char* key : {"predicted", "iterations"})
-            largest = std::max(largest, largest_difference(measured[s].at(key), computed[s].at(key)));
-    return largest;
+json exceptions() {
+    return read(conformance_dir / "exceptions.json");
 }
 
 class Micro : public testing::TestWithParam<std::string> {};
-
-/// Positions after every iteration, from the experiment's start on with no correction in between. Rounding differs
-/// from the measured program's and adds up, so the bound grows with the number of updates.
 TEST_P(Micro, PositionsAgreeAfterEveryIteration) {
-    const json exceptions = read(conformance_dir / "exceptions.json");
-    const json experiments = read(conformance_dir / "micro" / (GetParam() + ".json"));
-    ASSERT_FALSE(experiments.empty());
-    for (const json& measured : experiments) {
-        const std::string name = measured["name"];
-        if (exceptions.contains(name)) continue;
-        const json computed = run_particle_experiment(measured, name, Precision::single_precision);
-        ASSERT_EQ(computed["frames"].size(), measured["frames"].size()) << name;
-        for (std::size_t f = 0; f < measured["frames"].size(); ++f) {
-            const json& a = measured["frames"][f];
-            const json& b = computed["frames"][f];
-            const double bound = 5e-6 * a["frame"].get<int>();
-            EXPECT_LT(largest_difference(a["pos"], b["pos"]), bound) << name << " frame " << a["frame"];
-            if (a.contains("substeps_trace")) {
-                EXPECT_LT(largest_trace_difference(a["substeps_trace"], b["substeps_trace"]), bound)
-                    << name << " frame " << a["frame"];
-            }
-        }
-    }
+    expect_positions_after_every_iteration(GetParam(), exceptions(), on_cpu);
 }
-
-/// A velocity is a position difference over h, so rounding of positions (1e-7 times their size) is divided by h.
 TEST_P(Micro, VelocitiesAgreeAfterTheFirstUpdate) {
-    const json exceptions = read(conformance_dir / "exceptions.json");
-    for (const json& measured : read(conformance_dir / "micro" / (GetParam() + ".json"))) {
-        const std::string name = measured["name"];
-        if (exceptions.contains(name) || measured["frames"][0]["frame"] != 1) continue;
-        const json computed = run_particle_experiment(measured, name, Precision::single_precision);
-        const json& a = measured["frames"][0]["vel"];
-        double fastest = 0;
-        for (const json& row : a)
-            for (const json& v : row) fastest = std::max(fastest, std::abs(v.get<double>()));
-        EXPECT_LT(largest_difference(a, computed["frames"][0]["vel"]), 2e-3 + 1e-5 * fastest) << name;
-    }
+    expect_velocities_after_the_first_update(GetParam(), exceptions(), on_cpu);
 }
-
 INSTANTIATE_TEST_SUITE_P(Flex, Micro, testing::ValuesIn(files_of("micro")), [](const auto& p) { return p.param; });
 
 class OneFrame : public testing::TestWithParam<std::string> {};
-
-/// The thesis scene over one frame of four substeps: every particle stays where Flex put it.
 TEST_P(OneFrame, EveryParticleAgrees) {
-    const json experiments = read(conformance_dir / "one_frame" / (GetParam() + ".json"));
-    ASSERT_EQ(experiments.size(), 1u);
-    const json& measured = experiments[0]["frames"][0];
-    const json computed = run_particle_experiment(experiments[0], GetParam(), Precision::single_precision)["frames"][0];
-
-    std::vector<double> distance;
-    for (std::size_t i = 0; i < measured["pos"].size(); ++i) {
-        double squared = 0;
-        for (int k = 0; k < 3; ++k)
-            squared += std::pow(measured["pos"][i][k].get<double>() - computed["pos"][i][k].get<double>(), 2);
-        distance.push_back(std::sqrt(squared));
-    }
-    std::sort(distance.begin(), distance.end());
-    EXPECT_LE(distance[distance.size() / 2], 1e-6);
-    EXPECT_LE(distance.back(), 2e-4);
-    EXPECT_LT(largest_difference(measured["first_substep"]["iterations"], computed["first_substep"]["iterations"]),
-              1e-5);
-    EXPECT_LT(largest_difference(measured["rot"], computed["rot"]), 1e-4);
-    EXPECT_LT(largest_difference(measured["trans"], computed["trans"]), 2e-5);
+    expect_every_particle_after_a_frame(GetParam(), on_cpu);
 }
-
 INSTANTIATE_TEST_SUITE_P(Flex, OneFrame, testing::ValuesIn(files_of("one_frame")),
                          [](const auto& p) { return p.param; });
 
 }  // namespace
-}  // namespace natator
+}  // namespace natator::test

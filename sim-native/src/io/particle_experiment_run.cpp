@@ -3,6 +3,7 @@
 
 #include "natator/error.h"
 #include "particle_experiment.h"
+#include "solver/gpu_solver.h"
 
 namespace natator {
 namespace {
@@ -51,8 +52,8 @@ public:
 };
 
 /// One entry of the result's `frames`, with the fields that `asked` has.
-template <class Real>
-json frame_of(const json& asked, const State<Real>& state, Solver<Real>& solver, json trace) {
+template <class Real, class AnySolver>
+json frame_of(const json& asked, const State<Real>& state, AnySolver& solver, json trace) {
     json frame{{"frame", asked.at("frame")}, {"pos", rows_of(state.position)}, {"vel", rows_of(state.velocity)}};
     if (asked.contains("density")) {
         frame["density"] = json::array();
@@ -69,9 +70,8 @@ json frame_of(const json& asked, const State<Real>& state, Solver<Real>& solver,
     return frame;
 }
 
-template <class Real>
-json run_frames(const ParticleExperiment& experiment, const json& asked_frames) {
-    Solver<Real> solver(experiment.model);
+template <class Real, class AnySolver>
+json run_frames(const ParticleExperiment& experiment, const json& asked_frames, AnySolver solver) {
     State<Real> state = initial_state<Real>(experiment.model);
     json frames = json::array();
     long updates = 0;
@@ -109,12 +109,17 @@ json asked_frames(const json& experiment, const std::string& where) {
 
 }  // namespace
 
-json run_particle_experiment(const json& source, const std::string& where, Precision precision) {
+json run_particle_experiment(const json& source, const std::string& where, Precision precision,
+                             std::optional<int> gpu) {
     const ParticleExperiment experiment = read_particle_experiment(source, where);
     const json asked = asked_frames(source, where);
+    const auto frames = [&](auto real) {
+        using Real = decltype(real);
+        return gpu ? run_frames<Real>(experiment, asked, GpuSolver<Real>(experiment.model, *gpu))
+                   : run_frames<Real>(experiment, asked, Solver<Real>(experiment.model));
+    };
     json result = source;
-    result["frames"] = precision == Precision::double_precision ? run_frames<double>(experiment, asked)
-                                                                : run_frames<float>(experiment, asked);
+    result["frames"] = precision == Precision::double_precision ? frames(double{}) : frames(float{});
     return result;
 }
 

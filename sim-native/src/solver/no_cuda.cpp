@@ -1,8 +1,16 @@
 // What a build without CUDA answers.
 #include "natator/batch.h"
 #include "natator/error.h"
+#include "solver/gpu_solver.h"
 
 namespace natator {
+namespace {
+
+[[noreturn]] void refuse() {
+    throw NoDevice("backend cuda: this natator-sim was built without CUDA; must be built with -DNATATOR_CUDA=ON");
+}
+
+}  // namespace
 
 std::vector<Device> cuda_devices() {
     return {};
@@ -13,7 +21,38 @@ std::optional<std::string> gpu_refusal(const Scene&) {
 }
 
 std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMember>&, Precision, int) {
-    throw NoDevice("backend cuda: this natator-sim was built without CUDA; must be built with -DNATATOR_CUDA=ON");
+    refuse();
 }
+
+template <class Real>
+class GpuSolver<Real>::Implementation {};
+template <class Real>
+GpuSolver<Real>::GpuSolver(const Model&, int) {
+    refuse();
+}
+template <class Real>
+GpuSolver<Real>::~GpuSolver() = default;
+template <class Real>
+GpuSolver<Real>::GpuSolver(GpuSolver&&) noexcept = default;
+template <class Real>
+GpuSolver<Real>& GpuSolver<Real>::operator=(GpuSolver&&) noexcept = default;
+template <class Real>
+std::optional<Instability> GpuSolver<Real>::update(State<Real>&, double, int, StepObserver<Real>*) {
+    refuse();
+}
+template <class Real>
+std::optional<Instability> GpuSolver<Real>::frame(State<Real>&, const Gait&) {
+    refuse();
+}
+template <class Real>
+std::vector<Real> GpuSolver<Real>::densities() const {
+    refuse();
+}
+template <class Real>
+std::vector<int> GpuSolver<Real>::neighbour_counts() const {
+    refuse();
+}
+template class GpuSolver<float>;
+template class GpuSolver<double>;
 
 }  // namespace natator

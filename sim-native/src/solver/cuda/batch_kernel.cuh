@@ -13,12 +13,12 @@ struct Progress {
     double bad_time = 0;   ///< start of the substep that made it
 };
 
-/// The gaits of a batch, row by row.
+/// The gaits of a batch, row by row; without frequencies the muscles stay as they are.
 struct GaitView {
-    const double* frequency;
-    const double* power;
-    const double* amplitude;  ///< [state * actuators + actuator]
-    const double* phase;
+    const double* frequency = nullptr;
+    const double* power = nullptr;
+    const double* amplitude = nullptr;  ///< [state * actuators + actuator]
+    const double* phase = nullptr;
 };
 
 /// What the blocks of a launch work on: `updates` updates of each of `states` States.
@@ -26,18 +26,22 @@ template <class Real>
 struct BatchView {
     ModelView<Real> model;
     int states, updates;
+    double start_time;  ///< of the first update, s
     double time_step;
     int substeps;
-    bool settling;  ///< muscles at rest, velocities to 0 after each update, no measurement
+    bool settling;  ///< velocities to 0 after each update, no measurement
 
     // By State.
     Quad<Real>* position;  ///< [state * particles + slot], w = the particle's number
     Quad<Real>* velocity;
-    ClusterFit<Real>* fit;  ///< [state * clusters + cluster]
+    ClusterFit<Real>* fit;    ///< [state * clusters + cluster]
+    const Real* rest_length;  ///< of the springs: [state * springs + spring]; null: the Model's
     Progress* progress;
     GaitView gait;
-    double* path;   ///< mean x of the body: [state * (updates + 1) + frame]
-    Real* density;  ///< after the last update: [state * fluid + particle]; null if nobody asks
+    double* path;       ///< mean x of the body: [state * (updates + 1) + frame]
+    Real* density;      ///< after the last update: [state * fluid + particle]; null if nobody asks
+    int* neighbours;    ///< of each particle in the last substep: [state * particles + particle]; likewise
+    Trace<Real> trace;  ///< of the only State's last update
     bool stop_at_planes;
     int no_progress_frames;  ///< 0 = never
 
@@ -63,5 +67,9 @@ void launch_batch(const BatchView<Real>& batch, bool on_chip, int blocks);
 /// Blocks that the current device can hold at a time; 0 if a block does not fit on its chip.
 template <class Real>
 int resident_blocks(const ModelView<Real>& model, bool on_chip);
+
+/// The kernel that launch_batch starts; instantiated in a source of its own per scheme.
+template <class Real, Scheme scheme>
+const void* batch_kernel(bool on_chip);
 
 }  // namespace natator::cuda

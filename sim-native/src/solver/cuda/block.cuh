@@ -18,6 +18,19 @@ struct ClusterFit {
     Real rotation[4];  ///< x, y, z, w
 };
 
+/// What gives a free body the momentum back that its internal forces took: see cpu/conserving/velocities.cpp.
+struct BodyMotion {
+    double linear[3], angular[3], centre[3];
+};
+
+/// Where an observer's view of a State is written; null where nobody looks. By slot, with the particles' numbers.
+template <class Real>
+struct Trace {
+    Quad<Real>* predicted = nullptr;  ///< [substep * particles + slot]
+    Quad<Real>* iterated = nullptr;   ///< [(substep * iterations + iteration) * particles + slot]
+    Quad<Real>* velocity = nullptr;   ///< [substep * particles + slot], at the slots of the last iteration
+};
+
 /// All that a block works on while it advances one State. Slots are numbered anew in every substep, as on the CPU:
 /// first the fluid, then the solids, each in the order of its cells and within a cell by particle, so that the order,
 /// and with it every sum, depends on positions alone.
@@ -26,26 +39,47 @@ struct Block {
     // On the chip where they fit, by slot.
     Quad<Real>* position;  ///< w holds the particle's number as an integer
     Quad<Real>* next;      ///< positions after the iteration; cells and keys while slots are numbered
-    Real* compression;     ///< of fluid slots
+    Real* compression;     ///< of fluid slots; scheme conserving: lambda
     std::uint16_t* slot_of_solid;
     Real* rest_length;      ///< of the springs
     ClusterFit<Real>* fit;  ///< of the clusters
     int* scan;              ///< a number per warp
+    int* touched_count;     ///< one number
 
     // In device memory, by slot.
-    Quad<Real>* velocity;      ///< of the State
-    Quad<Real>* predicted;     ///< scratch: predicted position before slots are numbered
-    Quad<Real>* drift;         ///< v* after external forces, w = inverse mass
-    Quad<Real>* drift_before;  ///< scratch: the same before slots are numbered
-    Quad<Real>* start;         ///< position at the start of the substep
-    std::uint16_t* neighbour;  ///< fluid neighbours of fluid slots: entry k of slot s at [k * fluid + s]
+    Quad<Real>* velocity;       ///< of the State
+    Quad<Real>* next_velocity;  ///< what the substep makes of it
+    Quad<Real>* predicted;      ///< scratch: predicted position before slots are numbered
+    Quad<Real>* drift;          ///< v* after external forces, w = inverse mass
+    Quad<Real>* drift_before;   ///< scratch: the same before slots are numbered
+    Quad<Real>* start;          ///< position at the start of the substep
+    std::uint16_t* neighbour;   ///< fluid neighbours of fluid slots: entry k of slot s at [k * fluid + s]
     std::uint16_t* neighbour_count;
     std::uint16_t* fluid_contact;  ///< solid neighbours of fluid slots, laid out likewise
     std::uint16_t* solid_contact;  ///< neighbours of solid slots: entry k of slot s at [k * solids + s - fluid]
     std::uint16_t* contact_count;  ///< by slot
     std::uint16_t* plane_contact;  ///< by slot: bit k set if plane k may be touched in this substep
+    std::uint16_t* touched;        ///< slots that have contacts, in no order
+    ClusterFit<Real>* fit_before;  ///< as the substep found them
 
-    Real h;  ///< substep, s
+    // In device memory, scheme conserving only, by slot unless said otherwise.
+    Quad<Real>* base;          ///< predicted positions
+    Quad<Real>* displacement;  ///< from base to the present position, apart so that it is not rounded to it
+    Quad<Real>* boundary;      ///< grad_i C_i of planes and solids, w = what solids add to sum_k w_k |grad_k C_i|^2
+    Real* lambda_sum;          ///< of the substep so far
+    Real* overlap;             ///< C_i at the start of the substep if it is an overlap, else 0
+    Real* overlap_lambda;      ///< what has pushed it out in this substep
+    std::uint16_t* active;     ///< contacts that are not apart
+    Quad<Real>* internal;      ///< by solid: its displacement by springs and clusters
+    Quad<Real>* spring_push;   ///< by spring
+    Real* spring_lambda;       ///< by spring
+    Quad<Real>* member_displacement;  ///< by member of a cluster: sum of the substep's corrections
+    Quad<Real>* member_push;          ///< by member of a cluster
+    BodyMotion* motion;               ///< by free body
+
+    Real h;            ///< substep, s
+    bool overlapping;  ///< in this substep
+    Trace<Real> trace;
 
     __device__ int* cell_table() const { return reinterpret_cast<int*>(next); }
     __device__ std::uint32_t* keys(int cells) const {

@@ -5,6 +5,7 @@
 
 #include "natator/error.h"
 #include "solver/cpu/cell_grid.h"
+#include "solver/cpu/conserving/constants.h"
 #include "solver/cpu/substep.h"
 
 namespace natator::cuda {
@@ -35,6 +36,7 @@ DeviceModel<Real>::DeviceModel(const Model& model) {
     const cpu::Constants<Real> constants(model.parameters);
     const SolverParameters& p = model.parameters;
     view_.plan = make_plan(model);
+    view_.scheme = model.scheme;
     view_.particles = model.particles();
     view_.radius = constants.radius;
     view_.inverse_radius = constants.inverse_radius;
@@ -72,6 +74,9 @@ DeviceModel<Real>::DeviceModel(const Model& model) {
     for (int i = 0; i < model.particles(); ++i)
         if (!model.is_fluid(i)) number_of_[i] = view_.fluid + view_.solids++;
 
+    particle_of_.resize(model.particles());
+    for (int i = 0; i < model.particles(); ++i) particle_of_[number_of_[i]] = i;
+
     std::vector<Real> inverse_mass(model.particles());
     std::vector<std::uint32_t> phase(model.particles());
     std::vector<Vec3<Real>> rest(model.rest_position.size());
@@ -83,8 +88,39 @@ DeviceModel<Real>::DeviceModel(const Model& model) {
     view_.inverse_mass = keep(inverse_mass_, inverse_mass);
     view_.phase = keep(phase_, phase);
     view_.rest_position = keep(rest_position_, rest);
+    if (model.scheme == Scheme::conserving) set_conserving(model);
     upload_solids(model);
     lay_grid(model);
+}
+
+template <class Real>
+void DeviceModel<Real>::set_conserving(const Model& model) {
+    const cpu::ConservingConstants<Real> own(model.parameters);
+    view_.most_neighbours = own.most_neighbours;
+    view_.kernel_scale = own.kernel_scale;
+    view_.gradient_scale = own.gradient_scale;
+    view_.rest_sum = own.rest_sum;
+    view_.plane_scale = own.plane_scale;
+    view_.plane_gap = own.plane_gap;
+    view_.overlap_acceleration = own.overlap_acceleration;
+    view_.plane_search_distance += view_.radius;
+    view_.fluid_inverse_mass = -1;
+    bool first = true;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i)) continue;
+        const Real w = static_cast<Real>(model.inverse_mass[i]);
+        view_.fluid_inverse_mass = first || w == view_.fluid_inverse_mass ? w : -1;
+        first = false;
+        if (view_.fluid_inverse_mass < 0) break;
+    }
+    std::vector<int> begin{0}, particles;
+    for (const std::vector<int>& body : cpu::free_bodies(model)) {
+        for (const int i : body) particles.push_back(number_of_[i] - view_.fluid);
+        begin.push_back(static_cast<int>(particles.size()));
+    }
+    view_.free_bodies = static_cast<int>(begin.size()) - 1;
+    view_.free_body_begin = keep(free_body_begin_, begin);
+    view_.free_body_particle = keep(free_body_particle_, particles);
 }
 
 template <class Real>
@@ -96,7 +132,8 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
         const int index = static_cast<int>(springs.size());
         const int a = solid(spring.a), b = solid(spring.b);
         if (a < 0 || b < 0) throw InputError("backend cuda: a spring on a fluid particle; must be on solids");
-        springs.push_back({a, b, static_cast<Real>(spring.rest_length), static_cast<Real>(spring.stiffness)});
+        springs.push_back({a, b, static_cast<Real>(spring.rest_length), static_cast<Real>(spring.stiffness),
+                           cpu::softness(spring.stiffness)});
         spring_shares[a].push_back({index, b});
         spring_shares[b].push_back({index, a});
     }
@@ -107,6 +144,10 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     std::vector<ClusterView<Real>> clusters;
     std::vector<int> members;
     std::vector<Vec3<Real>> offsets;
+    std::vector<Real> masses;
+    const bool split = model.scheme == Scheme::conserving;
+    const std::vector<cpu::SplitCluster<Real>> splits =
+        split ? cpu::split_clusters<Real>(model) : std::vector<cpu::SplitCluster<Real>>();
     for (const Cluster& cluster : model.clusters) {
         const int index = static_cast<int>(clusters.size());
         const int begin = static_cast<int>(members.size());
@@ -115,9 +156,16 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
             if (s < 0) throw InputError("backend cuda: a cluster with a fluid particle; must be of solids");
             cluster_shares[s].push_back({index, static_cast<int>(members.size())});
             members.push_back(s);
-            offsets.push_back(vec3<Real>(cluster.rest_offset[m]));
+            if (split) {
+                const Vector3<Real>& offset = splits[index].offset[m];
+                offsets.push_back({offset.x(), offset.y(), offset.z()});
+                masses.push_back(splits[index].mass[m]);
+            } else {
+                offsets.push_back(vec3<Real>(cluster.rest_offset[m]));
+            }
         }
-        clusters.push_back({begin, static_cast<int>(members.size()), static_cast<Real>(cluster.stiffness)});
+        clusters.push_back({begin, static_cast<int>(members.size()), static_cast<Real>(cluster.stiffness),
+                            cpu::softness(cluster.stiffness)});
     }
     std::vector<int> body;
     for (const int i : model.body.particles) body.push_back(solid(i));
@@ -126,6 +174,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     view_.springs = static_cast<int>(springs.size());
     view_.muscles = static_cast<int>(muscles.size());
     view_.clusters = static_cast<int>(clusters.size());
+    view_.members = static_cast<int>(members.size());
     view_.actuators = model.actuators;
     view_.body = static_cast<int>(body.size());
     view_.spring = keep(spring_, springs);
@@ -133,6 +182,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     view_.cluster = keep(cluster_, clusters);
     view_.member = keep(member_, members);
     view_.offset = keep(offset_, offsets);
+    view_.member_mass = keep(member_mass_, masses);
     view_.spring_shares_begin = keep(spring_shares_begin_, spring_lists.begin);
     view_.spring_share = keep(spring_share_, spring_lists.shares);
     view_.cluster_shares_begin = keep(cluster_shares_begin_, cluster_lists.begin);

@@ -18,6 +18,8 @@ public:
     const ModelView<Real>& view() const { return view_; }
     /// Device number of each particle of the Model.
     const std::vector<int>& number_of() const { return number_of_; }
+    /// Particle of the Model by device number.
+    const std::vector<int>& particle_of() const { return particle_of_; }
 
 private:
     template <class T>
@@ -25,18 +27,20 @@ private:
         buffer = DeviceBuffer<T>(values);
         return buffer.data();
     }
+    void set_conserving(const Model& model);
     void upload_solids(const Model& model);
     void lay_grid(const Model& model);
 
     ModelView<Real> view_{};
-    std::vector<int> number_of_;
-    DeviceBuffer<Real> inverse_mass_;
+    std::vector<int> number_of_, particle_of_;
+    DeviceBuffer<Real> inverse_mass_, member_mass_;
     DeviceBuffer<std::uint32_t> phase_;
     DeviceBuffer<Vec3<Real>> rest_position_, offset_;
     DeviceBuffer<SpringView<Real>> spring_;
     DeviceBuffer<MuscleView> muscle_;
     DeviceBuffer<ClusterView<Real>> cluster_;
-    DeviceBuffer<int> member_, spring_shares_begin_, cluster_shares_begin_, body_particle_;
+    DeviceBuffer<int> member_, spring_shares_begin_, cluster_shares_begin_, body_particle_, free_body_begin_,
+        free_body_particle_;
     DeviceBuffer<Share> spring_share_, cluster_share_;
 };
 

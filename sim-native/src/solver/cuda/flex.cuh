@@ -1,35 +1,9 @@
 #pragma once
 
-#include "block.cuh"
+#include "contacts.cuh"
 #include "rotation.cuh"
 
 namespace natator::cuda {
-
-template <class Real>
-__device__ float inverse_root(float v) {
-    return rsqrtf(v);
-}
-template <class Real>
-__device__ double inverse_root(double v) {
-    return rsqrt(v);
-}
-
-/// Keeps 1/r finite at r = 0, where the direction is 0 anyway; too small to change any other r^2.
-template <class Real>
-__device__ constexpr Real tiny() {
-    return Real(1e-30);
-}
-
-/// Calls visit(slot) for the contacts of slot s.
-template <class Real, class Visit>
-__device__ void for_each_contact(const ModelView<Real>& model, const Block<Real>& block, int s, const Visit& visit) {
-    if (!model.plan.contacts) return;
-    const bool fluid = s < model.fluid;
-    const std::uint16_t* const list = fluid ? block.fluid_contact + s : block.solid_contact + (s - model.fluid);
-    const std::size_t stride = fluid ? model.fluid : model.solids;
-    const int count = block.contact_count[s];
-    for (int k = 0; k < count; ++k) visit(static_cast<int>(list[k * stride]));
-}
 
 /// Densities and compressions of the fluid. As cpu/flex/density.cpp.
 template <class Real>
@@ -131,17 +105,6 @@ __device__ void add_density_constraint(const ModelView<Real>& model, const Block
     correction.sum = inverse_mass * model.radius * Real(0.5) * sum;
 }
 
-/// What Coulomb friction takes off the displacement of a contact. As Substep::friction.
-template <class Real>
-__device__ Vec3<Real> friction(const ModelView<Real>& model, const Vec3<Real>& moved, const Vec3<Real>& normal,
-                               Real depth, Real coefficient) {
-    const Vec3<Real> tangential = moved - dot(moved, normal) * normal;
-    const Real m = norm(tangential);
-    if (!(m > 0)) return {0, 0, 0};
-    const Real held = m < model.static_friction * depth ? m : min(coefficient * depth, m);
-    return (held / m) * tangential;
-}
-
 /// As cpu/flex/contacts.cpp.
 template <class Real>
 __device__ void add_contacts(const ModelView<Real>& model, const Block<Real>& block, int s, const Vec3<Real>& x,
@@ -238,7 +201,7 @@ __device__ void iterate_summed(const ModelView<Real>& model, Block<Real>& block)
     block.next = swap;
 }
 
-/// As cpu/flex/velocities.cpp and cpu/commit.cpp. True if all that this thread wrote is finite.
+/// As cpu/flex/velocities.cpp. True if all that this thread wrote is finite.
 template <class Real>
 __device__ bool update_velocities(const ModelView<Real>& model, Block<Real>& block) {
     const Real inverse_h = 1 / block.h;
@@ -273,11 +236,8 @@ __device__ bool update_velocities(const ModelView<Real>& model, Block<Real>& blo
         if (model.plan.clamp_acceleration) v = predicted + clamped(v - predicted, model.max_acceleration * block.h);
         if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
         finite &= isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
-        block.velocity[s] = quad(drift.w > 0 ? v : predicted, Real(0));
+        block.next_velocity[s] = quad(drift.w > 0 ? v : predicted, Real(0));
     }
-    __syncthreads();
-    for (int s = threadIdx.x; s < model.particles; s += threads)
-        if (!(block.drift[s].w > 0)) block.position[s] = block.start[s];
     return finite;
 }
 

@@ -51,6 +51,7 @@ template <class Real>
 struct SpringView {
     int a, b;  ///< solid ids
     Real rest_length, stiffness;
+    double softness;  ///< see cpu/conserving/constants.h
 };
 
 struct MuscleView {
@@ -62,6 +63,7 @@ template <class Real>
 struct ClusterView {
     int begin, end;  ///< of its members
     Real stiffness;
+    double softness;
 };
 
 /// One entry of what acts on a solid particle: a spring with its other end, or a cluster with a member's rest offset.
@@ -76,6 +78,7 @@ inline constexpr int most_planes = 16;
 template <class Real>
 struct ModelView {
     Plan plan;
+    Scheme scheme;
     int particles, fluid, solids;
 
     Real radius, inverse_radius, search_distance, solid_rest_distance, density_scale;
@@ -85,6 +88,10 @@ struct ModelView {
     Vec3<Real> gravity, fluid_gravity;
     int iterations, most_neighbours;
 
+    // Scheme conserving, see cpu/conserving/constants.h.
+    Real kernel_scale, gradient_scale, rest_sum, plane_scale, plane_gap, overlap_acceleration;
+    Real fluid_inverse_mass;  ///< of every fluid particle; negative if they differ
+
     GridView<Real> grid;
     int planes;
     PlaneView<Real> plane[most_planes];
@@ -93,16 +100,21 @@ struct ModelView {
     const std::uint32_t* phase;       ///< by particle
     const Vec3<Real>* rest_position;  ///< by particle; null if no particle filters its collisions
 
-    int springs, clusters, muscles, actuators;
+    int springs, clusters, members, muscles, actuators;
     const SpringView<Real>* spring;
     const MuscleView* muscle;
     const ClusterView<Real>* cluster;
     const int* member;               ///< solid ids, cluster by cluster
-    const Vec3<Real>* offset;        ///< rest position minus mean of the rest positions, by member
+    const Vec3<Real>* offset;        ///< rest position minus the mean of the rest positions, by member
+    const Real* member_mass;         ///< by member, see cpu::SplitCluster; null in scheme flex
     const int* spring_shares_begin;  ///< by solid, one more at the end
     const Share* spring_share;
     const int* cluster_shares_begin;  ///< by solid, one more at the end
     const Share* cluster_share;
+
+    int free_bodies;
+    const int* free_body_begin;     ///< one more at the end
+    const int* free_body_particle;  ///< solid ids
 
     int body;                  ///< particles of the swimmer
     const int* body_particle;  ///< solid ids

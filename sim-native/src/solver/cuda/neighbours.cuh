@@ -1,20 +1,25 @@
 #pragma once
 
-#include "block.cuh"
+#include "conserving_overlap.cuh"
 
 namespace natator::cuda {
 
 /// v* = v + h g, |v*| <= maxSpeed, x* = x + h v*; counts the particles of each cell. As cpu/predict.cpp.
-template <class Real>
+template <Scheme scheme, class Real>
 __device__ void predict(const ModelView<Real>& model, Block<Real>& block) {
     int* const table = block.cell_table();
     for (int c = threadIdx.x; c < 2 * model.grid.cells; c += threads) table[c] = 0;
     __syncthreads();
+    for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit_before[k] = block.fit[k];
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        const Quad<Real> x = block.position[s];
+        Quad<Real> x = block.position[s];
         Vec3<Real> v = xyz(block.velocity[s]);
         const int i = number_in(x.w);
         const Real inverse_mass = model.inverse_mass[i];
+        if (scheme == Scheme::conserving && inverse_mass > 0) {
+            x = quad(put_before_planes(model, xyz(x)), x.w);
+            block.position[s] = x;
+        }
         if (inverse_mass > 0) v = v + block.h * (s < model.fluid ? model.fluid_gravity : model.gravity);
         if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
         const Vec3<Real> there = xyz(x) + block.h * v;
@@ -27,7 +32,7 @@ __device__ void predict(const ModelView<Real>& model, Block<Real>& block) {
 
 /// Numbers the slots anew: counting sort by cell, then by particle within each cell, which makes the order the same
 /// whatever order the atomics came in. Leaves the cells' ends in the table.
-template <class Real>
+template <Scheme scheme, class Real>
 __device__ void sort_into_cells(const ModelView<Real>& model, Block<Real>& block) {
     int* const table = block.cell_table();
     std::uint32_t* const keys = block.keys(model.grid.cells);
@@ -57,6 +62,7 @@ __device__ void sort_into_cells(const ModelView<Real>& model, Block<Real>& block
     for (int s = threadIdx.x; s < model.particles; s += threads) {
         const Quad<Real> there = block.predicted[keys[s] & 0xffff];
         block.position[s] = there;
+        if (scheme == Scheme::conserving) block.base[s] = there;
         if (s >= model.fluid) block.slot_of_solid[number_in(there.w) - model.fluid] = static_cast<std::uint16_t>(s);
     }
     __syncthreads();
@@ -98,11 +104,17 @@ __device__ int append_neighbours(const ModelView<Real>& model, const Block<Real>
 template <class Real>
 __device__ void find_neighbours(const ModelView<Real>& model, Block<Real>& block) {
     const int cells = model.grid.cells;
+    if (threadIdx.x == 0) *block.touched_count = 0;
+    __syncthreads();
     for (int s = threadIdx.x; s < model.particles; s += threads) {
         const Quad<Real> here = block.position[s];
         const Vec3<Real> x = xyz(here);
         const int i = number_in(here.w);
         const auto felt = [&](int other) { return collides(model, i, number_in(block.position[other].w)); };
+        const auto in_contact = [&](int other) {
+            const int j = number_in(block.position[other].w);
+            return collides(model, i, j) || (model.plan.mutual_contacts && collides(model, j, i));
+        };
         const auto any = [](int) { return true; };
         int contacts = 0;
         if (s < model.fluid) {
@@ -114,13 +126,15 @@ __device__ void find_neighbours(const ModelView<Real>& model, Block<Real>& block
             block.neighbour_count[s] = static_cast<std::uint16_t>(n);
             if (model.plan.contacts)
                 contacts = append_neighbours(model, block, cells, x, block.fluid_contact + s, model.fluid, model.solids,
-                                             0, felt);
+                                             0, in_contact);
         } else if (model.plan.contacts) {
             std::uint16_t* const list = block.solid_contact + (s - model.fluid);
-            contacts = append_neighbours(model, block, 0, x, list, model.solids, model.particles, 0, felt);
-            contacts = append_neighbours(model, block, cells, x, list, model.solids, model.particles, contacts, felt);
+            contacts = append_neighbours(model, block, 0, x, list, model.solids, model.particles, 0, in_contact);
+            contacts =
+                append_neighbours(model, block, cells, x, list, model.solids, model.particles, contacts, in_contact);
         }
         if (model.plan.contacts) block.contact_count[s] = static_cast<std::uint16_t>(contacts);
+        if (contacts > 0) block.touched[atomicAdd(block.touched_count, 1)] = static_cast<std::uint16_t>(s);
         unsigned planes = 0;
         for (int k = 0; k < model.planes; ++k)
             if (dot(model.plane[k].normal, x) + model.plane[k].offset <= model.plane_search_distance) planes |= 1u << k;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "../substep.h"
+#include "constants.h"
 #include "density_kernels.h"
 
 namespace natator::cpu {
@@ -48,7 +49,6 @@ private:
     void compute_lambda();
     void compute_lambda_of_fluid(const DensityView<Real>& fluid);
     void solve_density_constraint_of_fluid();
-    static Real overlap_acceleration(const SolverParameters& parameters);
     bool find_overlap();
     void limit_overlap_pressure();
     Real contact_depth(int i, int j) const;
@@ -75,12 +75,9 @@ private:
         Vector3<double> angular = Vector3<double>::Zero();  ///< angular velocity to add, about `centre`
         Vector3<double> centre = Vector3<double>::Zero();
     };
-    static std::vector<FreeBody> free_bodies(const Model& model);
 
     const DensityKernels<Real>* density_kernels_;
-    Real kernel_scale_, gradient_scale_, rest_sum_ = 0;
-    Real plane_scale_ = 0;  ///< 2 pi n0 R^3 A
-    Real plane_gap_ = 0;    ///< from a plane to where the fluid behind it begins, half a spacing from resting particles
+    ConservingConstants<Real> own_;
     Real overlap_push_ = 0;                                  ///< how far a substep may push overlaps apart, length
     bool looked_for_overlap_ = false, overlapping_ = false;  ///< in this substep
     Vector3Array<Real> base_;                                ///< predicted positions by slot
@@ -112,10 +109,5 @@ private:
     using Substep<Real>::position_of_slot;
     using Substep<Real>::start_of_slot;
 };
-
-/// Compliance of a constraint of `stiffness` k in [0, 1] relative to its inverse mass, at substep length h (s):
-/// alpha = r / (1 - r) (h0 / h)^2 with r = (1 - k)^4, so that a fully solved constraint leaves over as much of its
-/// error as 4 iterations of stiffness k do in the thesis' substep h0 = 1/240 s. Infinite (never solved) at k = 0.
-double relative_compliance(double stiffness, double h);
 
 }  // namespace natator::cpu

@@ -19,9 +19,9 @@ DensityView<Real> ConservingStages<Real>::density_view() {
             .neighbour = ws_.neighbour.data(),
             .far_slot = ws_.slots,
             .inverse_radius = constants_.inverse_radius,
-            .kernel_scale = kernel_scale_,
-            .rest_sum = rest_sum_,
-            .gradient_scale = gradient_scale_,
+            .kernel_scale = own_.kernel_scale,
+            .rest_sum = own_.rest_sum,
+            .gradient_scale = own_.gradient_scale,
             .position = {position[0], position[1], position[2]},
             .inverse_mass = ws_.inverse_mass.data(),
             .solid_density = ws_.solid_density.data(),
@@ -52,8 +52,8 @@ PlanePressure<Real> ConservingStages<Real>::plane_pressure() {
     const auto position = pointers(ws_.position), gradient = pointers(solid_gradient_),
                correction = pointers(ws_.correction);
     return {.position = {position[0], position[1], position[2]},
-            .scale = plane_scale_,
-            .gap = plane_gap_,
+            .scale = own_.plane_scale,
+            .gap = own_.plane_gap,
             .inverse_radius = constants_.inverse_radius,
             .density = ws_.solid_density.data(),
             .gradient = {gradient[0], gradient[1], gradient[2]},
@@ -85,12 +85,12 @@ void ConservingStages<Real>::add_solid_pressure() {
             const Real r = difference.norm();
             const Real q = r * constants_.inverse_radius;
             if (q >= 1) continue;
-            const Real slope = weight * gradient_scale_ * (1 - q) * (1 - q);
+            const Real slope = weight * own_.gradient_scale * (1 - q) * (1 - q);
             sum += (1 - q) * (1 - q) * (1 - q);
             if (r > 0) gradient -= slope / r * difference;
             square += ws_.inverse_mass[j] * slope * slope;
         }
-        ws_.solid_density[i] += weight * kernel_scale_ * sum;
+        ws_.solid_density[i] += weight * own_.kernel_scale * sum;
         solid_gradient_.add(i, gradient);
         solid_gradient_square_[i] += square;
     }
@@ -111,7 +111,7 @@ void ConservingStages<Real>::push_solids_by_pressure() {
             const Real r = difference.norm();
             const Real q = r * constants_.inverse_radius;
             if (q >= 1 || !(r > 0)) continue;
-            const Real slope = weight * gradient_scale_ * (1 - q) * (1 - q);
+            const Real slope = weight * own_.gradient_scale * (1 - q) * (1 - q);
             const Real lambda = lambda_[solid_pushed ? other : s];
             ws_.correction.add(s, -ws_.inverse_mass[s] * lambda * slope / r * difference);
         }
@@ -181,7 +181,7 @@ std::vector<Real> ConservingStages<Real>::pressures() const {
             const int j = ws_.neighbour[row * lanes + slot % lanes];
             const Real r = (position_of_slot(slot) - position_of_slot(j)).norm();
             const Real t = std::max(1 - r * constants_.inverse_radius, Real(0));
-            virial += gradient_scale_ * t * t * r;
+            virial += own_.gradient_scale * t * t * r;
         }
         pressures[i] = -scale * lambda_sum_[slot] * virial;
     }

@@ -8,13 +8,6 @@
 #include "conserving_stages.h"
 
 namespace natator::cpu {
-namespace {
-
-/// Share of the rest density, or of a distance held, that a substep may begin with before it counts as an overlap.
-template <class Real>
-constexpr Real tolerance = Real(0.1);
-
-}  // namespace
 
 /// Particles that start behind a plane are put on it before they move, which gives them no velocity: pre-stabilisation,
 /// Macklin, Müller, Chentanez, Kim: Unified Particle Physics for Real-Time Applications (2014), 4.4.
@@ -25,7 +18,7 @@ void ConservingStages<Real>::predict() {
         const Real offset = static_cast<Real>(plane.offset) - constants_.collision_distance;
         for (int i = 0; i < ws_.particles; ++i) {
             const Real distance = normal.dot(state_->position[i]) + offset;
-            if (distance < -tolerance<Real> * constants_.collision_distance && inverse_mass_[i] > 0)
+            if (distance < -overlap_tolerance<Real> * constants_.collision_distance && inverse_mass_[i] > 0)
                 state_->position[i] -= distance * normal;
         }
     }
@@ -50,7 +43,7 @@ Real ConservingStages<Real>::contact_depth(int i, int j) const {
 template <class Real>
 bool ConservingStages<Real>::find_overlap() {
     const auto end = ws_.density.begin() + ws_.fluid;
-    if (!(*std::max_element(ws_.density.begin(), end) > 1 + tolerance<Real>)) return false;
+    if (!(*std::max_element(ws_.density.begin(), end) > 1 + overlap_tolerance<Real>)) return false;
     DensityView<Real> view = density_view();
     view.position[0] = ws_.start.x.data();
     view.position[1] = ws_.start.y.data();
@@ -61,7 +54,7 @@ bool ConservingStages<Real>::find_overlap() {
     bool any = false;
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         const Real above = ws_.density[slot] - 1;
-        overlap_[slot] = above > tolerance<Real> ? above : 0;
+        overlap_[slot] = above > overlap_tolerance<Real> ? above : 0;
         any |= overlap_[slot] > 0;
     }
     compute_lambda();
@@ -76,7 +69,8 @@ void ConservingStages<Real>::limit_overlap_pressure() {
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         if (!(overlap_[slot] > 0) || !(ws_.inverse_mass[slot] > 0)) continue;
         const Real above = std::max(ws_.density[slot] - 1, Real(0));
-        const Real most = overlap_push_ / (ws_.inverse_mass[slot] * gradient_scale_ * std::cbrt(1 + overlap_[slot]));
+        const Real most =
+            overlap_push_ / (ws_.inverse_mass[slot] * own_.gradient_scale * std::cbrt(1 + overlap_[slot]));
         const Real wanted = std::min(above, overlap_[slot]) * response_[slot];
         const Real push = std::min(wanted, std::max(most - overlap_lambda_[slot], Real(0)));
         overlap_lambda_[slot] += push;

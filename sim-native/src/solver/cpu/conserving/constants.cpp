@@ -1,0 +1,98 @@
+#include "constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "../rest_packing.h"
+
+namespace natator::cpu {
+
+double softness(double stiffness) {
+    const double left_over = std::pow(1 - stiffness, 4);
+    if (left_over >= 1) return std::numeric_limits<double>::infinity();
+    return left_over / (1 - left_over);
+}
+
+double relative_compliance(double stiffness, double h) {
+    return softness(stiffness) * (thesis_substep / h) * (thesis_substep / h);
+}
+
+/// Overlaps are pushed apart at maxAcceleration, but enough to win against gravity. Unlimited only nominally, so that
+/// it can be multiplied.
+template <class Real>
+ConservingConstants<Real>::ConservingConstants(const SolverParameters& p)
+    : most_neighbours(p.maxNeighborsPerParticle),
+      kernel_scale(0),
+      gradient_scale(0),
+      rest_sum(0),
+      plane_scale(0),
+      plane_gap(static_cast<Real>(p.fluidRestDistance / 2 - p.collisionDistance)),
+      overlap_acceleration(static_cast<Real>(std::min(std::max(p.maxAcceleration, 10 * p.gravity.norm()), 1e30))) {
+    if (!(p.fluidRestDistance > 0)) return;
+    const double neighbours =
+        close_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return std::pow(1 - q, 3); });
+    const double close_neighbours = close_packing_sum(p.fluidRestDistance / p.radius, [](double) { return 1; });
+    most_neighbours = std::max(p.maxNeighborsPerParticle, 4 * static_cast<int>(close_neighbours));
+    rest_sum = static_cast<Real>(neighbours);
+    kernel_scale = static_cast<Real>(1 / (1 + neighbours));
+    gradient_scale = static_cast<Real>(3 / (p.radius * (1 + neighbours)));
+    const double per_radius_cubed = std::pow(p.radius / p.fluidRestDistance, 3) * std::numbers::sqrt2;
+    plane_scale = static_cast<Real>(2 * std::numbers::pi * per_radius_cubed / (1 + neighbours));
+}
+
+std::vector<std::vector<int>> free_bodies(const Model& model) {
+    std::vector<int> parent(model.particles());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&parent](int i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (const Spring& spring : model.springs) parent[root(spring.a)] = root(spring.b);
+    for (const Cluster& cluster : model.clusters)
+        for (const int i : cluster.particles) parent[root(i)] = root(cluster.particles.front());
+
+    std::vector<std::vector<int>> members(model.particles());
+    std::vector<bool> held(model.particles(), false);
+    for (int i = 0; i < model.particles(); ++i) {
+        members[root(i)].push_back(i);
+        if (model.inverse_mass[i] == 0) held[root(i)] = true;
+    }
+    std::vector<std::vector<int>> bodies;
+    for (int i = 0; i < model.particles(); ++i)
+        if (members[i].size() > 1 && !held[i]) bodies.push_back(members[i]);
+    return bodies;
+}
+
+template <class Real>
+std::vector<SplitCluster<Real>> split_clusters(const Model& model) {
+    std::vector<int> clusters_per_particle(model.particles(), 0);
+    for (const Cluster& cluster : model.clusters)
+        for (const int i : cluster.particles) ++clusters_per_particle[i];
+    std::vector<SplitCluster<Real>> result;
+    for (const Cluster& cluster : model.clusters) {
+        SplitCluster<Real> split;
+        Vector3<double> mean = Vector3<double>::Zero();
+        double total = 0;
+        for (std::size_t m = 0; m < cluster.particles.size(); ++m) {
+            const double w = model.inverse_mass[cluster.particles[m]];
+            const double mass = (w > 0 ? 1 / w : 1.0) / clusters_per_particle[cluster.particles[m]];
+            split.mass.push_back(static_cast<Real>(mass));
+            split.offset.push_back(cluster.rest_offset[m].template cast<Real>());
+            mean += mass * cluster.rest_offset[m];
+            total += mass;
+        }
+        for (auto& offset : split.offset) offset -= (mean / total).template cast<Real>();
+        result.push_back(std::move(split));
+    }
+    return result;
+}
+
+template struct ConservingConstants<float>;
+template struct ConservingConstants<double>;
+template std::vector<SplitCluster<float>> split_clusters(const Model&);
+template std::vector<SplitCluster<double>> split_clusters(const Model&);
+
+}  // namespace natator::cpu

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "natator/model.h"
+#include "natator/state.h"
+
+namespace natator::cpu {
+
+/// Numbers of scheme `conserving` that follow from the parameters, for both backends.
+template <class Real>
+struct ConservingConstants {
+    explicit ConservingConstants(const SolverParameters& parameters);
+
+    int most_neighbours;        ///< fluid neighbours kept per particle
+    Real kernel_scale;          ///< A: W(r)/rho0 = A (1 - q)^3
+    Real gradient_scale;        ///< B: |grad W(r)|/rho0 = B (1 - q)^2
+    Real rest_sum;              ///< sum of (1 - q)^3 over the neighbours in the rest packing
+    Real plane_scale;           ///< 2 pi n0 R^3 A
+    Real plane_gap;             ///< from a plane to where the fluid behind it begins, half a spacing from particles
+    Real overlap_acceleration;  ///< at which overlaps are pushed apart
+};
+
+/// Share of the rest density, or of a distance held, that a substep may begin with before it counts as an overlap.
+template <class Real>
+inline constexpr Real overlap_tolerance = Real(0.1);
+
+/// Groups of particles that springs and clusters hang together; none with a particle of infinite mass.
+std::vector<std::vector<int>> free_bodies(const Model& model);
+
+/// A cluster with the masses m_j / n_j, n_j = clusters of particle j, and rest offsets about their centre.
+template <class Real>
+struct SplitCluster {
+    std::vector<Real> mass;
+    std::vector<Vector3<Real>> offset;
+};
+template <class Real>
+std::vector<SplitCluster<Real>> split_clusters(const Model& model);
+
+/// Compliance of a constraint of `stiffness` k in [0, 1] relative to its inverse mass, at substep length h (s):
+/// alpha = softness(k) (h0 / h)^2, softness = r / (1 - r) with r = (1 - k)^4, so that a fully solved constraint leaves
+/// over as much of its error as 4 iterations of stiffness k do in the thesis' substep h0 = 1/240 s. Infinite (never
+/// solved) at k = 0.
+double softness(double stiffness);
+double relative_compliance(double stiffness, double h);
+inline constexpr double thesis_substep = 1.0 / 240;
+
+}  // namespace natator::cpu

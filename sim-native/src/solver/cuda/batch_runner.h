@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "batch_kernel.cuh"
+#include "device_states.h"
+#include "natator/error.h"
+
+namespace natator::cuda {
+
+/// Launches batches of one Model on the current device and keeps what they need beside the States.
+template <class Real>
+class BatchRunner {
+public:
+    explicit BatchRunner(const Model& model) : model_(model) {
+        on_chip_ = resident_blocks(model_.view(), true) > 0;
+        blocks_ = resident_blocks(model_.view(), on_chip_);
+        if (blocks_ == 0) throw InputError("backend cuda: the scene has too many springs or clusters for the device");
+    }
+
+    const DeviceModel<Real>& model() const { return model_; }
+
+    /// A launch's description for these States, all optional parts left out.
+    BatchView<Real> view_of(const DeviceStates<Real>& states, int updates) const {
+        BatchView<Real> batch{};
+        batch.model = model_.view();
+        batch.states = states.count();
+        batch.updates = updates;
+        batch.position = states.position();
+        batch.velocity = states.velocity();
+        batch.fit = states.fit();
+        batch.rest_length = states.rest_length();
+        return batch;
+    }
+
+    /// Runs the updates to their end; States whose progress has stopped already stay as they are.
+    void run(BatchView<Real>& batch, const std::vector<Progress>& progress) {
+        const int blocks = std::min(blocks_, batch.states);
+        batch.scratch_bytes = scratch_bytes(model_.view(), on_chip_);
+        if (scratch_.size() < blocks * batch.scratch_bytes) scratch_ = DeviceBuffer<char>(blocks * batch.scratch_bytes);
+        batch.scratch = scratch_.data();
+        progress_ = DeviceBuffer<Progress>(progress);
+        path_ = DeviceBuffer<double>(static_cast<std::size_t>(batch.states) * (batch.updates + 1));
+        DeviceBuffer<unsigned> next_ticket(1);
+        DeviceBuffer<int> updates_done(batch.states);
+        next_ticket.clear();
+        updates_done.clear();
+        batch.progress = progress_.data();
+        batch.path = path_.data();
+        batch.next_ticket = next_ticket.data();
+        batch.updates_done = updates_done.data();
+        launch_batch(batch, on_chip_, blocks);
+        check(cudaDeviceSynchronize(), "run");
+    }
+
+    /// Of the last run.
+    std::vector<Progress> progress() const { return progress_.download(); }
+    std::vector<double> path() const { return path_.download(); }
+
+private:
+    DeviceModel<Real> model_;
+    bool on_chip_ = false;
+    int blocks_ = 0;
+    DeviceBuffer<char> scratch_;
+    DeviceBuffer<Progress> progress_;
+    DeviceBuffer<double> path_;
+};
+
+/// Makes a GPU the current one. Throws NoDevice where there is no such one.
+void choose_device(int device);
+
+/// Why scenes of this Model cannot be computed; none if they can.
+std::optional<std::string> refusal(const Model& model);
+
+/// Names the stage that made a State unstable: the CPU does the substep again, from the State before it. `found` says
+/// what the GPU saw: it stands if the CPU finds nothing.
+template <class Real>
+Instability located(const Model& model, State<Real> before, const Gait* gait, double time_step, int substeps,
+                    double frame_time, const Instability& found);
+
+}  // namespace natator::cuda

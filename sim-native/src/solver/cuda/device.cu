@@ -1,0 +1,77 @@
+#include <string>
+
+#include "batch_runner.h"
+#include "natator/actuate.h"
+#include "natator/batch.h"
+#include "natator/model_builder.h"
+#include "natator/solver.h"
+
+namespace natator {
+namespace cuda {
+
+void choose_device(int device) {
+    const int devices = static_cast<int>(cuda_devices().size());
+    if (device < 0 || device >= devices)
+        throw NoDevice("backend cuda: device " + std::to_string(device) + ": no such device; there " +
+                       (devices == 1 ? "is 1 GPU" : "are " + std::to_string(devices) + " GPUs"));
+    check(cudaSetDevice(device), "choose device");
+}
+
+std::optional<std::string> refusal(const Model& model) {
+    const Plan plan = make_plan(model);
+    if (model.particles() == 0) return "the scene has no particles; must have some";
+    if (model.particles() > 65535)
+        return std::to_string(model.particles()) + " particles are not done on the GPU yet; must be at most 65535";
+    if (model.planes.size() > most_planes)
+        return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
+    const std::pair<bool, const char*> effects[] = {{plan.restitution, "restitution"},
+                                                    {plan.adhesion, "adhesion"},
+                                                    {plan.sleep, "sleepThreshold"},
+                                                    {plan.shock_propagation, "shockPropagation"},
+                                                    {plan.dissipation, "dissipation"},
+                                                    {plan.cohesion, "cohesion"},
+                                                    {plan.surface_tension, "surfaceTension"},
+                                                    {plan.vorticity, "vorticityConfinement"},
+                                                    {plan.free_surface_drag, "freeSurfaceDrag"}};
+    for (const auto& [used, name] : effects)
+        if (used) return std::string(name) + " is not done on the GPU; must be 0";
+    return std::nullopt;
+}
+
+template <class Real>
+Instability located(const Model& model, State<Real> before, const Gait* gait, double time_step, int substeps,
+                    double frame_time, const Instability& found) {
+    Solver<Real> solver(model);
+    const double h = time_step / substeps;
+    if (gait) actuate(model, *gait, model.scheme == Scheme::conserving ? before.time + h : frame_time, before);
+    const auto on_cpu = solver.update(before, h, 1);
+    return on_cpu ? *on_cpu : found;
+}
+
+template Instability located(const Model&, State<float>, const Gait*, double, int, double, const Instability&);
+template Instability located(const Model&, State<double>, const Gait*, double, int, double, const Instability&);
+
+}  // namespace cuda
+
+std::vector<Device> cuda_devices() {
+    int count = 0;
+    if (cudaGetDeviceCount(&count) != cudaSuccess) {
+        cudaGetLastError();
+        return {};
+    }
+    std::vector<Device> devices;
+    for (int i = 0; i < count; ++i) {
+        cudaDeviceProp properties{};
+        cuda::check(cudaGetDeviceProperties(&properties, i), "device properties");
+        devices.push_back({i, properties.name,
+                           std::to_string(properties.major) + "." + std::to_string(properties.minor),
+                           properties.totalGlobalMem, properties.multiProcessorCount});
+    }
+    return devices;
+}
+
+std::optional<std::string> gpu_refusal(const Scene& scene) {
+    return cuda::refusal(build_model(scene));
+}
+
+}  // namespace natator

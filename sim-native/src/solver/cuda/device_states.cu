@@ -1,0 +1,120 @@
+#include "device_states.h"
+
+#include <cstring>
+
+namespace natator::cuda {
+namespace {
+
+float as_quad_number(int i, float) {
+    float value;
+    std::memcpy(&value, &i, sizeof value);
+    return value;
+}
+double as_quad_number(int i, double) {
+    const long long wide = i;
+    double value;
+    std::memcpy(&value, &wide, sizeof value);
+    return value;
+}
+int number_of(float w) {
+    int i;
+    std::memcpy(&i, &w, sizeof i);
+    return i;
+}
+int number_of(double w) {
+    long long i;
+    std::memcpy(&i, &w, sizeof i);
+    return static_cast<int>(i);
+}
+
+}  // namespace
+
+template <class Real>
+DeviceStates<Real>::DeviceStates(const DeviceModel<Real>& model, int count)
+    : model_(model),
+      count_(count),
+      position_(static_cast<std::size_t>(count) * model.view().particles),
+      velocity_(position_.size()),
+      fit_(static_cast<std::size_t>(count) * model.view().clusters),
+      rest_length_(static_cast<std::size_t>(count) * model.view().springs) {}
+
+template <class Real>
+void DeviceStates<Real>::upload(const std::vector<State<Real>>& states) {
+    std::vector<Quad<Real>> position, velocity;
+    std::vector<ClusterFit<Real>> fits;
+    std::vector<Real> rest_lengths;
+    for (const State<Real>& state : states) {
+        const std::size_t first = position.size();
+        position.resize(first + state.position.size());
+        velocity.resize(first + state.position.size());
+        for (std::size_t i = 0; i < state.position.size(); ++i) {
+            const int number = model_.number_of()[i];
+            const Vector3<Real>&x = state.position[i], &v = state.velocity[i];
+            position[first + number] = {x.x(), x.y(), x.z(), as_quad_number(number, Real())};
+            velocity[first + number] = {v.x(), v.y(), v.z(), 0};
+        }
+        for (std::size_t k = 0; k < state.cluster_centre.size(); ++k) {
+            ClusterFit<Real> fit{};
+            const Vector3<Real>& centre = state.cluster_centre[k];
+            fit.centre = {centre.x(), centre.y(), centre.z()};
+            for (int e = 0; e < 4; ++e) fit.rotation[e] = state.cluster_rotation[k].coeffs()[e];
+            fits.push_back(fit);
+        }
+        rest_lengths.insert(rest_lengths.end(), state.spring_rest_length.begin(), state.spring_rest_length.end());
+    }
+    position_.upload(position);
+    velocity_.upload(velocity);
+    fit_.upload(fits);
+    rest_length_.upload(rest_lengths);
+}
+
+template <class Real>
+void DeviceStates<Real>::copy_from(const DeviceStates& starts, const std::vector<int>& start) {
+    const auto copy = [&start](const auto& to, const auto& from, std::size_t size) {
+        for (std::size_t k = 0; k < start.size() && size > 0; ++k)
+            check(cudaMemcpyAsync(to.data() + k * size, from.data() + start[k] * size, size * sizeof(*to.data()),
+                                  cudaMemcpyDeviceToDevice),
+                  "copy");
+    };
+    const ModelView<Real>& view = model_.view();
+    copy(position_, starts.position_, view.particles);
+    copy(velocity_, starts.velocity_, view.particles);
+    copy(fit_, starts.fit_, view.clusters);
+    copy(rest_length_, starts.rest_length_, view.springs);
+}
+
+template <class Real>
+std::vector<State<Real>> DeviceStates<Real>::download(const State<Real>& like) const {
+    const std::vector<Quad<Real>> position = position_.download(), velocity = velocity_.download();
+    const std::vector<ClusterFit<Real>> fits = fit_.download();
+    std::vector<State<Real>> states(count_, like);
+    const ModelView<Real>& view = model_.view();
+    for (int k = 0; k < count_; ++k) {
+        const std::size_t first = static_cast<std::size_t>(k) * view.particles;
+        states[k].position = by_particle(model_, &position[first], &position[first]);
+        states[k].velocity = by_particle(model_, &velocity[first], &position[first]);
+        for (int c = 0; c < view.clusters; ++c) {
+            const ClusterFit<Real>& fit = fits[static_cast<std::size_t>(k) * view.clusters + c];
+            states[k].cluster_centre[c] = {fit.centre.x, fit.centre.y, fit.centre.z};
+            for (int e = 0; e < 4; ++e) states[k].cluster_rotation[c].coeffs()[e] = fit.rotation[e];
+        }
+    }
+    return states;
+}
+
+template <class Real>
+std::vector<Vector3<Real>> by_particle(const DeviceModel<Real>& model, const Quad<Real>* rows,
+                                       const Quad<Real>* numbers) {
+    const std::vector<int>& particle_of = model.particle_of();
+    std::vector<Vector3<Real>> vectors(particle_of.size());
+    for (std::size_t s = 0; s < vectors.size(); ++s)
+        vectors[particle_of[number_of(numbers[s].w)]] = {rows[s].x, rows[s].y, rows[s].z};
+    return vectors;
+}
+
+template class DeviceStates<float>;
+template class DeviceStates<double>;
+template std::vector<Vector3<float>> by_particle(const DeviceModel<float>&, const Quad<float>*, const Quad<float>*);
+template std::vector<Vector3<double>> by_particle(const DeviceModel<double>&, const Quad<double>*, const Quad<double>*);
+
+}  // namespace natator::cuda

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "block.cuh"
+#include "device_model.h"
+#include "natator/state.h"
+
+namespace natator::cuda {
+
+/// States of one Model in device memory, slots in any order: a position's w holds the particle's device number.
+template <class Real>
+class DeviceStates {
+public:
+    DeviceStates(const DeviceModel<Real>& model, int count);
+
+    int count() const { return count_; }
+    Quad<Real>* position() const { return position_.data(); }
+    Quad<Real>* velocity() const { return velocity_.data(); }
+    ClusterFit<Real>* fit() const { return fit_.data(); }
+    const Real* rest_length() const { return rest_length_.data(); }
+
+    /// As many States as there are.
+    void upload(const std::vector<State<Real>>& states);
+    /// `start` holds the index of the State that each is to be a copy of.
+    void copy_from(const DeviceStates& starts, const std::vector<int>& start);
+    /// All of them; spring rest lengths and times are those of `like`.
+    std::vector<State<Real>> download(const State<Real>& like) const;
+
+private:
+    const DeviceModel<Real>& model_;
+    int count_;
+    DeviceBuffer<Quad<Real>> position_, velocity_;
+    DeviceBuffer<ClusterFit<Real>> fit_;
+    DeviceBuffer<Real> rest_length_;
+};
+
+/// Vectors by particle of the Model, out of rows by slot with device numbers in w of `numbers`.
+template <class Real>
+std::vector<Vector3<Real>> by_particle(const DeviceModel<Real>& model, const Quad<Real>* rows,
+                                       const Quad<Real>* numbers);
+
+}  // namespace natator::cuda

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "natator/batch.h"
+#include "natator/gait.h"
+#include "natator/scene_json.h"
+
+/// What the checks of the CUDA backend share. They skip themselves where there is no GPU.
+namespace natator::test {
+
+template <class Base = testing::Test>
+class OnGpu : public Base {
+protected:
+    void SetUp() override {
+        if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
+    }
+};
+
+inline Scene creature_scene(int creature, Scheme scheme, const char* suffix = "") {
+    Scene scene = load_scene("thesis/creature-" + std::to_string(creature) + suffix);
+    scene.scheme = scheme;
+    return scene;
+}
+
+/// A travelling wave along the body, different for each `number`.
+inline Gait wave(const Scene& scene, int number = 0) {
+    Gait gait;
+    gait.frequency = 1 + 0.01 * number;
+    for (int k = 0; k < scene.creature->actuators(); ++k) {
+        gait.amplitude.push_back(0.9 - 0.001 * number);
+        gait.phase.push_back(std::fmod(0.3 * k + 0.02 * number, 1.0));
+    }
+    return gait;
+}
+
+inline std::string name_of(Scheme scheme) {
+    return scheme == Scheme::flex ? "flex" : "conserving";
+}
+
+}  // namespace natator::test
