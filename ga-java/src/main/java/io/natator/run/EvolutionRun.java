@@ -6,19 +6,17 @@ import io.natator.checkpoint.Environment;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.encoding.Gait;
+import io.natator.config.FitnessKind;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.report.FitnessPlot;
 import io.natator.simulator.Evaluator;
-import io.natator.simulator.RequestRejectedException;
+import io.natator.simulator.NetEvaluator;
 import io.natator.simulator.SceneInfo;
-import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.TimeLimit;
-import io.natator.simulator.Vacuum;
 import java.io.IOException;
 import java.util.ArrayList;
 import java.util.List;
@@ -86,8 +84,12 @@ public final class EvolutionRun {
         double duration = settings.duration() != null ? settings.duration()
                 : SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()).duration();
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, new SavingsCounter(folder, duration, found)));
+        if (settings.vacuumCheck()) {
+            all.add(new VacuumCheck(folder, evaluator));
+        }
         all.addAll(listeners);
-        EvolutionState state = new Evolution(settings, evaluator, all, folder.recorded()).run(folder.checkpoint());
+        Evaluator rewarding = settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
+        EvolutionState state = new Evolution(settings, rewarding, all, folder.recorded()).run(folder.checkpoint());
         SimulationResult vacuum = inVacuum(state.best(), evaluator);
         folder.writeResults(state, vacuum);
         draw(state);
@@ -96,17 +98,7 @@ public final class EvolutionRun {
 
     /** What the best gait does without water: a gait that advances there is no swimming. */
     private SimulationResult inVacuum(Individual best, Evaluator evaluator) throws InterruptedException {
-        if (best == null) {
-            return null;
-        }
-        Gait gait = settings.encoding().forActuators(settings.actuators()).decode(best.genes());
-        SimulationRequest request = new SimulationRequest(best.result().id(), settings.scene(), gait,
-                settings.duration(), settings.scheme(), settings.overrides());
-        try {
-            return evaluator.evaluate(Vacuum.of(request, settings.duration()));
-        } catch (RequestRejectedException e) {
-            return SimulationResult.failed(request.id(), e.getMessage());
-        }
+        return best == null ? null : VacuumCheck.drift(best, settings, settings.duration(), evaluator);
     }
 
     private void draw(EvolutionState state) {

@@ -3,7 +3,7 @@ package io.natator.study.optimizer;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
@@ -56,7 +56,7 @@ class OptimizerStudyTest {
 
                 @Override
                 public void finished(Path run, double bestDistance) {
-                    assertThat(RunFolder.isFinished(run)).isTrue();
+                    assertThat(StoredRun.isFinished(run)).isTrue();
                 }
 
                 @Override
