@@ -100,7 +100,7 @@ public final class Natator {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(
                     execution.withBackend(folder.settings().backend()), folder.settings());
-            try (Evaluator evaluator = Evaluator.open(limited)) {
+            try (Evaluator evaluator = EvolutionRun.open(limited)) {
                 return new EvolutionRun(folder).run(limited, evaluator, listeners);
             }
         }

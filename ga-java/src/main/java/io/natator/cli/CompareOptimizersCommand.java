@@ -107,7 +107,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
 
     private boolean run(OptimizerStudy study, ExecutionSettings execution, int atOnce) throws InterruptedException {
         PrintWriter err = spec.commandLine().getErr();
-        try (Evaluator evaluator = Evaluator.open(execution);
+        try (Evaluator evaluator = EvolutionRun.open(execution);
                 Stopper stopper = new Stopper(evaluator, stopAfter, () -> {
                     err.println("interrupted; the same command continues");
                     err.flush();

@@ -32,7 +32,7 @@ final class RunLauncher {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
             String how = "continue by: natator resume " + folder.directory();
-            try (Evaluator evaluator = Evaluator.open(limited);
+            try (Evaluator evaluator = EvolutionRun.open(limited);
                     Stopper stopper = new Stopper(evaluator, stopAfter, () -> say("interrupted; " + how))) {
                 evolve(folder, limited, evaluator, stopper, how);
             }

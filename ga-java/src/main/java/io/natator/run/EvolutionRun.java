@@ -7,6 +7,7 @@ import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
+import io.natator.config.InvalidInputException;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
@@ -60,6 +61,26 @@ public final class EvolutionRun {
     }
 
     /**
+     * The evaluator that the settings ask for, with their cache. Several runs can share it.
+     *
+     * @param execution with a time limit
+     * @throws io.natator.config.InvalidInputException if the simulator cannot be run
+     * @throws InterruptedException                    if the calling thread is interrupted
+     */
+    public static Evaluator open(ExecutionSettings execution) throws InterruptedException {
+        Evaluator evaluator = Evaluator.open(execution);
+        if (execution.cache() == null) {
+            return evaluator;
+        }
+        try {
+            return new CachedEvaluator(evaluator, new EvaluationCache(execution.cache()), execution);
+        } catch (InvalidInputException | InterruptedException e) {
+            evaluator.close();
+            throw e;
+        }
+    }
+
+    /**
      * Evolves, and writes everything into the folder: after each evaluation, each generation, and at the end.
      *
      * @param execution how the evaluator works, for the record
@@ -72,11 +93,11 @@ public final class EvolutionRun {
     public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
             throws InterruptedException {
         folder.write(Environment.present(execution));
-        if (execution.cache() == null) {
-            return run(execution, evaluator, () -> 0, List.of(listeners));
+        if (evaluator instanceof CachedEvaluator shared) {
+            CachedEvaluator own = shared.counting();
+            return run(execution, own, own::found, List.of(listeners));
         }
-        CachedEvaluator cached = new CachedEvaluator(evaluator, new EvaluationCache(execution.cache()), execution);
-        return run(execution, cached, cached::found, List.of(listeners));
+        return run(execution, evaluator, () -> 0, List.of(listeners));
     }
 
     private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found,

@@ -2,6 +2,8 @@ package io.natator.run;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.cache.CachedEvaluator;
+import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
@@ -48,7 +50,9 @@ class EvolutionRunTest {
     private int run(String name, EvolutionSettings settings, ExecutionSettings how) throws InterruptedException {
         ToySimulator simulator = new ToySimulator();
         try (RunFolder run = RunFolder.create(folder.resolve(name), settings);
-                Evaluator evaluator = new WorkerPool(simulator, 2)) {
+                Evaluator inner = new WorkerPool(simulator, 2);
+                Evaluator evaluator = how.cache() == null ? inner
+                        : new CachedEvaluator(inner, new EvaluationCache(how.cache()), how)) {
             new EvolutionRun(run).run(how, evaluator);
         }
         return simulator.calls();
