@@ -118,6 +118,23 @@ class CommandLineTest {
         }
     }
 
+    /** The fake has no GPU, but auto is another backend than cpu all the same. */
+    @Test
+    void aRunCanMoveToAnotherBackendAndSaysSo() throws IOException {
+        assertThat(evolve("run", "--stop-after", "0.3")).isZero();
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto")).isZero();
+
+        assertThat(err.toString()).startsWith("backend was cpu, is now auto: last digits");
+        assertThat(Json.parse(file("run", "config.json"), JsonNode.class).get("backend").asText()).isEqualTo("auto");
+        assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("backend").asText())
+                .isEqualTo("auto");
+        err.getBuffer().setLength(0);
+        assertThat(natator("resume", folder.resolve("run").toString())).isZero();
+        assertThat(err.toString()).doesNotContain("backend was");
+    }
+
     @Test
     void comparesOptimizersInPieces() throws IOException {
         String[] study = {"compare-optimizers", "--output-dir", folder.resolve("study").toString(), "--creatures", "1",
