@@ -115,7 +115,7 @@ class KilledRunTest {
         Path evaluations = run.resolve("evaluations.jsonl");
         long before = Files.exists(evaluations) ? Files.size(evaluations) : 0;
         if (force && before > 0 && random.nextInt(3) == 0) {
-            Thread.sleep(random.nextInt(500));
+            Thread.sleep(random.nextInt(300));
         } else {
             while (process.isAlive() && (!Files.exists(evaluations) || Files.size(evaluations) <= before)) {
                 Thread.sleep(2);

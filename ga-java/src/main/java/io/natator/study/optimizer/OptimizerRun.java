@@ -1,5 +1,6 @@
 package io.natator.study.optimizer;
 
+import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
@@ -37,5 +38,12 @@ record OptimizerRun(String scene, Contestant contestant, EvolutionSettings setti
     /** Best fitness after each evaluation. */
     double[] curve() {
         return StoredRun.bestFitness(StoredRun.evaluations(directory));
+    }
+
+    /** What the finished run's best gait does in vacuum, in scene units; NaN if that is not known. */
+    double vacuumDistance() {
+        BestGait best = StoredRun.in(directory).best();
+        return best == null || best.vacuum() == null || best.vacuum().distance() == null ? Double.NaN
+                : best.vacuum().distance();
     }
 }
