@@ -14,6 +14,7 @@ import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
 /**
@@ -24,11 +25,12 @@ import java.util.stream.Stream;
  */
 public final class RunFolder implements EvolutionListener, AutoCloseable {
 
-    private static final String CONFIG = "config.json";
-    private static final String CHECKPOINT = "checkpoint.json";
-    private static final String BEST = "best.json";
-    private static final String SAVINGS = "savings.json";
-    private static final String EVALUATIONS = "evaluations.jsonl";
+    static final String CONFIG = "config.json";
+    static final String CHECKPOINT = "checkpoint.json";
+    static final String BEST = "best.json";
+    static final String SAVINGS = "savings.json";
+    static final String VACUUM = "vacuum.jsonl";
+    static final String EVALUATIONS = "evaluations.jsonl";
 
     private final Path directory;
     private EvolutionSettings settings;
@@ -91,11 +93,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * @throws InvalidInputException if it is not one, is damaged, or is in use
      */
     public static RunFolder open(Path directory) {
-        if (!exists(directory)) {
-            throw new InvalidInputException(directory + " is not a run folder: it has no " + CONFIG);
-        }
-        RunFolder folder = new RunFolder(directory,
-                Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings"));
+        RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
         int recorded = folder.log.records().size();
         if (folder.checkpoint != null && recorded < folder.checkpoint.evaluations()) {
             folder.close();
@@ -124,31 +122,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         if (2 * failed > all.size() - first) {
             log.dropFrom(firstFailed);
         }
-    }
-
-    /** Whether there is a run in this folder. */
-    public static boolean exists(Path directory) {
-        return Files.isRegularFile(directory.resolve(CONFIG));
-    }
-
-    /**
-     * Whether the run in this folder has come to its end and its results are written.
-     *
-     * @throws InvalidInputException if a file of it is damaged
-     */
-    public static boolean isFinished(Path directory) {
-        if (!exists(directory) || !Files.exists(directory.resolve(CHECKPOINT))) {
-            return false;
-        }
-        EvolutionSettings settings = Json.read(directory.resolve(CONFIG), EvolutionSettings.class, "settings");
-        EvolutionState state = Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint");
-        return state.isLastOf(settings) && (state.best() == null || Files.exists(directory.resolve(BEST))
-                && Json.read(directory.resolve(BEST), BestGait.class, "best gait").vacuum() != null);
-    }
-
-    /** The evaluations that a run has recorded; another process may be adding to them. */
-    public static List<EvaluationRecord> evaluations(Path directory) {
-        return EvaluationLog.read(directory.resolve(EVALUATIONS));
     }
 
     /** Where it is. */
@@ -187,10 +160,10 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         AtomicFile.write(directory.resolve(SAVINGS), Json.document(savings));
     }
 
-    /** What the run in a folder did not have to simulate; null if that was not recorded. */
-    public static Savings savings(Path directory) {
-        Path file = directory.resolve(SAVINGS);
-        return Files.exists(file) ? Json.read(file, Savings.class, "savings") : null;
+    /** Writes the best gaits that were run in vacuum, in the order in which they were found. */
+    public void write(List<VacuumRecord> records) {
+        AtomicFile.write(directory.resolve(VACUUM),
+                records.stream().map(Json::line).collect(Collectors.joining("\n", "", "\n")));
     }
 
     @Override

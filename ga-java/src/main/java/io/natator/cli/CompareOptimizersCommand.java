@@ -4,6 +4,7 @@ import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
 import io.natator.evolution.EvolutionListener;
@@ -77,6 +78,10 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             description = "Points in a generation of CMA-ES, from 2. Default: 4 + 3 ln n with n genes.")
     private Integer cmaEsPopulation;
 
+    @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
+            + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
+    private FitnessKind fitness;
+
     @Option(names = "--runs-at-once", paramLabel = "N", description = "Runs under way at the same time; their "
             + "generations share a batch. Default: " + RUNS_AT_ONCE_IN_BATCHES + " with --simulator batch, else "
             + RUNS_AT_ONCE + ".")
@@ -107,7 +112,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
 
     private boolean run(OptimizerStudy study, ExecutionSettings execution, int atOnce) throws InterruptedException {
         PrintWriter err = spec.commandLine().getErr();
-        try (Evaluator evaluator = Evaluator.open(execution);
+        try (Evaluator evaluator = EvolutionRun.open(execution);
                 Stopper stopper = new Stopper(evaluator, stopAfter, () -> {
                     err.println("interrupted; the same command continues");
                     err.flush();
@@ -133,7 +138,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             int actuators = SceneInfo.of(scene, sceneOptions.overrides(), execution.simulator()).actuators();
             scenes.put("creature-" + creature, EvolutionSettings.of(scene, EncodingKind.usualFor(scene), actuators)
                     .withSize(population, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations)
-                    .withBackend(execution.backend())
+                    .withFitness(fitness, false).withBackend(execution.backend())
                     .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides()));
         }
         return scenes;

@@ -5,6 +5,7 @@ import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
@@ -82,6 +83,13 @@ final class EvolveCommand implements Callable<Integer> {
             description = "Deviation of the Gaussian mutation as a share of a gene's range. Default: ${DEFAULT-VALUE}.")
     private double gaussianDeviation;
 
+    @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
+            + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
+    private FitnessKind fitness;
+
+    @Option(names = "--vacuum-check", description = "Run every generation's new best in vacuum too; see vacuum.jsonl.")
+    private boolean vacuumCheck;
+
     @Option(names = "--encoding", paramLabel = "KIND",
             description = "Genes: dense or sparse. Default: the creature's (2 is sparse, the others dense).")
     private EncodingKind encoding;
@@ -89,6 +97,9 @@ final class EvolveCommand implements Callable<Integer> {
     @Option(names = "--output-dir", paramLabel = "DIR",
             description = "Run folder, new or empty. Default: runs/creature-N-seed-S, numbered if there is one.")
     private Path outputDir;
+
+    @Option(names = "--dry-run", description = "Say what would be done and how long it would take; do nothing.")
+    private boolean dryRun;
 
     @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued by --resume.")
     private Double stopAfter;
@@ -106,7 +117,12 @@ final class EvolveCommand implements Callable<Integer> {
         }
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
-        RunFolder folder = RunFolder.create(outputDir != null ? outputDir : freeFolder(settings.scene()), settings);
+        Path directory = outputDir != null ? outputDir : freeFolder(settings.scene());
+        if (dryRun) {
+            new Plan(settings, execution).print(directory, spec.commandLine().getOut());
+            return ExitCode.OK;
+        }
+        RunFolder folder = RunFolder.create(directory, settings);
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
         return ExitCode.OK;
     }
@@ -138,7 +154,7 @@ final class EvolveCommand implements Callable<Integer> {
         return EvolutionSettings.of(sceneName, kind, actuators)
                 .withSize(population != null ? population : preset.population(), generations())
                 .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)
-                .withBackend(execution.backend())
+                .withFitness(fitness, vacuumCheck).withBackend(execution.backend())
                 .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides());
     }
 

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
 import java.util.Arrays;
@@ -17,6 +18,12 @@ final class OptimizerName implements ITypeConverter<OptimizerKind> {
                 .findFirst().orElseThrow(() -> new TypeConversionException("expected one of "
                         + Arrays.stream(OptimizerKind.values()).map(OptimizerName::name)
                                 .collect(Collectors.joining(", ")) + " but was '" + given + "'"));
+    }
+
+    /** With the operators of JGAP, for people. */
+    static String of(EvolutionSettings settings) {
+        return name(settings.optimizer()) + (settings.optimizer() == OptimizerKind.JGAP
+                ? " (" + settings.operators().name().toLowerCase(Locale.ROOT) + " operators)" : "");
     }
 
     private static String name(OptimizerKind kind) {

@@ -7,12 +7,15 @@ import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import java.io.PrintWriter;
 import java.util.Locale;
+import me.tongfei.progressbar.ConsoleProgressBarConsumer;
 import me.tongfei.progressbar.ProgressBar;
 import me.tongfei.progressbar.ProgressBarBuilder;
 import me.tongfei.progressbar.ProgressBarStyle;
 
 /** Tells how an evolution goes: by a bar on a terminal, by one line per generation elsewhere. */
 final class Progress implements EvolutionListener, AutoCloseable {
+
+    private static final int BAR_WIDTH = 110;
 
     private final String generations;
     private final Pace pace;
@@ -30,7 +33,9 @@ final class Progress implements EvolutionListener, AutoCloseable {
         this.generations = settings.generations() == EvolutionSettings.NO_LIMIT ? "" : "/" + settings.generations();
         this.pace = new Pace(settings, before, System::nanoTime);
         this.out = out;
+        // A consumer of fixed width: the usual one measures the terminal by JLine, which takes Ctrl-C away from us.
         this.bar = terminal ? new ProgressBarBuilder().setTaskName("").setInitialMax(1)
+                .setConsumer(new ConsoleProgressBarConsumer(System.err, BAR_WIDTH))
                 .setStyle(ProgressBarStyle.ASCII).showSpeed().build() : null;
     }
 

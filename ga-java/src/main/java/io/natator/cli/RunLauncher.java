@@ -32,7 +32,7 @@ final class RunLauncher {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
             String how = "continue by: natator resume " + folder.directory();
-            try (Evaluator evaluator = Evaluator.open(limited);
+            try (Evaluator evaluator = EvolutionRun.open(limited);
                     Stopper stopper = new Stopper(evaluator, stopAfter, () -> say("interrupted; " + how))) {
                 evolve(folder, limited, evaluator, stopper, how);
             }
@@ -41,23 +41,23 @@ final class RunLauncher {
 
     private void evolve(RunFolder folder, ExecutionSettings execution, Evaluator evaluator, Stopper stopper, String how)
             throws InterruptedException {
-        List<EvolutionListener> listeners = new ArrayList<>();
+        EvolutionRun.Outcome outcome;
         long before = folder.checkpoint() == null ? 0 : folder.checkpoint().evaluations();
         try (Progress progress = new Progress(folder.settings(), before, err, System.console() != null)) {
-            listeners.add(progress);
+            List<EvolutionListener> listeners = new ArrayList<>(List.of(progress));
             if (execution.mode() == SimulatorMode.BATCH) {
                 listeners.add(stopper.beforeLateGenerations());
             }
-            EvolutionRun.Outcome outcome = new EvolutionRun(folder).run(execution, evaluator,
-                    listeners.toArray(EvolutionListener[]::new));
-            new RunReport(out).print(folder.settings(), outcome);
-            out.println("  run folder  " + folder.directory());
-            out.flush();
+            outcome = new EvolutionRun(folder).run(execution, evaluator, listeners.toArray(EvolutionListener[]::new));
         } catch (EvolutionStoppedException | InterruptedException e) {
             if (stopper.isTimeUp()) {
                 say("time is up; " + how);
             }
+            return;
         }
+        new RunReport(out).print(folder.settings(), outcome);
+        out.println("  run folder  " + folder.directory());
+        out.flush();
     }
 
     private void say(String line) {

@@ -35,6 +35,10 @@ final class RunReport {
         out.printf("  phase       %s%n", row(gait.phase()));
         out.printf(Locale.ROOT, "  distance    %.4f in %.2f s (%s)%n", best.result().distance(),
                 best.result().simulated(), best.result().stopped());
+        if (best.result().vacuumDrift() != null) {
+            out.printf(Locale.ROOT, "  net         %.4f: %.4f of it is drift, by the same time in vacuum%n",
+                    best.result().score(), best.result().vacuumDrift());
+        }
         out.printf(Locale.ROOT, "  speed       %.4f units/s%n", best.result().speed());
         printVacuum(outcome.vacuum());
     }
@@ -51,7 +55,7 @@ final class RunReport {
         }
     }
 
-    private static String row(List<Double> values) {
+    static String row(List<Double> values) {
         return values.stream().map(value -> String.format(Locale.ROOT, "%.4f", value))
                 .collect(Collectors.joining(" "));
     }

@@ -6,19 +6,18 @@ import io.natator.checkpoint.Environment;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.encoding.Gait;
+import io.natator.config.FitnessKind;
+import io.natator.config.InvalidInputException;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.report.FitnessPlot;
 import io.natator.simulator.Evaluator;
-import io.natator.simulator.RequestRejectedException;
+import io.natator.simulator.NetEvaluator;
 import io.natator.simulator.SceneInfo;
-import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.TimeLimit;
-import io.natator.simulator.Vacuum;
 import java.io.IOException;
 import java.util.ArrayList;
 import java.util.List;
@@ -62,6 +61,26 @@ public final class EvolutionRun {
     }
 
     /**
+     * The evaluator that the settings ask for, with their cache. Several runs can share it.
+     *
+     * @param execution with a time limit
+     * @throws io.natator.config.InvalidInputException if the simulator cannot be run
+     * @throws InterruptedException                    if the calling thread is interrupted
+     */
+    public static Evaluator open(ExecutionSettings execution) throws InterruptedException {
+        Evaluator evaluator = Evaluator.open(execution);
+        if (execution.cache() == null) {
+            return evaluator;
+        }
+        try {
+            return new CachedEvaluator(evaluator, new EvaluationCache(execution.cache()), execution);
+        } catch (InvalidInputException | InterruptedException e) {
+            evaluator.close();
+            throw e;
+        }
+    }
+
+    /**
      * Evolves, and writes everything into the folder: after each evaluation, each generation, and at the end.
      *
      * @param execution how the evaluator works, for the record
@@ -74,11 +93,11 @@ public final class EvolutionRun {
     public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
             throws InterruptedException {
         folder.write(Environment.present(execution));
-        if (execution.cache() == null) {
-            return run(execution, evaluator, () -> 0, List.of(listeners));
+        if (evaluator instanceof CachedEvaluator shared) {
+            CachedEvaluator own = shared.counting();
+            return run(execution, own, own::found, List.of(listeners));
         }
-        CachedEvaluator cached = new CachedEvaluator(evaluator, new EvaluationCache(execution.cache()), execution);
-        return run(execution, cached, cached::found, List.of(listeners));
+        return run(execution, evaluator, () -> 0, List.of(listeners));
     }
 
     private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found,
@@ -86,8 +105,12 @@ public final class EvolutionRun {
         double duration = settings.duration() != null ? settings.duration()
                 : SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()).duration();
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, new SavingsCounter(folder, duration, found)));
+        if (settings.vacuumCheck()) {
+            all.add(new VacuumCheck(folder, evaluator));
+        }
         all.addAll(listeners);
-        EvolutionState state = new Evolution(settings, evaluator, all, folder.recorded()).run(folder.checkpoint());
+        Evaluator rewarding = settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
+        EvolutionState state = new Evolution(settings, rewarding, all, folder.recorded()).run(folder.checkpoint());
         SimulationResult vacuum = inVacuum(state.best(), evaluator);
         folder.writeResults(state, vacuum);
         draw(state);
@@ -96,17 +119,7 @@ public final class EvolutionRun {
 
     /** What the best gait does without water: a gait that advances there is no swimming. */
     private SimulationResult inVacuum(Individual best, Evaluator evaluator) throws InterruptedException {
-        if (best == null) {
-            return null;
-        }
-        Gait gait = settings.encoding().forActuators(settings.actuators()).decode(best.genes());
-        SimulationRequest request = new SimulationRequest(best.result().id(), settings.scene(), gait,
-                settings.duration(), settings.scheme(), settings.overrides());
-        try {
-            return evaluator.evaluate(Vacuum.of(request, settings.duration()));
-        } catch (RequestRejectedException e) {
-            return SimulationResult.failed(request.id(), e.getMessage());
-        }
+        return best == null ? null : VacuumCheck.drift(best, settings, settings.duration(), evaluator);
     }
 
     private void draw(EvolutionState state) {

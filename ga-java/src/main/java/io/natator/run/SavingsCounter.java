@@ -2,6 +2,7 @@ package io.natator.run;
 
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.Savings;
+import io.natator.checkpoint.StoredRun;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
@@ -29,7 +30,7 @@ final class SavingsCounter implements EvolutionListener {
         this.folder = folder;
         this.duration = duration;
         this.found = found;
-        Savings before = RunFolder.savings(folder.directory());
+        Savings before = StoredRun.savings(folder.directory());
         this.foundBefore = before == null ? 0 : before.fromCache();
         if (folder.checkpoint() != null) {
             folder.recorded().subList(0, (int) folder.checkpoint().evaluations()).forEach(this::evaluated);

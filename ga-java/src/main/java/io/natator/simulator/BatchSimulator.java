@@ -146,7 +146,7 @@ public final class BatchSimulator implements Evaluator {
         endProcess();
         group.failIfStopped();
         failures++;
-        LOG.warn("batch, {} evaluations without an answer: {}", open.size(), reason);
+        LOG.debug("batch, {} evaluations without an answer: {}", open.size(), reason);
         if (failures >= MOST_FAILURES) {
             open.forEach(job -> job.done(SimulationResult.failed(0, reason)));
         } else if (open.size() > 1) {

@@ -44,7 +44,7 @@ public final class ProcessSimulator implements Simulator {
                 return answer(request, program.call(arguments, input));
             } catch (SimulatorFailure e) {
                 reason = e.getMessage();
-                LOG.warn("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ATTEMPTS, reason);
+                LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ATTEMPTS, reason);
             }
         }
         return SimulationResult.failed(request.id(), reason);

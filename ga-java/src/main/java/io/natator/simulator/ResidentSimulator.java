@@ -37,7 +37,7 @@ public final class ResidentSimulator implements Simulator {
                 return attempt(request, input);
             } catch (SimulatorFailure e) {
                 reason = e.getMessage();
-                LOG.warn("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ProcessSimulator.ATTEMPTS,
+                LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ProcessSimulator.ATTEMPTS,
                         reason);
             } finally {
                 group.failIfStopped();

@@ -6,7 +6,7 @@ import com.fasterxml.jackson.annotation.JsonProperty;
 
 /**
  * What came of an evaluation; the JSON form is {@code sim-native/protocol/result.schema.json}, of which unknown fields
- * are ignored, with the status {@code failed} in addition.
+ * are ignored, with the status {@code failed} and the drift in vacuum in addition.
  *
  * @param id        the request's, or null if the simulator could not read it
  * @param status    how it ended
@@ -20,11 +20,20 @@ import com.fasterxml.jackson.annotation.JsonProperty;
  * @param hash      hash of the final state, 16 hexadecimal digits, or null
  * @param unstable  with {@code unstable}: where; else null
  * @param error     with {@code error} and {@code failed}: why, in one line; else null
+ * @param vacuumDrift with fitness net: signed distance of the same gait in vacuum in the same time; else null. Never
+ *                  said by the simulator itself
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
-        Integer frames, String scheme, String precision, String hash, Instability unstable, String error) {
+        Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
+        Double vacuumDrift) {
+
+    /** A result as the simulator gives it. */
+    public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
+            String scheme, String precision, String hash, Instability unstable, String error) {
+        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, null);
+    }
 
     /** How an evaluation ended. */
     public enum Status {
@@ -61,7 +70,13 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** This result under another id. */
     public SimulationResult withId(long newId) {
         return new SimulationResult(newId, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error);
+                unstable, error, vacuumDrift);
+    }
+
+    /** This result with what the same gait drifts in vacuum. */
+    public SimulationResult withVacuumDrift(double drift) {
+        return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
+                unstable, error, drift);
     }
 
     /** The signed distance swum, or 0 where there is none because the evaluation was unstable or failed. */
@@ -69,9 +84,12 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         return status == Status.OK ? distance : 0.0;
     }
 
-    /** What is to be great: the signed distance swum, or 0 where there is none. */
+    /**
+     * What is to be great: the signed distance swum, or 0 where there is none; less the drift in vacuum if that is known
+     * and forwards. A drift backwards is no merit and adds nothing.
+     */
     public double score() {
-        return distanceOrZero();
+        return distanceOrZero() - (vacuumDrift == null ? 0.0 : Math.max(vacuumDrift, 0.0));
     }
 
     /** The fitness that selection works with: the score of what swims forwards, never negative nor NaN. */

@@ -36,6 +36,9 @@ class CommandLineTest {
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of(arguments));
         all.addAll(1, List.of("--simulator-path", simulator.toString()));
+        if (List.of("show", "compare").contains(arguments[0])) {
+            return command.execute(arguments);
+        }
         if (!arguments[0].equals("evaluate")) {
             // The fake's faults are not what the cache is to keep.
             all.add(1, "--no-cache");
@@ -115,6 +118,23 @@ class CommandLineTest {
         }
     }
 
+    /** The fake has no GPU, but auto is another backend than cpu all the same. */
+    @Test
+    void aRunCanMoveToAnotherBackendAndSaysSo() throws IOException {
+        assertThat(evolve("run", "--stop-after", "0.3")).isZero();
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto")).isZero();
+
+        assertThat(err.toString()).startsWith("backend was cpu, is now auto: last digits");
+        assertThat(Json.parse(file("run", "config.json"), JsonNode.class).get("backend").asText()).isEqualTo("auto");
+        assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("backend").asText())
+                .isEqualTo("auto");
+        err.getBuffer().setLength(0);
+        assertThat(natator("resume", folder.resolve("run").toString())).isZero();
+        assertThat(err.toString()).doesNotContain("backend was");
+    }
+
     @Test
     void comparesOptimizersInPieces() throws IOException {
         String[] study = {"compare-optimizers", "--output-dir", folder.resolve("study").toString(), "--creatures", "1",
@@ -128,6 +148,61 @@ class CommandLineTest {
         assertThat(file("study", "README.md")).contains("8 of 8 runs are finished", "| jgap-corrected | 6 | 2 |",
                 "| jgap-stock | 6 | 2 |", "| cma-es | 8 | 2 |", "| random | 6 | 2 |");
         assertThat(folder.resolve("study/creature-1.png")).isNotEmptyFile();
+    }
+
+    @Test
+    void showsARunAtAnyTime() throws IOException {
+        assertThat(evolve("run", "--scene", "fault/mixed", "--vacuum-check")).as(err.toString()).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).startsWith("fault/mixed, jgap (corrected operators), population 8, 3 generations, ")
+                .contains("generation 3: best ", "; finished", "best gait of fault/mixed after 3 generations",
+                        "early stop  0.0 %", "unchanged ", "cache       0 evaluations", "in vacuum",
+                        "evaluations failed, the last, ", "no valid result");
+
+        Files.delete(folder.resolve("run/checkpoint.json"));
+        Files.delete(folder.resolve("run/best.json"));
+        out.getBuffer().setLength(0);
+        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("generation 0 under way: ");
+    }
+
+    @Test
+    void comparesRunsAtTheSameNumberOfEvaluations() throws IOException {
+        assertThat(evolve("short", "--optimizer", "cma-es", "--evaluations", "24")).isZero();
+        assertThat(evolve("long", "--optimizer", "random", "--evaluations", "32")).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("compare", folder.resolve("short").toString(), folder.resolve("long").toString())).isZero();
+        List<String> lines = out.toString().lines().toList();
+        assertThat(lines.get(0)).contains("cma-es");
+        assertThat(lines.get(2)).isEqualTo("evaluations      best 1      best 2");
+        assertThat(lines.get(3)).matches(" {10}4 +\\d\\.\\d{4} +\\d\\.\\d{4}");
+        assertThat(lines.get(8)).matches(" {9}32 {12} +\\d\\.\\d{4}");
+        JsonNode best = Json.parse(file("long", "best.json"), JsonNode.class);
+        assertThat(lines.get(8)).endsWith(String.format(" %.4f", Math.max(best.get("distance").asDouble(), 0)));
+        assertThat(lines).hasSize(11);
+    }
+
+    @ParameterizedTest
+    @CsvSource({"show", "compare"})
+    void whatIsNoRunIsNamed(String command) {
+        String nothing = folder.resolve("nothing").toString();
+
+        assertThat(command.equals("show") ? natator(command, nothing) : natator(command, nothing, nothing))
+                .isEqualTo(2);
+        assertThat(err.toString().strip())
+                .isEqualTo("natator " + command + ": " + nothing + " is not a run folder: it has no config.json");
+    }
+
+    @Test
+    void aDryRunPlansAndDoesNothing() {
+        assertThat(evolve("run", "--dry-run", "--workers", "3")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("evaluations about 44", "process, 3 at once", "time limit 2m02s each",
+                "run folder  " + folder.resolve("run"), "time        at most ");
+        assertThat(folder.resolve("run")).doesNotExist();
     }
 
     @Test
@@ -207,6 +282,7 @@ class CommandLineTest {
         "--simulator thread|expected one of",
         "--backend opencl|expected one of",
         "--optimizer best|expected one of",
+        "--fitness speed|expected one of",
         "--timeout 0|--timeout is 0.0",
         "--timeout NaN|--timeout is NaN",
         "--duration -1|duration is -1.0",

@@ -3,7 +3,7 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.Savings;
 import io.natator.config.Json;
 import java.io.IOException;
@@ -98,9 +98,9 @@ class RealSimulatorTest {
             assertThat(folder.resolve("second").resolve(file))
                     .hasSameBinaryContentAs(folder.resolve("without").resolve(file));
         }
-        Savings savings = RunFolder.savings(folder.resolve("second"));
+        Savings savings = StoredRun.savings(folder.resolve("second"));
         assertThat(savings.fromCache()).isEqualTo(savings.evaluations()).isPositive();
-        assertThat(RunFolder.savings(folder.resolve("without")).fromCache()).isZero();
+        assertThat(StoredRun.savings(folder.resolve("without")).fromCache()).isZero();
     }
 
     @ParameterizedTest

@@ -17,7 +17,7 @@ public final class ToySimulator implements Simulator {
         if (request.id() % 5 == 0) {
             Thread.sleep(1);
         }
-        double distance = distance(request.gait());
+        double distance = isVacuum(request) ? drift(request.gait()) : distance(request.gait());
         return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex",
                 "float", "0123456789abcdef", null, null);
     }
@@ -29,6 +29,16 @@ public final class ToySimulator implements Simulator {
             distance -= Math.pow(gait.amplitude().get(i) - 0.6, 2) + (i == 0 ? 0 : Math.pow(gait.phase().get(i) - 0.3, 2));
         }
         return distance;
+    }
+
+    private static boolean isVacuum(SimulationRequest request) {
+        return request.overrides() != null && request.overrides().has("fluid")
+                && request.overrides().get("fluid").isNull();
+    }
+
+    /** In vacuum: forwards above f = 1, backwards below. */
+    static double drift(Gait gait) {
+        return gait.frequency() - 1.0;
     }
 
     /** How many evaluations were asked for. */

@@ -1,6 +1,7 @@
 package io.natator.study.optimizer;
 
 import io.natator.config.EvolutionSettings;
+import io.natator.config.FitnessKind;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -32,7 +33,8 @@ final class OptimizerReport {
 
             Best fitness so far, the distance swum in scene units, after a tenth, a quarter, half and all of the
             evaluations: median [lower quartile, upper quartile] over the seeds; mean ± standard deviation at the end.
-            All optimizers take exactly the same number of evaluations.
+            All optimizers take exactly the same number of evaluations. The last column is the median of what the best
+            gaits do in vacuum for the whole duration: what advances there is no swimming.
             """;
     private static final List<Double> SHARES = List.of(0.1, 0.25, 0.5, 1.0);
 
@@ -66,7 +68,7 @@ final class OptimizerReport {
                 CurveBand band = new CurveBand(contestant.label(), own.stream().map(OptimizerRun::curve).toList());
                 bands.add(band);
                 int population = own.get(0).settings().population();
-                page.append(row(band, population));
+                page.append(row(band, population, own));
                 SHARES.forEach(share -> csv.append(line(scene, band, population, at(band, share))));
             }
         }
@@ -87,11 +89,11 @@ final class OptimizerReport {
     private static String columns(long evaluations) {
         String places = SHARES.stream().map(share -> "after " + Math.max(1, Math.round(share * evaluations)))
                 .collect(Collectors.joining(" | "));
-        return "| optimizer | population | runs | " + places + " | mean ± sd |\n| --- | ---: | ---: |"
-                + " ---: |".repeat(SHARES.size() + 1) + "\n";
+        return "| optimizer | population | runs | " + places + " | mean ± sd | in vacuum |\n| --- | ---: | ---: |"
+                + " ---: |".repeat(SHARES.size() + 2) + "\n";
     }
 
-    private static String row(CurveBand band, int population) {
+    private static String row(CurveBand band, int population, List<OptimizerRun> runs) {
         String cells = SHARES.stream().map(share -> at(band, share))
                 .map(place -> shown(band.quantile(place, 0.5)) + " [" + shown(band.quantile(place, 0.25)) + ", "
                         + shown(band.quantile(place, 0.75)) + "]")
@@ -99,7 +101,13 @@ final class OptimizerReport {
         int last = band.evaluations();
         String deviation = band.curves().size() > 1 ? " ± " + shown(band.standardDeviation(last)) : "";
         return "| " + band.label() + " | " + population + " | " + band.curves().size() + " | " + cells + " | "
-                + shown(band.mean(last)) + deviation + " |\n";
+                + shown(band.mean(last)) + deviation + " | " + inVacuum(runs) + " |\n";
+    }
+
+    private static String inVacuum(List<OptimizerRun> runs) {
+        List<double[]> known = runs.stream().map(OptimizerRun::vacuumDistance).filter(Double::isFinite)
+                .map(distance -> new double[] {distance}).toList();
+        return known.isEmpty() ? "–" : shown(new CurveBand("", known).quantile(1, 0.5));
     }
 
     private static String line(String scene, CurveBand band, int population, int place) {
@@ -115,6 +123,7 @@ final class OptimizerReport {
     private static String settings(EvolutionSettings settings) {
         return "Scene `" + settings.scene() + "`, encoding " + Json.line(settings.encoding()).replace("\"", "")
                 + ", backend " + settings.backend().argument()
+                + (settings.fitness() == FitnessKind.NET ? ", net fitness" : "")
                 + (settings.scheme() == null ? "" : ", scheme " + Json.line(settings.scheme()).replace("\"", ""))
                 + (settings.duration() == null ? "" : ", " + settings.duration() + " s")
                 + (settings.overrides() == null ? "" : ", overrides `" + settings.overrides() + "`") + ".\n";

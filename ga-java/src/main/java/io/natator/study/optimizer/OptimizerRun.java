@@ -1,6 +1,8 @@
 package io.natator.study.optimizer;
 
+import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import java.nio.file.Path;
@@ -21,7 +23,7 @@ record OptimizerRun(String scene, Contestant contestant, EvolutionSettings setti
      * @throws InvalidInputException if there is a run of other settings in it
      */
     RunFolder open() {
-        if (!RunFolder.exists(directory)) {
+        if (!StoredRun.exists(directory)) {
             return RunFolder.create(directory, settings);
         }
         RunFolder folder = RunFolder.open(directory);
@@ -35,10 +37,13 @@ record OptimizerRun(String scene, Contestant contestant, EvolutionSettings setti
 
     /** Best fitness after each evaluation. */
     double[] curve() {
-        double[] best = RunFolder.evaluations(directory).stream().mapToDouble(one -> one.result().fitness()).toArray();
-        for (int i = 1; i < best.length; i++) {
-            best[i] = Math.max(best[i], best[i - 1]);
-        }
-        return best;
+        return StoredRun.bestFitness(StoredRun.evaluations(directory));
+    }
+
+    /** What the finished run's best gait does in vacuum, in scene units; NaN if that is not known. */
+    double vacuumDistance() {
+        BestGait best = StoredRun.in(directory).best();
+        return best == null || best.vacuum() == null || best.vacuum().distance() == null ? Double.NaN
+                : best.vacuum().distance();
     }
 }

@@ -1,6 +1,7 @@
 package io.natator.study.optimizer;
 
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
@@ -78,8 +79,8 @@ public final class OptimizerStudy {
 
     /** How many evaluations are recorded already. */
     public long recorded() {
-        return runs.stream().filter(run -> RunFolder.exists(run.directory()))
-                .mapToLong(run -> RunFolder.evaluations(run.directory()).size()).sum();
+        return runs.stream().filter(run -> StoredRun.exists(run.directory()))
+                .mapToLong(run -> StoredRun.evaluations(run.directory()).size()).sum();
     }
 
     /** How many runs are finished. */
@@ -88,7 +89,7 @@ public final class OptimizerStudy {
     }
 
     private List<OptimizerRun> finishedRuns() {
-        return runs.stream().filter(run -> RunFolder.isFinished(run.directory())).toList();
+        return runs.stream().filter(run -> StoredRun.isFinished(run.directory())).toList();
     }
 
     /** Follows the study; called from several threads. */
@@ -116,7 +117,7 @@ public final class OptimizerStudy {
     public boolean run(ExecutionSettings execution, Evaluator evaluator, int atOnce, Watcher watcher)
             throws InterruptedException {
         ConcurrentLinkedQueue<OptimizerRun> waiting = new ConcurrentLinkedQueue<>(
-                runs.stream().filter(run -> !RunFolder.isFinished(run.directory())).toList());
+                runs.stream().filter(run -> !StoredRun.isFinished(run.directory())).toList());
         ExecutorService threads = Executors.newFixedThreadPool(atOnce);
         try {
             List<Future<Boolean>> lanes = new ArrayList<>();

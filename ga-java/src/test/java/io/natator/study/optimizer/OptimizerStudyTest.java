@@ -3,7 +3,7 @@ package io.natator.study.optimizer;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
@@ -21,6 +21,7 @@ import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.atomic.AtomicInteger;
+import java.util.stream.IntStream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -56,7 +57,7 @@ class OptimizerStudyTest {
 
                 @Override
                 public void finished(Path run, double bestDistance) {
-                    assertThat(RunFolder.isFinished(run)).isTrue();
+                    assertThat(StoredRun.isFinished(run)).isTrue();
                 }
 
                 @Override
@@ -102,6 +103,11 @@ class OptimizerStudyTest {
                     .hasSameTextualContentAs(folder.resolve("whole").resolve(file));
         }
         assertThat(Files.readAllLines(folder.resolve("whole/comparison.csv"))).hasSize(1 + 4 * 4);
+        // The toy drifts by its frequency less 1 in vacuum.
+        double[] drifts = IntStream.rangeClosed(1, 3).mapToDouble(seed -> StoredRun.in(folder.resolve(
+                "whole/creature-3/random/seed-" + seed)).best().gait().frequency() - 1.0).sorted().toArray();
+        assertThat(Files.readString(folder.resolve("whole/README.md"))).containsPattern(
+                "\\| random \\| 8 \\| 3 \\|.*\\| " + String.format("%.4f", drifts[1]) + " \\|\n");
         assertThat(folder.resolve("whole/creature-3.png")).isNotEmptyFile();
     }
 

@@ -1,0 +1,122 @@
+package io.natator.checkpoint;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.EvolutionState;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+
+/**
+ * What a run folder holds, to be looked at while another process may be adding to it.
+ *
+ * @param directory   the folder
+ * @param settings    of the run
+ * @param state       after the last finished generation, or null
+ * @param best        the best gait so far, or null
+ * @param evaluations all that are recorded, in the order of their ids
+ * @param savings     what it did not have to simulate, or null if that was not recorded
+ * @param vacuum      best gaits that were run in vacuum
+ */
+public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
+        List<EvaluationRecord> evaluations, Savings savings, List<VacuumRecord> vacuum) {
+
+    /** Copies the lists. */
+    public StoredRun {
+        evaluations = List.copyOf(evaluations);
+        vacuum = List.copyOf(vacuum);
+    }
+
+    /**
+     * Reads a folder.
+     *
+     * @throws InvalidInputException if it is not that of a run, or a file in it is damaged
+     */
+    public static StoredRun in(Path directory) {
+        return new StoredRun(directory, settings(directory),
+                optional(directory, RunFolder.CHECKPOINT, EvolutionState.class),
+                optional(directory, RunFolder.BEST, BestGait.class),
+                EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS)), savings(directory),
+                vacuumRecords(directory));
+    }
+
+    /** The settings of the run in a folder. */
+    static EvolutionSettings settings(Path directory) {
+        if (!exists(directory)) {
+            throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
+        }
+        return Json.read(directory.resolve(RunFolder.CONFIG), EvolutionSettings.class, "settings");
+    }
+
+    private static <T> T optional(Path directory, String name, Class<T> type) {
+        Path file = directory.resolve(name);
+        return Files.exists(file) ? Json.read(file, type, name.replace(".json", "")) : null;
+    }
+
+    /** Whether there is a run in this folder. */
+    public static boolean exists(Path directory) {
+        return Files.isRegularFile(directory.resolve(RunFolder.CONFIG));
+    }
+
+    /**
+     * Whether the run in this folder, if there is one, has come to its end and its results are written.
+     *
+     * @throws InvalidInputException if a file of it is damaged
+     */
+    public static boolean isFinished(Path directory) {
+        if (!exists(directory)) {
+            return false;
+        }
+        EvolutionState state = optional(directory, RunFolder.CHECKPOINT, EvolutionState.class);
+        if (state == null || !state.isLastOf(settings(directory))) {
+            return false;
+        }
+        BestGait best = optional(directory, RunFolder.BEST, BestGait.class);
+        return state.best() == null || best != null && best.vacuum() != null;
+    }
+
+    /** The evaluations that the run in a folder has recorded. */
+    public static List<EvaluationRecord> evaluations(Path directory) {
+        return EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS));
+    }
+
+    /** What the run in a folder did not have to simulate; null if that was not recorded. */
+    public static Savings savings(Path directory) {
+        return optional(directory, RunFolder.SAVINGS, Savings.class);
+    }
+
+    /** The best gaits of the run in a folder that were run in vacuum; none if that was not asked for. */
+    public static List<VacuumRecord> vacuumRecords(Path directory) {
+        Path file = directory.resolve(RunFolder.VACUUM);
+        try {
+            List<VacuumRecord> records = new ArrayList<>();
+            for (String line : Files.exists(file) ? Files.readAllLines(file) : List.<String>of()) {
+                records.add(Json.parse(line, VacuumRecord.class));
+            }
+            return records;
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException(file + ": " + Json.reason(e), e);
+        } catch (IOException e) {
+            throw new InvalidInputException("cannot read " + AtomicFile.reason(file, e), e);
+        }
+    }
+
+    /** Best fitness after each evaluation. */
+    public double[] bestFitness() {
+        return bestFitness(evaluations);
+    }
+
+    /** Best fitness after each of these evaluations. */
+    public static double[] bestFitness(List<EvaluationRecord> evaluations) {
+        double[] best = evaluations.stream().mapToDouble(one -> one.result().fitness()).toArray();
+        for (int i = 1; i < best.length; i++) {
+            best[i] = Math.max(best[i], best[i - 1]);
+        }
+        return best;
+    }
+}

@@ -1,0 +1,83 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.StoredRun;
+import java.io.PrintWriter;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Locale;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator compare}: runs side by side. */
+@Command(name = "compare", mixinStandardHelpOptions = true,
+        description = "Sets runs side by side: settings, best fitness after the same number of evaluations, best gaits.")
+final class CompareCommand implements Callable<Integer> {
+
+    private static final int STEPS = 5;
+
+    @Spec
+    private CommandSpec spec;
+
+    @Parameters(paramLabel = "RUN", arity = "2..*", description = "Run folders, at least two.")
+    private List<Path> folders;
+
+    @Override
+    public Integer call() {
+        List<StoredRun> runs = folders.stream().map(StoredRun::in).toList();
+        PrintWriter out = spec.commandLine().getOut();
+        for (int i = 0; i < runs.size(); i++) {
+            out.printf("%d  %s: %s%n", i + 1, runs.get(i).directory(), ShowCommand.settings(runs.get(i).settings()));
+        }
+        printCurves(runs, out);
+        printBests(runs, out);
+        out.flush();
+        return ExitCode.OK;
+    }
+
+    private static void printCurves(List<StoredRun> runs, PrintWriter out) {
+        List<double[]> curves = runs.stream().map(StoredRun::bestFitness).toList();
+        int common = curves.stream().mapToInt(curve -> curve.length).min().orElse(0);
+        out.print("evaluations");
+        for (int i = 1; i <= runs.size(); i++) {
+            out.printf("%12s", "best " + i);
+        }
+        out.println();
+        for (int step = 1; step <= STEPS && common >= STEPS; step++) {
+            int place = (int) ((long) common * step / STEPS);
+            printRow(place, curves, out);
+        }
+        int longest = curves.stream().mapToInt(curve -> curve.length).max().orElse(0);
+        if (longest > common) {
+            printRow(longest, curves, out);
+        }
+    }
+
+    /** Runs that are not so long have no number there. */
+    private static void printRow(int place, List<double[]> curves, PrintWriter out) {
+        out.printf("%11d", place);
+        for (double[] curve : curves) {
+            out.printf("%12s", curve.length < place ? "" : String.format(Locale.ROOT, "%.4f", curve[place - 1]));
+        }
+        out.println();
+    }
+
+    private static void printBests(List<StoredRun> runs, PrintWriter out) {
+        for (int i = 0; i < runs.size(); i++) {
+            var best = runs.get(i).best();
+            if (best == null) {
+                out.printf("%d  no gait as yet%n", i + 1);
+            } else {
+                out.printf(Locale.ROOT, "%d  distance %.4f, speed %.4f/s%s, f %.4f, a %s, phi %s%n", i + 1,
+                        best.distance(), best.speed(),
+                        best.vacuum() == null || best.vacuum().distance() == null ? ""
+                                : String.format(Locale.ROOT, ", in vacuum %.4f/s", best.vacuum().speed()),
+                        best.gait().frequency(), RunReport.row(best.gait().amplitude()),
+                        RunReport.row(best.gait().phase()));
+            }
+        }
+    }
+}
