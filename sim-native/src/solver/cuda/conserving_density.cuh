@@ -193,9 +193,9 @@ __device__ void push_solids_by_pressure(const ModelView<Real>& model, Block& blo
             });
         }
         push = {sum_of_lanes(push.x), sum_of_lanes(push.y), sum_of_lanes(push.z)};
-        const Real inverse_mass = solid ? block.position()[s].w : Real(0);
-        if (lane == 0 && inverse_mass > 0)
-            move(block, s, model.relaxation_factor * Real(pair_share) * inverse_mass * push);
+        if (lane != 0 || !solid) return;  // one thread alone reads and writes the slot
+        const Real inverse_mass = block.position()[s].w;
+        if (inverse_mass > 0) move(block, s, model.relaxation_factor * Real(pair_share) * inverse_mass * push);
     });
 }
 
