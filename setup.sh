@@ -4,15 +4,18 @@ set -euo pipefail
 
 usage() {
     cat <<'TEXT'
-usage: ./setup.sh [--check]
+usage: ./setup.sh [--check] [--cuda]
   --check   only report what is missing (exit 1 if anything is), install nothing
+  --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
 TEXT
 }
 
 check_only=false
+with_cuda=false
 for argument in "$@"; do
     case $argument in
         --check) check_only=true ;;
+        --cuda) with_cuda=true ;;
         -h|--help) usage; exit 0 ;;
         *) printf 'setup.sh: unknown option %s\n' "$argument" >&2; usage >&2; exit 2 ;;
     esac
@@ -45,6 +48,30 @@ java_works() {
     [[ $version =~ ([0-9]+) ]] && (( BASH_REMATCH[1] >= minimum_java ))
 }
 
+readonly cuda_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/.cuda
+readonly cuda_version=13.0.2  # of all parts: they fit together only within one version
+
+# CMakeLists.txt looks in the same places.
+nvcc_works() {
+    local nvcc version
+    for nvcc in "${CUDACXX:-}" nvcc /usr/local/cuda/bin/nvcc "$cuda_folder/toolkit/bin/nvcc"; do
+        [[ -n $nvcc ]] && command -v "$nvcc" >/dev/null || continue
+        version=$("$nvcc" --version | grep -oE 'release [0-9]+') && (( ${version#release } >= 13 )) && return
+    done
+    return 1
+}
+
+# Makes nvcc and what it needs from NVIDIA's own packages on PyPI.
+install_nvcc() {
+    python3 -m venv "$cuda_folder" &&
+        "$cuda_folder/bin/pip" --quiet --disable-pip-version-check install \
+            "cuda-toolkit[nvcc,nvvm,crt,cudart,cccl]==$cuda_version" || return
+    local toolkit
+    toolkit=$(echo "$cuda_folder"/lib/python3*/site-packages/nvidia/cu13)
+    ln --symbolic --force --no-dereference lib "$toolkit/lib64" &&
+        ln --symbolic --force --no-dereference "$toolkit" "$cuda_folder/toolkit"
+}
+
 installed() {
     [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
 }
@@ -61,6 +88,11 @@ find_missing() {
     for library in "${libraries[@]}"; do
         installed "$library" || missing+=("$library")
     done
+    nvcc_missing=false
+    if $with_cuda && ! nvcc_works; then
+        nvcc_missing=true
+        python3 -c 'import ensurepip' 2>/dev/null || missing+=(python3-venv)
+    fi
 }
 
 known_to_apt() {
@@ -78,15 +110,23 @@ java_package() {
 
 # --- report or install ------------------------------------------------------------------------------------------------
 
-find_missing
-if (( ${#missing[@]} == 0 )); then
-    echo 'setup: everything needed is installed'
+# Ends the script: what apt brings is there.
+finish() {
+    if $nvcc_missing; then
+        printf 'setup: installing nvcc %s into %s\n' "$cuda_version" "$cuda_folder"
+        install_nvcc && nvcc_works || fail "could not install nvcc from PyPI into $cuda_folder"
+    fi
+    echo "$1"
     exit 0
-fi
-if $check_only; then
+}
+
+find_missing
+if $check_only && { (( ${#missing[@]} > 0 )) || $nvcc_missing; }; then
+    $nvcc_missing && missing+=('nvcc 13')
     printf 'setup: missing: %s\n' "${missing[*]}"
     exit 1
 fi
+(( ${#missing[@]} > 0 )) || finish 'setup: everything needed is installed'
 
 as_root=()
 if (( EUID != 0 )); then
@@ -125,4 +165,4 @@ find_missing
 if (( ${#missing[@]} > 0 )); then
     fail "installed ${requested[*]}, but too old or not found: ${missing[*]} (needed: C++20, cmake >= $minimum_cmake, JDK >= $minimum_java)"
 fi
-echo 'setup: done'
+finish 'setup: done'

@@ -56,8 +56,20 @@ Scene make_scene(const NamedScene& named, bool quick) {
     return load_scene(named.scene, overrides);
 }
 
-/// The thesis' gait where it found one, else all muscles in a travelling wave.
-Gait gait_for(const Scene& scene) {
+const NamedScene& find_scene(const std::string& name) {
+    const auto found =
+        std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.name == name; });
+    if (found != scenes.end()) return *found;
+    throw InputError("unknown speed scene \"" + name + "\": must be one of " + joined(speed_scene_names(), ", "));
+}
+
+}  // namespace
+
+Scene speed_scene(const std::string& name, bool quick) {
+    return make_scene(find_scene(name), quick);
+}
+
+Gait speed_gait(const Scene& scene) {
     if (scene.creature->name == "creature-1") return thesis_gait(1);
     if (scene.creature->name == "creature-2") return thesis_gait(2);
     Gait gait;
@@ -68,6 +80,8 @@ Gait gait_for(const Scene& scene) {
         gait.phase.push_back(static_cast<double>(k) / static_cast<double>(actuators));
     return gait;
 }
+
+namespace {
 
 /// One scene as it is computed, with what was measured so far.
 struct TimedScene {
@@ -86,8 +100,8 @@ void measure(TimedScene& one) {
     StageProfile profile;
     forget_peak_memory();
     const auto start = Clock::now();
-    const Evaluation result =
-        evaluate(one.scene, gait_for(one.scene), one.precision, {}, {}, {.profile = &profile, .threads = one.threads});
+    const Evaluation result = evaluate(one.scene, speed_gait(one.scene), one.precision, {}, {},
+                                       {.profile = &profile, .threads = one.threads});
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (one.seconds.empty() || seconds < *std::min_element(one.seconds.begin(), one.seconds.end()))
         one.profile = profile;
@@ -123,13 +137,6 @@ Row row_of(const TimedScene& one, const Row& rest) {
     Row row = one.key;
     row.insert(row.end(), rest.begin(), rest.end());
     return row;
-}
-
-const NamedScene& find_scene(const std::string& name) {
-    const auto found =
-        std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.name == name; });
-    if (found != scenes.end()) return *found;
-    throw InputError("unknown speed scene \"" + name + "\": must be one of " + joined(speed_scene_names(), ", "));
 }
 
 }  // namespace
@@ -171,7 +178,7 @@ void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& p
                                   std::to_string(threads),
                                   machine};
                     if (table.has(key)) continue;
-                    Scene scene = make_scene(find_scene(name), study.quick);
+                    Scene scene = speed_scene(name, study.quick);
                     scene.scheme = scheme;
                     timed.push_back({key, std::move(scene), precision, threads});
                 }

@@ -21,6 +21,9 @@ struct SpeedStudy {
 
 /// The thesis' creatures in their tank, 4 s each, creature 1 in vacuum, and its tank with 8 and 64 times the fluid.
 std::vector<std::string> speed_scene_names();
+Scene speed_scene(const std::string& name, bool quick);
+/// The thesis' gait where it found one, else all muscles in a travelling wave.
+Gait speed_gait(const Scene& scene);
 
 /// Columns scene, scheme, precision, instruction_set, threads, machine (these are the key); particles, fluid_particles,
 /// substeps (of all frames, without settling), iterations; repeats; seconds_least, seconds_median;

@@ -50,7 +50,8 @@ protected:
             ASSERT_FALSE(gpu.frame(on_gpu, gait));
             if (frame > 1) continue;
             const double apart = largest_distance(on_cpu, on_gpu);
-            std::cout << "after a frame " << apart;
+            std::cout << "measured: creature " << creature << ' ' << name_of(scheme) << ' ' << sizeof(Real) * 8
+                      << " bits: after a frame " << apart;
             EXPECT_LE(apart, frame_bound);
             const auto cpu_density = cpu.densities(), gpu_density = gpu.densities();
             double density_apart = 0;
@@ -116,11 +117,12 @@ TEST_P(GpuEnsemble, MeanDistanceOverFourSecondsIsTheCpus) {
         EXPECT_EQ(evaluation.stopped, Stopped::completed);
         on_gpu.push_back(evaluation.distance);
     }
-    members.resize(32);
+    members.resize(16);
     const MeanAndError gpu = summary(on_gpu), cpu = summary(distances_on_cpu(scene, members));
     const double error = std::hypot(gpu.error, cpu.error);
-    std::cout << "GPU " << gpu.mean << " +- " << gpu.error << ", CPU " << cpu.mean << " +- " << cpu.error << ", apart "
-              << (gpu.mean - cpu.mean) / error << " standard errors\n";
+    std::cout << "measured: creature " << creature << ' ' << name_of(scheme) << " GPU " << gpu.mean << " +- "
+              << gpu.error << ", CPU " << cpu.mean << " +- " << cpu.error << ", apart " << (gpu.mean - cpu.mean) / error
+              << " standard errors\n";
     EXPECT_LE(std::abs(gpu.mean - cpu.mean), 3 * error + 1e-6);
 }
 INSTANTIATE_TEST_SUITE_P(Creatures, GpuEnsemble, all_cases, case_name);

@@ -100,5 +100,18 @@ TEST(BenchProtocolTest, NoStageIsAboveTheRoofs) {
     EXPECT_EQ(stages, 5);
 }
 
+TEST(BenchProtocolTest, WithoutTheGpuThatWasAskedForThereIsOneLine) {
+    const std::string experiments = std::string(NATATOR_CONFORMANCE_DIR) + "/micro/a_free.json";
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"bench", "speed", "--quick"}, std::vector<std::string>{"particles", experiments}}) {
+        std::vector<std::string> arguments = command;
+        arguments.insert(arguments.end(), {"--backend", "cuda", "--device", "1023"});
+        const Outcome outcome = run_simulator(arguments);
+        EXPECT_EQ(outcome.exit_code, 4) << command.front();
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    }
+}
+
 }  // namespace
 }  // namespace natator::test

@@ -29,12 +29,20 @@ struct BatchMember {
     Perturbation perturbation;
 };
 
+/// Where the time of a batch goes.
+struct BatchTimes {
+    double settling = 0;              ///< s between the start and the end of the kernels that settle the starts
+    double kernel = 0;                ///< s of those that run the frames
+    StageProfile* profile = nullptr;  ///< gets the kernel's time by stage, if there is one
+};
+
 /// Evaluates gaits in one scene on a GPU, all at once; member k of the result belongs to member k. The result of a
 /// member is the same, bit by bit, whatever the others and their number. A batch that does not fit into the device's
 /// memory is computed in parts. Of an unstable member the CPU does the last substep again, to name its stage. Throws
 /// InputError when a gait does not fit the scene or the scene needs what the GPU's stages do not do, NoDevice without
 /// that GPU.
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
-                                        Precision precision = Precision::single_precision, int device = 0);
+                                        Precision precision = Precision::single_precision, int device = 0,
+                                        BatchTimes* times = nullptr);
 
 }  // namespace natator

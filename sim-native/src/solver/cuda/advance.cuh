@@ -1,6 +1,5 @@
 #pragma once
 
-#include "layout.cuh"
 #include "update.cuh"
 
 namespace natator::cuda {
@@ -8,13 +7,15 @@ namespace natator::cuda {
 /// Takes tickets until there are none. A ticket's State may still be in the hands of another block, which then works
 /// on an earlier ticket: waiting cannot lock up.
 template <class Real, Scheme scheme, bool on_chip>
-__global__ void __launch_bounds__(threads, 1) advance(BatchView<Real> batch) {
-    extern __shared__ __align__(32) char chip[];
+__global__ void __launch_bounds__(threads, 1) advance(const __grid_constant__ BatchView<Real> batch) {
+    extern __shared__ __align__(128) char chip[];
     __shared__ unsigned ticket;
-    Block<Real> block;
-    Pieces on_chip_pieces(chip), in_scratch(batch.scratch + blockIdx.x * batch.scratch_bytes);
-    place_on_chip(batch.model, on_chip, on_chip_pieces, block);
-    place_in_scratch(batch.model, on_chip, in_scratch, block);
+    Block<Real, on_chip> block(batch.layout, chip,
+                               batch.scratch + blockIdx.x * std::size_t{batch.layout.scratch_bytes});
+    if (threadIdx.x == 0) {
+        block.shared().watch.totals = batch.profile;
+        block.shared().next_unit[0] = block.shared().next_unit[1] = 0;
+    }
     for (;;) {
         if (threadIdx.x == 0) ticket = atomicAdd(batch.next_ticket, 1u);
         __syncthreads();

@@ -19,22 +19,6 @@ const void* kernel(const ModelView<Real>& model, bool on_chip) {
 }  // namespace
 
 template <class Real>
-std::size_t chip_bytes(const ModelView<Real>& model, bool on_chip) {
-    Block<Real> block;
-    Pieces pieces(nullptr);
-    place_on_chip(model, on_chip, pieces, block);
-    return pieces.used();
-}
-
-template <class Real>
-std::size_t scratch_bytes(const ModelView<Real>& model, bool on_chip) {
-    Block<Real> block;
-    Pieces pieces(nullptr);
-    place_in_scratch(model, on_chip, pieces, block);
-    return (pieces.used() + 127) / 128 * 128;
-}
-
-template <class Real>
 int resident_blocks(const ModelView<Real>& model, bool on_chip) {
     int device = 0, most_chip_bytes = 0, processors = 0, per_processor = 0;
     check(cudaGetDevice(&device), "current device");
@@ -42,7 +26,7 @@ int resident_blocks(const ModelView<Real>& model, bool on_chip) {
     check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "multiprocessors");
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, kernel(model, on_chip)), "kernel");
-    const std::size_t bytes = chip_bytes(model, on_chip);
+    const std::size_t bytes = layout_of(model, on_chip).chip_bytes;
     if (bytes + attributes.sharedSizeBytes > static_cast<std::size_t>(most_chip_bytes)) return 0;
     check(cudaFuncSetAttribute(kernel(model, on_chip), cudaFuncAttributeMaxDynamicSharedMemorySize,
                                static_cast<int>(bytes)),
@@ -57,15 +41,11 @@ void launch_batch(const BatchView<Real>& batch, bool on_chip, int blocks) {
     BatchView<Real> argument = batch;
     void* arguments[] = {&argument};
     const int most = std::min(blocks, batch.states);
-    check(cudaLaunchKernel(kernel(batch.model, on_chip), dim3(most), dim3(threads), arguments,
-                           chip_bytes(batch.model, on_chip), nullptr),
+    check(cudaLaunchKernel(kernel(batch.model, on_chip), dim3(most), dim3(threads), arguments, batch.layout.chip_bytes,
+                           nullptr),
           "launch");
 }
 
-template std::size_t chip_bytes(const ModelView<float>&, bool);
-template std::size_t chip_bytes(const ModelView<double>&, bool);
-template std::size_t scratch_bytes(const ModelView<float>&, bool);
-template std::size_t scratch_bytes(const ModelView<double>&, bool);
 template int resident_blocks(const ModelView<float>&, bool);
 template int resident_blocks(const ModelView<double>&, bool);
 template void launch_batch(const BatchView<float>&, bool, int);

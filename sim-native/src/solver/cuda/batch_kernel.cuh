@@ -46,19 +46,15 @@ struct BatchView {
     int no_progress_frames;  ///< 0 = never
 
     // By block.
+    Layout layout;
     char* scratch;
-    std::size_t scratch_bytes;
+
+    unsigned long long* profile;  ///< cycles by Stage, of all blocks; null if nobody asks
 
     // The queue: tickets are handed out update by update, and within an update State by State.
     unsigned* next_ticket;
     int* updates_done;  ///< by State
 };
-
-/// Bytes on the chip and in device memory that a block needs; `on_chip` says where positions are kept.
-template <class Real>
-std::size_t chip_bytes(const ModelView<Real>& model, bool on_chip);
-template <class Real>
-std::size_t scratch_bytes(const ModelView<Real>& model, bool on_chip);
 
 /// Advances all States; returns at once. `blocks` are resident at the same time.
 template <class Real>

@@ -6,7 +6,10 @@
 
 #include "batch_kernel.cuh"
 #include "device_states.h"
+#include "event.h"
+#include "layout.cuh"
 #include "natator/error.h"
+#include "natator/execution.h"
 
 namespace natator::cuda {
 
@@ -36,10 +39,11 @@ public:
     }
 
     /// Runs the updates to their end; States whose progress has stopped already stay as they are.
-    void run(BatchView<Real>& batch, const std::vector<Progress>& progress) {
+    void run(BatchView<Real>& batch, const std::vector<Progress>& progress, StageProfile* profile = nullptr) {
         const int blocks = std::min(blocks_, batch.states);
-        batch.scratch_bytes = scratch_bytes(model_.view(), on_chip_);
-        if (scratch_.size() < blocks * batch.scratch_bytes) scratch_ = DeviceBuffer<char>(blocks * batch.scratch_bytes);
+        batch.layout = layout_of(model_.view(), on_chip_);
+        const std::size_t bytes = static_cast<std::size_t>(blocks) * batch.layout.scratch_bytes;
+        if (scratch_.size() < bytes) scratch_ = DeviceBuffer<char>(bytes);
         batch.scratch = scratch_.data();
         progress_ = DeviceBuffer<Progress>(progress);
         path_ = DeviceBuffer<double>(static_cast<std::size_t>(batch.states) * (batch.updates + 1));
@@ -51,21 +55,39 @@ public:
         batch.path = path_.data();
         batch.next_ticket = next_ticket.data();
         batch.updates_done = updates_done.data();
+        DeviceBuffer<unsigned long long> cycles(profile ? static_cast<std::size_t>(Stage::count) : 0);
+        cycles.clear();
+        batch.profile = cycles.data();
+        const Event start, end;
+        start.record();
         launch_batch(batch, on_chip_, blocks);
+        end.record();
         check(cudaDeviceSynchronize(), "run");
+        seconds_ = end.seconds_since(start);
+        if (profile) add_to(*profile, cycles.download());
     }
 
     /// Of the last run.
     std::vector<Progress> progress() const { return progress_.download(); }
     std::vector<double> path() const { return path_.download(); }
+    double seconds() const { return seconds_; }  ///< between the kernel's start and end
 
 private:
+    /// The kernel's time, shared out in proportion to the cycles that its blocks booked.
+    void add_to(StageProfile& profile, const std::vector<unsigned long long>& cycles) const {
+        double all = 0;
+        for (const auto booked : cycles) all += static_cast<double>(booked);
+        for (std::size_t k = 0; k < cycles.size(); ++k)
+            if (cycles[k] > 0) profile.add(stage_names[k], seconds_ * static_cast<double>(cycles[k]) / all);
+    }
+
     DeviceModel<Real> model_;
     bool on_chip_ = false;
     int blocks_ = 0;
     DeviceBuffer<char> scratch_;
     DeviceBuffer<Progress> progress_;
     DeviceBuffer<double> path_;
+    double seconds_ = 0;
 };
 
 /// Makes a GPU the current one. Throws NoDevice where there is no such one.

@@ -3,40 +3,47 @@
 // Scheme conserving: its iteration and its velocities. As step.h and cpu/conserving, which cite the papers.
 #include "conserving_density.cuh"
 #include "conserving_solids.cuh"
+#include "effects.cuh"
 #include "symmetric3.cuh"
 
 namespace natator::cuda {
 
 /// Ends with a barrier.
-template <class Real>
-__device__ void begin_iterations(const ModelView<Real>& model, Block<Real>& block) {
+template <class Real, class Block>
+__device__ void begin_iterations(const ModelView<Real>& model, Block& block) {
     const Quad<Real> zero{0, 0, 0, 0};
     block.overlapping = false;
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        block.displacement[s] = zero;
-        block.active[s] = 0;
-        if (s < model.fluid) block.lambda_sum[s] = 0;
+        block.displacement()[s] = zero;
+        block.active()[s] = 0;
+        if (s < model.fluid) block.lambda_sum()[s] = 0;
     }
-    for (int k = threadIdx.x; k < model.solids; k += threads) block.internal[k] = zero;
-    for (int k = threadIdx.x; k < model.springs; k += threads) block.spring_lambda[k] = 0;
-    for (int k = threadIdx.x; k < model.members; k += threads) block.member_displacement[k] = zero;
-    keep_mutual_neighbours(model, block);
+    for (int k = threadIdx.x; k < model.solids; k += threads) block.internal()[k] = zero;
+    for (int k = threadIdx.x; k < model.springs; k += threads) block.spring_lambda()[k] = 0;
+    for (int k = threadIdx.x; k < model.members; k += threads) block.member_displacement()[k] = zero;
+    if (threadIdx.x == 0) block.lambda()[model.particles] = 0;
+    if (model.plan.fluid) keep_mutual_neighbours(model, block);
     __syncthreads();
 }
 
 /// One iteration: each group of constraints in turn, on the positions that the last one left.
-template <class Real>
-__device__ void iterate_in_turn(const ModelView<Real>& model, Block<Real>& block, bool first) {
+template <class Real, class Block>
+__device__ void iterate_in_turn(const ModelView<Real>& model, Block& block, bool first) {
     if (model.plan.fluid) solve_density_constraint(model, block, first);
+    block.book(Stage::density_constraint);
     if (model.plan.contacts) solve_contacts(model, block);
+    block.book(Stage::contacts);
     if (model.plan.springs) solve_springs(model, block);
+    block.book(Stage::springs);
     if (model.plan.clusters) solve_clusters(model, block);
+    block.book(Stage::clusters);
     if (model.plan.planes) solve_planes_in_turn(model, block);
+    block.book(Stage::planes);
 }
 
 /// A warp per free body, the sums in double. Ends with a barrier.
-template <class Real>
-__device__ void keep_body_momentum(const ModelView<Real>& model, Block<Real>& block) {
+template <class Real, class Block>
+__device__ void keep_body_momentum(const ModelView<Real>& model, Block& block) {
     const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
     const auto sum_up = [](double* values, int count) {
         for (int e = 0; e < count; ++e)
@@ -47,9 +54,9 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, Block<Real>& bl
         const int begin = model.free_body_begin[k], end = model.free_body_begin[k + 1];
         double sums[7] = {};  // mass, mass * start, mass * position
         for (int e = begin + lane; e < end; e += 32) {
-            const int solid = model.free_body_particle[e], s = block.slot_of_solid[solid];
+            const int solid = model.free_body_particle[e], s = block.slot_of_solid()[solid];
             const double mass = 1 / static_cast<double>(model.inverse_mass[model.fluid + solid]);
-            const Quad<Real> from = block.start[s], to = block.position[s];
+            const Quad<Real> from = block.start()[s], to = block.position()[s];
             const double add[7] = {mass,        mass * from.x, mass * from.y, mass * from.z,
                                    mass * to.x, mass * to.y,   mass * to.z};
             for (int a = 0; a < 7; ++a) sums[a] += add[a];
@@ -62,9 +69,9 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, Block<Real>& bl
         }
         double totals[12] = {};  // momentum, moment, inertia: xx, yy, zz, xy, xz, yz
         for (int e = begin + lane; e < end; e += 32) {
-            const int solid = model.free_body_particle[e], s = block.slot_of_solid[solid];
+            const int solid = model.free_body_particle[e], s = block.slot_of_solid()[solid];
             const double mass = 1 / static_cast<double>(model.inverse_mass[model.fluid + solid]);
-            const Quad<Real> from = block.start[s], to = block.position[s], moved = block.internal[solid];
+            const Quad<Real> from = block.start()[s], to = block.position()[s], moved = block.internal()[solid];
             const double scale = mass * inverse_h;
             const double p[3] = {scale * moved.x, scale * moved.y, scale * moved.z};
             const double a[3] = {from.x - start_centre[0], from.y - start_centre[1], from.z - start_centre[2]};
@@ -87,7 +94,7 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, Block<Real>& bl
         double angular[3];
         solve_least_norm(totals + 6, totals + 3, angular);
         if (lane == 0) {
-            BodyMotion& motion = block.motion[k];
+            BodyMotion& motion = block.motion()[k];
             for (int axis = 0; axis < 3; ++axis) {
                 motion.linear[axis] = -totals[axis] / sums[0];
                 motion.angular[axis] = -angular[axis];
@@ -96,44 +103,41 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, Block<Real>& bl
         }
         __syncwarp();
         for (int e = begin + lane; e < end; e += 32) {
-            const int s = block.slot_of_solid[model.free_body_particle[e]];
-            const Quad<Real> x = block.position[s], v = block.next[s];
-            const BodyMotion& m = block.motion[k];
+            const int s = block.slot_of_solid()[model.free_body_particle[e]];
+            const Quad<Real> x = block.position()[s], v = block.next()[s];
+            const BodyMotion& m = block.motion()[k];
             const double arm[3] = {x.x - m.centre[0], x.y - m.centre[1], x.z - m.centre[2]};
             const auto change = [&](int axis, int next, int last) {
                 return static_cast<Real>(m.linear[axis] + m.angular[next] * arm[last] - m.angular[last] * arm[next]);
             };
-            block.next[s] = {v.x + change(0, 1, 2), v.y + change(1, 2, 0), v.z + change(2, 0, 1), v.w};
+            block.next()[s] = {v.x + change(0, 1, 2), v.y + change(1, 2, 0), v.z + change(2, 0, 1), v.w};
         }
     }
     __syncthreads();
 }
 
 /// Viscosity's part of a fluid slot's velocity: momenta are exchanged within pairs.
-template <class Real>
-__device__ Vec3<Real> viscosity_change(const ModelView<Real>& model, const Block<Real>& block, int s,
-                                       const Vec3<Real>& x, const Quad<Real>& u) {
+template <class Real, class Block>
+__device__ Vec3<Real> viscosity_change(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x,
+                                       const Quad<Real>& u) {
     const Real inverse_radius_square = model.inverse_radius * model.inverse_radius;
-    const std::uint16_t* const list = block.neighbour + s;
-    const int count = block.neighbour_count[s];
     Vec3<Real> sum{0, 0, 0};
-    for (int k = 0; k < count; ++k) {
-        const int other = list[k * static_cast<std::size_t>(model.fluid)];
-        const Quad<Real> moves = block.next[other];
-        const Vec3<Real> difference = x - xyz(block.position[other]);
+    for_each_neighbour(model, block, s, [&](int other) {
+        const Quad<Real> moves = block.next()[other];
+        const Vec3<Real> difference = x - xyz(block.position()[other]);
         const Real t = max(1 - dot(difference, difference) * inverse_radius_square, Real(0));
-        const Real share = t * t * t * 2 * u.w / (u.w + moves.w + tiny<Real>());
+        const Real share = t * t * t * 2 * u.w / (u.w + moves.w + Real(1e-30));
         sum = sum + share * (xyz(moves) - xyz(u));
-    }
+    });
     return model.kernel_scale * sum;
 }
 
 /// True if all that this thread wrote is finite.
-template <class Real>
-__device__ bool update_velocities_in_turn(const ModelView<Real>& model, Block<Real>& block) {
+template <class Real, class Block>
+__device__ bool update_velocities_in_turn(const ModelView<Real>& model, Block& block) {
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        const Quad<Real> drift = block.drift[s];
-        block.next[s] = quad(xyz(drift) + (1 / block.h) * xyz(block.displacement[s]), drift.w);
+        const Quad<Real> drift = block.drift()[s];
+        block.next()[s] = quad(xyz(drift) + (1 / block.h) * xyz(block.displacement()[s]), drift.w);
     }
     __syncthreads();
     if (model.free_bodies > 0) keep_body_momentum(model, block);
@@ -141,16 +145,19 @@ __device__ bool update_velocities_in_turn(const ModelView<Real>& model, Block<Re
     const Real smoothing = block.h * model.viscosity / (1 + 2 * block.h * model.viscosity);
     const Real kept = model.plan.damping ? 1 / (1 + block.h * model.damping) : Real(1);
     bool finite = true;
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
-        const Vec3<Real> x = xyz(block.position[s]);
-        const Quad<Real> u = block.next[s];
+    for_each_unit(block, (model.particles + 31) / 32, [&](int unit) {
+        const int s = unit * 32 + threadIdx.x % 32;
+        if (s >= model.particles) return;
+        const Vec3<Real> x = xyz(block.position()[s]);
+        const Quad<Real> u = block.next()[s];
         Vec3<Real> v = xyz(u);
         if (model.plan.viscosity && s < model.fluid) v = v + smoothing * viscosity_change(model, block, s, x, u);
         v = kept * v;
         if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
+        if (model.plan.restitution) v = rebound(model, block, s, x, xyz(block.drift()[s]), v);
         finite &= isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
-        block.next_velocity[s] = quad(u.w > 0 ? v : xyz(block.drift[s]), Real(0));
-    }
+        block.next_velocity()[s] = quad(u.w > 0 ? v : xyz(block.drift()[s]), Real(0));
+    });
     return finite;
 }
 

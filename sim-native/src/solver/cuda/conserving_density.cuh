@@ -2,6 +2,7 @@
 
 // The density constraint of scheme conserving. As cpu/conserving/density.cpp and density_kernels.cpp, which cite the
 // papers.
+#include "conserving_move.cuh"
 #include "conserving_overlap.cuh"
 
 namespace natator::cuda {
@@ -20,10 +21,10 @@ __device__ Real plane_slope(const ModelView<Real>& model, Real distance) {
 }
 
 /// Calls visit(plane, distance) for the planes near slot s, the last plane first.
-template <class Real, class Visit>
-__device__ void for_each_near_plane(const ModelView<Real>& model, const Block<Real>& block, int s, const Vec3<Real>& x,
+template <class Real, class Block, class Visit>
+__device__ void for_each_near_plane(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x,
                                     const Visit& visit) {
-    const unsigned near = block.plane_contact[s];
+    const unsigned near = block.plane_contact()[s];
     if (near == 0) return;
     for (int k = model.planes - 1; k >= 0; --k)
         if (near >> k & 1) visit(model.plane[k], dot(model.plane[k].normal, x) + model.plane[k].offset);
@@ -37,9 +38,8 @@ struct Boundary {
     Real square = 0;
 };
 
-template <class Real>
-__device__ Boundary<Real> boundary_terms(const ModelView<Real>& model, const Block<Real>& block, int s,
-                                         const Vec3<Real>& x) {
+template <class Real, class Block>
+__device__ Boundary<Real> boundary_terms(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x) {
     Boundary<Real> boundary;
     for_each_near_plane(model, block, s, x, [&](const PlaneView<Real>& plane, Real distance) {
         const Real t = plane_nearness(model, distance);
@@ -49,23 +49,17 @@ __device__ Boundary<Real> boundary_terms(const ModelView<Real>& model, const Blo
     if (!model.plan.solid_pressure) return boundary;
     Real sum = 0;
     for_each_contact(model, block, s, [&](int other) {
-        const Vec3<Real> difference = x - xyz(block.position[other]);
+        const Vec3<Real> difference = x - xyz(block.position()[other]);
         const Real r = norm(difference);
         const Real q = r * model.inverse_radius;
         if (q >= 1) return;
         const Real slope = model.solid_pressure * model.gradient_scale * (1 - q) * (1 - q);
         sum += (1 - q) * (1 - q) * (1 - q);
         if (r > 0) boundary.gradient = boundary.gradient - slope / r * difference;
-        boundary.square += block.drift[other].w * slope * slope;
+        boundary.square += block.position()[other].w * slope * slope;
     });
     boundary.density += model.solid_pressure * model.kernel_scale * sum;
     return boundary;
-}
-
-/// Inverse mass of the fluid particle in a slot.
-template <class Real>
-__device__ Real fluid_inverse_mass(const ModelView<Real>& model, const Quad<Real>& position) {
-    return model.fluid_inverse_mass >= 0 ? model.fluid_inverse_mass : model.inverse_mass[number_in(position.w)];
 }
 
 /// 1 / v, or 0 where v comes from neighbours that the kernel ends at alone and 1 / v may be infinite.
@@ -81,190 +75,208 @@ struct Density {
 };
 
 /// Of slot s, with the fluid at `positions`.
-template <class Real>
-__device__ Density<Real> density_of(const ModelView<Real>& model, const Block<Real>& block, int s,
+template <class Real, class Block>
+__device__ Density<Real> density_of(const ModelView<Real>& model, const Block& block, int s,
                                     const Quad<Real>* positions, const Boundary<Real>& boundary) {
     const Quad<Real> here = positions[s];
     const Vec3<Real> x = xyz(here);
     Real sum = 0, square = 0;
     Vec3<Real> gradient{0, 0, 0};
-    const std::uint16_t* const list = block.neighbour + s;
-    const int count = block.neighbour_count[s];
-    for (int k = 0; k < count; ++k) {
-        const Quad<Real> there = positions[list[k * static_cast<std::size_t>(model.fluid)]];
-        const Vec3<Real> difference = x - xyz(there);
-        const Real r2 = dot(difference, difference);
-        const Real inverse_r = inverse_root<Real>(r2 + tiny<Real>());
-        const Real t = max(1 - r2 * inverse_r * model.inverse_radius, Real(0));
+    for_each_neighbour(model, block, s, [&](int other) {
+        const Quad<Real> there = positions[other];
+        const auto [difference, r, inverse_r] = separation(x, xyz(there));
+        const Real t = max(1 - r * model.inverse_radius, Real(0));
         const Real g = t * t;
         sum += g * t;
         gradient = gradient - g * inverse_r * difference;
-        square += fluid_inverse_mass(model, there) * g * g;
-    }
+        square += there.w * g * g;
+    });
     const Vec3<Real> c = model.gradient_scale * gradient + boundary.gradient;
     const Real others = model.gradient_scale * model.gradient_scale * square + boundary.square;
     return {model.kernel_scale * (sum - model.rest_sum) + boundary.density,
-            finite_inverse(block.drift[s].w * dot(c, c) + others)};
+            finite_inverse(here.w * dot(c, c) + others)};
 }
 
-/// lambda of all fluid slots at the present positions; true if any is an overlap. Ends with a barrier.
-template <class Real>
-__device__ bool compute_lambda(const ModelView<Real>& model, Block<Real>& block) {
+/// lambda of all fluid slots at the present positions, beside the positions in `next`; true if any is an overlap. Ends
+/// with a barrier.
+template <class Real, class Block>
+__device__ bool compute_lambda(const ModelView<Real>& model, Block& block) {
     bool high = false;
-    for (int s = threadIdx.x; s < model.fluid; s += threads) {
-        const Boundary<Real> boundary = boundary_terms(model, block, s, xyz(block.position[s]));
-        block.boundary[s] = quad(boundary.gradient, boundary.square);
-        const Density<Real> density = density_of(model, block, s, block.position, boundary);
-        const Real lambda = block.overlapping   ? limited_lambda(model, block, s, density.above, density.response)
-                            : density.above > 0 ? -density.above * density.response
-                                                : Real(0);
-        high |= density.above > cpu::overlap_tolerance<Real>;
-        block.compression[s] = lambda;
-        block.lambda_sum[s] += lambda;
-    }
+    for_each_unit(block, (model.particles + 31) / 32, [&](int unit) {
+        const int s = unit * 32 + threadIdx.x % 32;
+        if (s >= model.particles) return;
+        const Vec3<Real> x = xyz(block.position()[s]);
+        Real lambda = 0;
+        if (s < model.fluid) {
+            const Boundary<Real> boundary = boundary_terms(model, block, s, x);
+            block.boundary()[s] = quad(boundary.gradient, boundary.square);
+            const Density<Real> density = density_of(model, block, s, block.position(), boundary);
+            if (block.overlapping)
+                lambda = limited_lambda(model, block, s, density.above, density.response);
+            else if (density.above > 0)
+                lambda = -density.above * density.response;
+            high |= density.above > cpu::overlap_tolerance<Real>;
+            block.lambda_sum()[s] += lambda;
+        }
+        block.next()[s] = quad(x, lambda);
+    });
     return __syncthreads_or(high);
 }
 
-/// C_i of all fluid slots at the present positions, in place of lambda. Ends with a barrier.
-template <class Real>
-__device__ void compute_density_above_rest(const ModelView<Real>& model, Block<Real>& block) {
+/// C_i of all fluid slots at the present positions, beside the positions in `next`. Ends with a barrier.
+template <class Real, class Block>
+__device__ void compute_density_above_rest(const ModelView<Real>& model, Block& block) {
     for (int s = threadIdx.x; s < model.fluid; s += threads) {
-        const Boundary<Real> boundary = boundary_terms(model, block, s, xyz(block.position[s]));
-        block.compression[s] = density_of(model, block, s, block.position, boundary).above;
+        const Vec3<Real> x = xyz(block.position()[s]);
+        const Boundary<Real> boundary = boundary_terms(model, block, s, x);
+        block.next()[s] = quad(x, density_of(model, block, s, block.position(), boundary).above);
     }
     __syncthreads();
 }
 
 /// Notes C_i of the particles that began the substep overlapping; true if there are any. Ends with a barrier.
-template <class Real>
-__device__ bool find_overlap(const ModelView<Real>& model, Block<Real>& block) {
+template <class Real, class Block>
+__device__ bool find_overlap(const ModelView<Real>& model, Block& block) {
     bool any = false;
     for (int s = threadIdx.x; s < model.fluid; s += threads) {
-        const Boundary<Real> boundary = boundary_terms(model, block, s, xyz(block.position[s]));
-        const Real above = density_of(model, block, s, block.start, boundary).above;
-        block.overlap[s] = above > cpu::overlap_tolerance<Real> ? above : Real(0);
-        block.overlap_lambda[s] = block.lambda_sum[s] = 0;
-        any |= block.overlap[s] > 0;
+        const Boundary<Real> boundary = boundary_terms(model, block, s, xyz(block.position()[s]));
+        const Real above = density_of(model, block, s, block.start(), boundary).above;
+        const Real overlap = above > cpu::overlap_tolerance<Real> ? above : Real(0);
+        block.overlap()[s] = overlap;
+        block.overlap_lambda()[s] = 0;
+        any |= overlap > 0;
     }
     return __syncthreads_or(any);
 }
 
-/// sum_j (lambda_i + lambda_j) grad_i W_ij / rho0.
-template <class Real>
-__device__ Vec3<Real> density_push(const ModelView<Real>& model, const Block<Real>& block, int s, const Vec3<Real>& x) {
-    const Real own = block.compression[s];
-    const std::uint16_t* const list = block.neighbour + s;
-    const int count = block.neighbour_count[s];
+/// sum_j (lambda_i + lambda_j) grad_i W_ij / rho0, where lambda_of(slot, its position) gives the lambdas.
+template <class Real, class Block, class LambdaOf>
+__device__ Vec3<Real> density_push(const ModelView<Real>& model, const Block& block, int s, const Quad<Real>* positions,
+                                   const LambdaOf& lambda_of) {
+    const Quad<Real> here = positions[s];
+    const Real own = lambda_of(s, here);
     Vec3<Real> sum{0, 0, 0};
-    for (int k = 0; k < count; ++k) {
-        const int other = list[k * static_cast<std::size_t>(model.fluid)];
-        const Vec3<Real> difference = x - xyz(block.position[other]);
-        const Real r2 = dot(difference, difference);
-        const Real inverse_r = inverse_root<Real>(r2 + tiny<Real>());
-        const Real t = max(1 - r2 * inverse_r * model.inverse_radius, Real(0));
-        sum = sum - (own + block.compression[other]) * t * t * inverse_r * difference;
-    }
+    for_each_neighbour(model, block, s, [&](int other) {
+        const Quad<Real> there = positions[other];
+        const auto [difference, r, inverse_r] = separation(xyz(here), xyz(there));
+        const Real t = max(1 - r * model.inverse_radius, Real(0));
+        sum = sum - (own + lambda_of(other, there)) * t * t * inverse_r * difference;
+    });
     return model.gradient_scale * sum;
 }
 
-/// sum over the fluid's contacts of slot s with solids, or a solid's with fluid, of -lambda |grad C| n.
+/// -lambda |grad C| n for the contact of a fluid particle and a solid: what it pushes the one at `difference` from the
+/// other by.
 template <class Real>
-__device__ Vec3<Real> solid_pressure_push(const ModelView<Real>& model, const Block<Real>& block, int s,
-                                          const Vec3<Real>& x) {
-    Vec3<Real> sum{0, 0, 0};
-    for_each_contact(model, block, s, [&](int other) {
-        if (s >= model.fluid && other >= model.fluid) return;
-        const Vec3<Real> difference = x - xyz(block.position[other]);
-        const Real r = norm(difference);
-        const Real q = r * model.inverse_radius;
-        if (q >= 1 || !(r > 0)) return;
-        const Real slope = model.solid_pressure * model.gradient_scale * (1 - q) * (1 - q);
-        const Real lambda = block.compression[s < model.fluid ? s : other];
-        sum = sum - lambda * slope / r * difference;
+__device__ Vec3<Real> solid_pressure_push(const ModelView<Real>& model, const Vec3<Real>& difference, Real lambda) {
+    const Real r = norm(difference);
+    const Real q = r * model.inverse_radius;
+    if (q >= 1 || !(r > 0)) return {0, 0, 0};
+    const Real slope = model.solid_pressure * model.gradient_scale * (1 - q) * (1 - q);
+    return -lambda * slope / r * difference;
+}
+
+constexpr float pair_share = 0.5f;  ///< of each of a pair's two constraints, see conserving_stages.h
+
+/// Moves the solids of a unit of touched slots by the fluid's pressure. As cpu/conserving/density.cpp.
+template <class Real, class Block>
+__device__ void push_solids_by_pressure(const ModelView<Real>& model, Block& block, int unit) {
+    work_on_touched(block, unit, [&](int s, int lane) {
+        const bool solid = s >= model.fluid;
+        Vec3<Real> push{0, 0, 0};
+        if (solid) {
+            const Vec3<Real> x = xyz(block.next()[s]);
+            for_each_contact_of(model, block, s, lane, contact_lanes, [&](int other) {
+                if (other >= model.fluid) return;
+                const Quad<Real> there = block.next()[other];
+                push = push + solid_pressure_push(model, x - xyz(there), there.w);
+            });
+        }
+        push = {sum_of_lanes(push.x), sum_of_lanes(push.y), sum_of_lanes(push.z)};
+        if (lane != 0 || !solid) return;  // one thread alone reads and writes the slot
+        const Real inverse_mass = block.position()[s].w;
+        if (inverse_mass > 0) move(block, s, model.relaxation_factor * Real(pair_share) * inverse_mass * push);
     });
-    return sum;
+}
+
+/// Moves the fluid of a unit of slots by the density constraints.
+template <class Real, class Block>
+__device__ void push_fluid_by_pressure(const ModelView<Real>& model, Block& block, int unit) {
+    const int s = unit * 32 + threadIdx.x % 32;
+    if (s >= model.fluid) return;
+    const Real inverse_mass = block.position()[s].w;
+    if (!(inverse_mass > 0)) return;
+    const Quad<Real> here = block.next()[s];
+    Vec3<Real> push = density_push(model, block, s, block.next(), [](int, const Quad<Real>& there) { return there.w; });
+    for_each_near_plane(model, block, s, xyz(here), [&](const PlaneView<Real>& plane, Real distance) {
+        push = push - here.w * plane_slope(model, distance) * plane.normal;
+    });
+    if (model.plan.solid_pressure)
+        for_each_contact(model, block, s, [&](int other) {
+            push = push + solid_pressure_push(model, xyz(here) - xyz(block.next()[other]), here.w);
+        });
+    move(block, s, model.relaxation_factor * Real(pair_share) * inverse_mass * push);
 }
 
 /// As cpu/conserving/density.cpp. Ends with a barrier.
-template <class Real>
-__device__ void solve_density_constraint(const ModelView<Real>& model, Block<Real>& block, bool first) {
+template <class Real, class Block>
+__device__ void solve_density_constraint(const ModelView<Real>& model, Block& block, bool first) {
     const bool high = compute_lambda(model, block);
-    if (first && high) {
-        if (find_overlap(model, block)) {
-            block.overlapping = true;
-            compute_lambda(model, block);
-        } else {
-            for (int s = threadIdx.x; s < model.fluid; s += threads) block.lambda_sum[s] = block.compression[s];
-        }
+    if (first && high && find_overlap(model, block)) {
+        block.overlapping = true;
+        for (int s = threadIdx.x; s < model.fluid; s += threads) block.lambda_sum()[s] = 0;
+        __syncthreads();
+        compute_lambda(model, block);
     }
-    constexpr Real pair_share = Real(0.5);  // of each of a pair's two constraints, see conserving_stages.h
-    const Real scale = model.relaxation_factor * pair_share;
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
-        const Quad<Real> here = block.position[s];
-        const Vec3<Real> x = xyz(here);
-        const Real inverse_mass = block.drift[s].w;
-        const bool moves = inverse_mass > 0 && (s < model.fluid || model.plan.solid_pressure);
-        Quad<Real> to = here;
-        if (moves) {
-            Vec3<Real> push{0, 0, 0};
-            if (s < model.fluid) {
-                push = density_push(model, block, s, x);
-                const Real lambda = block.compression[s];
-                for_each_near_plane(model, block, s, x, [&](const PlaneView<Real>& plane, Real distance) {
-                    push = push - lambda * plane_slope(model, distance) * plane.normal;
-                });
-            }
-            if (model.plan.solid_pressure) push = push + solid_pressure_push(model, block, s, x);
-            const Vec3<Real> displacement = xyz(block.displacement[s]) + scale * inverse_mass * push;
-            block.displacement[s] = quad(displacement, Real(0));
-            to = quad(xyz(block.base[s]) + displacement, here.w);
-        }
-        block.next[s] = to;
-    }
+    const int touched = model.plan.solid_pressure ? touched_units<Real>(model, block) : 0;
+    for_each_unit(block, touched + (model.fluid + 31) / 32, [&](int unit) {
+        if (unit < touched)
+            push_solids_by_pressure(model, block, unit);
+        else
+            push_fluid_by_pressure(model, block, unit - touched);
+    });
     __syncthreads();
-    Quad<Real>* const swap = block.position;
-    block.position = block.next;
-    block.next = swap;
 }
 
 /// Takes the rate of change of the density to 0 where the fluid is under pressure. As cpu/conserving/velocities.cpp:
 /// `next` holds velocities, with inverse masses, before and after. Ends with a barrier.
-template <class Real>
-__device__ void solve_density_rate(const ModelView<Real>& model, Block<Real>& block) {
-    for (int s = threadIdx.x; s < model.fluid; s += threads) {
-        const Vec3<Real> x = xyz(block.position[s]);
-        const Quad<Real> u = block.next[s];
+template <class Real, class Block>
+__device__ void solve_density_rate(const ModelView<Real>& model, Block& block) {
+    const int units = (model.fluid + 31) / 32;
+    for_each_unit(block, units, [&](int unit) {
+        const int s = unit * 32 + threadIdx.x % 32;
+        if (s >= model.fluid) return;
+        const Vec3<Real> x = xyz(block.position()[s]);
+        const Quad<Real> u = block.next()[s];
         Real rate = 0, square = 0;
         Vec3<Real> gradient{0, 0, 0};
-        const std::uint16_t* const list = block.neighbour + s;
-        const int count = block.neighbour_count[s];
-        for (int k = 0; k < count; ++k) {
-            const int other = list[k * static_cast<std::size_t>(model.fluid)];
-            const Quad<Real> moves = block.next[other];
-            const Vec3<Real> difference = x - xyz(block.position[other]);
-            const Real r2 = dot(difference, difference);
-            const Real inverse_r = inverse_root<Real>(r2 + tiny<Real>());
-            const Real t = max(1 - r2 * inverse_r * model.inverse_radius, Real(0));
+        for_each_neighbour(model, block, s, [&](int other) {
+            const Quad<Real> moves = block.next()[other];
+            const auto [difference, r, inverse_r] = separation(x, xyz(block.position()[other]));
+            const Real t = max(1 - r * model.inverse_radius, Real(0));
             const Real g = t * t, slope = g * inverse_r;
             rate += slope * dot(xyz(moves) - xyz(u), difference);
             gradient = gradient - slope * difference;
             square += moves.w * g * g;
-        }
-        const Quad<Real> boundary = block.boundary[s];
+        });
+        const Quad<Real> boundary = block.boundary()[s];
         const Vec3<Real> c = model.gradient_scale * gradient + xyz(boundary);
         const Real others = model.gradient_scale * model.gradient_scale * square + boundary.w;
         const Real lambda = -model.gradient_scale * rate * finite_inverse(u.w * dot(c, c) + others);
-        const Real most = -block.lambda_sum[s] / block.h;
+        const Real sum = block.lambda_sum()[s], most = -sum / block.h;
         const Real limited = most > 0 ? min(lambda, most) : Real(0);
-        block.compression[s] = limited;
-        block.lambda_sum[s] += block.h * limited;
-    }
+        block.lambda()[s] = limited;
+        block.lambda_sum()[s] = sum + block.h * limited;
+    });
     __syncthreads();
-    for (int s = threadIdx.x; s < model.fluid; s += threads) {
-        const Quad<Real> u = block.next[s];
-        const Vec3<Real> push = density_push(model, block, s, xyz(block.position[s]));
-        block.next[s] = quad(xyz(u) + Real(0.5) * u.w * push, u.w);
-    }
+    for_each_unit(block, units, [&](int unit) {
+        const int s = unit * 32 + threadIdx.x % 32;
+        if (s >= model.fluid) return;
+        const Quad<Real> u = block.next()[s];
+        const Vec3<Real> push = density_push(model, block, s, block.position(),
+                                             [&](int slot, const Quad<Real>&) { return block.lambda()[slot]; });
+        block.next()[s] = quad(xyz(u) + Real(pair_share) * u.w * push, u.w);
+    });
     __syncthreads();
 }
 

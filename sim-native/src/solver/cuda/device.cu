@@ -24,12 +24,12 @@ std::optional<std::string> refusal(const Model& model) {
         return std::to_string(model.particles()) + " particles are not done on the GPU yet; must be at most 65535";
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
-    const std::pair<bool, const char*> effects[] = {{plan.restitution, "restitution"},
-                                                    {plan.adhesion, "adhesion"},
+    const bool flex = model.scheme == Scheme::flex;
+    const std::pair<bool, const char*> effects[] = {{plan.adhesion, "adhesion"},
                                                     {plan.sleep, "sleepThreshold"},
                                                     {plan.shock_propagation, "shockPropagation"},
-                                                    {plan.dissipation, "dissipation"},
-                                                    {plan.cohesion, "cohesion"},
+                                                    {plan.dissipation && !flex, "dissipation"},
+                                                    {plan.cohesion && !flex, "cohesion"},
                                                     {plan.surface_tension, "surfaceTension"},
                                                     {plan.vorticity, "vorticityConfinement"},
                                                     {plan.free_surface_drag, "freeSurfaceDrag"}};

@@ -6,6 +6,8 @@
 #include "natator/error.h"
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/conserving/constants.h"
+#include "solver/cpu/effects/cohesion_spline.h"
+#include "solver/cpu/effects/touching.h"
 #include "solver/cpu/substep.h"
 
 namespace natator::cuda {
@@ -54,6 +56,12 @@ DeviceModel<Real>::DeviceModel(const Model& model) {
     view_.damping = static_cast<Real>(p.damping);
     view_.max_acceleration = static_cast<Real>(p.maxAcceleration);
     view_.solid_pressure = static_cast<Real>(p.solidPressure);
+    view_.restitution = static_cast<Real>(p.restitution);
+    view_.touching_distance = constants.collision_distance + Real(cpu::touching_tolerance) * constants.radius;
+    view_.slowest_impact = 2 * static_cast<Real>(p.gravity.norm());
+    view_.dissipation = static_cast<Real>(p.dissipation);
+    view_.cohesion_strength = static_cast<Real>(p.cohesion) * constants.radius;
+    view_.cohesion_slope = cpu::CohesionSpline<Real>(p).b;
     view_.local_relaxation = p.relaxationMode == RelaxationMode::local;
     view_.gravity = vec3<Real>(p.gravity);
     view_.fluid_gravity = vec3<Real>(p.gravity * p.buoyancy);
@@ -191,7 +199,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
 }
 
 /// Over the box of the start positions, extended to the planes that face an axis. The tables of the fluid's and the
-/// solids' cells and the sort's keys must fit where a buffer of positions does: 16 bytes a particle.
+/// solids' cells, 4 bytes a cell, must fit on the chip beside two buffers of positions where these do.
 template <class Real>
 void DeviceModel<Real>::lay_grid(const Model& model) {
     std::array<Real, 3> low{}, high{};
@@ -207,7 +215,9 @@ void DeviceModel<Real>::lay_grid(const Model& model) {
             if (plane.normal[axis] == -1) high[axis] = std::min(high[axis] + 100 * view_.radius, Real(plane.offset));
         }
     }
-    const int most_cells = std::max(64, (model.particles() * 12 - 64) / 8);
+    constexpr int chip = 223 << 10, elsewhere = 1 << 20;
+    const int positions = 2 * model.particles() * static_cast<int>(sizeof(Quad<Real>));
+    const int most_cells = positions < chip - (8 << 10) ? (chip - positions) / 4 : elsewhere / 4;
     cpu::CellGrid<Real> grid;
     grid.cover(low, high, view_.search_distance, most_cells);
     const auto box = grid.box();

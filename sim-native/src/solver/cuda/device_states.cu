@@ -84,22 +84,24 @@ void DeviceStates<Real>::copy_from(const DeviceStates& starts, const std::vector
 }
 
 template <class Real>
-std::vector<State<Real>> DeviceStates<Real>::download(const State<Real>& like) const {
-    const std::vector<Quad<Real>> position = position_.download(), velocity = velocity_.download();
-    const std::vector<ClusterFit<Real>> fits = fit_.download();
-    std::vector<State<Real>> states(count_, like);
+DeviceStates<Real>::Copy::Copy(const DeviceStates& states)
+    : model_(states.model_),
+      position_(states.position_.download()),
+      velocity_(states.velocity_.download()),
+      fits_(states.fit_.download()) {}
+
+template <class Real>
+State<Real> DeviceStates<Real>::Copy::state(int k, State<Real> like) const {
     const ModelView<Real>& view = model_.view();
-    for (int k = 0; k < count_; ++k) {
-        const std::size_t first = static_cast<std::size_t>(k) * view.particles;
-        states[k].position = by_particle(model_, &position[first], &position[first]);
-        states[k].velocity = by_particle(model_, &velocity[first], &position[first]);
-        for (int c = 0; c < view.clusters; ++c) {
-            const ClusterFit<Real>& fit = fits[static_cast<std::size_t>(k) * view.clusters + c];
-            states[k].cluster_centre[c] = {fit.centre.x, fit.centre.y, fit.centre.z};
-            for (int e = 0; e < 4; ++e) states[k].cluster_rotation[c].coeffs()[e] = fit.rotation[e];
-        }
+    const std::size_t first = static_cast<std::size_t>(k) * view.particles;
+    like.position = by_particle(model_, &position_[first], &position_[first]);
+    like.velocity = by_particle(model_, &velocity_[first], &position_[first]);
+    for (int c = 0; c < view.clusters; ++c) {
+        const ClusterFit<Real>& fit = fits_[static_cast<std::size_t>(k) * view.clusters + c];
+        like.cluster_centre[c] = {fit.centre.x, fit.centre.y, fit.centre.z};
+        for (int e = 0; e < 4; ++e) like.cluster_rotation[c].coeffs()[e] = fit.rotation[e];
     }
-    return states;
+    return like;
 }
 
 template <class Real>

@@ -24,8 +24,18 @@ public:
     void upload(const std::vector<State<Real>>& states);
     /// `start` holds the index of the State that each is to be a copy of.
     void copy_from(const DeviceStates& starts, const std::vector<int>& start);
-    /// All of them; spring rest lengths and times are those of `like`.
-    std::vector<State<Real>> download(const State<Real>& like) const;
+    /// A copy of all of them on the host, to take States out of.
+    class Copy {
+    public:
+        explicit Copy(const DeviceStates& states);
+        /// State k; spring rest lengths and time are those of `like`.
+        State<Real> state(int k, State<Real> like) const;
+
+    private:
+        const DeviceModel<Real>& model_;
+        std::vector<Quad<Real>> position_, velocity_;
+        std::vector<ClusterFit<Real>> fits_;
+    };
 
 private:
     const DeviceModel<Real>& model_;

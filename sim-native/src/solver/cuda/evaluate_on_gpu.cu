@@ -1,9 +1,15 @@
+#include <atomic>
 #include <cmath>
+#include <functional>
+#include <future>
+#include <mutex>
 #include <new>
+#include <thread>
 
 #include "batch_runner.h"
 #include "evaluate/law_figures.h"
 #include "evaluate/perturb.h"
+#include "evaluate/start_key.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
 #include "natator/measure.h"
@@ -13,11 +19,44 @@ namespace natator {
 namespace cuda {
 namespace {
 
+/// Calls work(0) .. work(count - 1), on all processors.
+void on_all_processors(int count, const std::function<void(int)>& work) {
+    const int most = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    std::atomic<int> next = 0;
+    std::vector<std::future<void>> workers;
+    for (int k = 0; k < std::min(count, most); ++k)
+        workers.push_back(std::async(std::launch::async, [&] {
+            for (int one = next++; one < count; one = next++) work(one);
+        }));
+    for (std::future<void>& worker : workers) worker.get();
+}
+
+/// The last settled start without a perturbation, so that a stream of batches of one scene settles it once.
+template <class Real>
+class KeptStart {
+public:
+    std::optional<State<Real>> find(const std::string& key) {
+        const std::scoped_lock lock(mutex_);
+        return key == key_ ? std::optional(state_) : std::nullopt;
+    }
+    void keep(const std::string& key, const State<Real>& state) {
+        const std::scoped_lock lock(mutex_);
+        key_ = key;
+        state_ = state;
+    }
+
+private:
+    std::mutex mutex_;
+    std::string key_;
+    State<Real> state_;
+};
+
 /// Evaluates batches of one scene on one device.
 template <class Real>
 class Batch {
 public:
-    Batch(const Scene& scene, const Model& model) : scene_(scene), model_(model), runner_(model) {}
+    Batch(const Scene& scene, const Model& model, BatchTimes* times)
+        : scene_(scene), model_(model), times_(times), runner_(model) {}
 
     /// The members' evaluations, each of a State that starts settled.
     std::vector<Evaluation> evaluate(const std::vector<BatchMember>& members) {
@@ -54,12 +93,25 @@ private:
         starts.states.upload(states);
         const Settling& settling = scene_.settling;
         if (settling.updates == 0) return starts;
+        static KeptStart<Real> kept;
+        int device = 0;
+        check(cudaGetDevice(&device), "current device");
+        const std::string key = std::to_string(device) + start_key(model_, settling, sizeof(Real));
+        const bool shared = states.size() == 1;
+        const std::optional<State<Real>> found = shared ? kept.find(key) : std::nullopt;
+        if (found) {
+            starts.states.upload({*found});
+            return starts;
+        }
         BatchView<Real> batch = runner_.view_of(starts.states, settling.updates);
         batch.time_step = settling.time_step;
         batch.substeps = settling.substeps;
         batch.settling = true;
         runner_.run(batch, starts.progress);
+        if (times_) times_->settling += runner_.seconds();
         starts.progress = runner_.progress();
+        if (shared && starts.progress.front().stopped < 0)
+            kept.keep(key, typename DeviceStates<Real>::Copy(starts.states).state(0, states.front()));
         return starts;
     }
 
@@ -87,18 +139,21 @@ private:
         batch.stop_at_planes = scene_.stopping.plane_contact;
         batch.no_progress_frames =
             swims ? static_cast<int>(std::lround(scene_.stopping.no_progress_after / scene_.time_step)) : 0;
-        runner_.run(batch, settled);
+        runner_.run(batch, settled, times_ ? times_->profile : nullptr);
+        if (times_) times_->kernel += runner_.seconds();
 
         const std::vector<Progress> progress = runner_.progress();
         const std::vector<double> path = runner_.path();
         const std::vector<Real> densities = density.download();
-        const std::vector<State<Real>> ends = states.download(initial_state<Real>(model_));
-        std::vector<Evaluation> evaluations;
-        for (std::size_t k = 0; k < ends.size(); ++k) {
-            const bool settled_badly = settled[k].stopped >= 0;
-            evaluations.push_back(evaluation_of(progress[k], settled_badly ? nullptr : &members[k].gait,
-                                                &path[k * (frames + 1)], ends[k], densities.data() + k * view.fluid));
-        }
+        const typename DeviceStates<Real>::Copy ends(states);
+        const State<Real> like = initial_state<Real>(model_);
+        std::vector<Evaluation> evaluations(members.size());
+        on_all_processors(states.count(), [&](int k) {
+            const Gait* const gait = settled[k].stopped >= 0 ? nullptr : &members[k].gait;
+            evaluations[k] =
+                evaluation_of(progress[k], gait, &path[static_cast<std::size_t>(k) * (frames + 1)], ends.state(k, like),
+                              densities.data() + static_cast<std::size_t>(k) * view.fluid);
+        });
         return evaluations;
     }
 
@@ -131,6 +186,7 @@ private:
 
     const Scene& scene_;
     const Model& model_;
+    BatchTimes* times_;
     BatchRunner<Real> runner_;
 };
 
@@ -153,17 +209,17 @@ std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<
 }  // namespace cuda
 
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
-                                        Precision precision, int device) {
+                                        Precision precision, int device, BatchTimes* times) {
     for (const BatchMember& member : members) check_gait(member.gait, scene.creature ? scene.creature->actuators() : 0);
     cuda::choose_device(device);
     if (members.empty()) return {};
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     if (precision == Precision::double_precision) {
-        cuda::Batch<double> batch(scene, model);
+        cuda::Batch<double> batch(scene, model, times);
         return cuda::evaluate_in_parts(batch, members);
     }
-    cuda::Batch<float> batch(scene, model);
+    cuda::Batch<float> batch(scene, model, times);
     return cuda::evaluate_in_parts(batch, members);
 }
 

@@ -72,7 +72,7 @@ public:
 
         const cuda::Progress progress = runner_.progress().front();
         const double start = state.time;
-        state = states_.download(state).front();
+        state = typename cuda::DeviceStates<Real>::Copy(states_).state(0, state);
         if (progress.stopped >= 0) {
             state.time = progress.bad_time;
             const auto& particle_of = runner_.model().particle_of();

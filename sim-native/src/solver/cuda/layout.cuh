@@ -1,80 +1,84 @@
 #pragma once
 
+#include <algorithm>
+
 #include "block.cuh"
 
 namespace natator::cuda {
 
-/// Hands out aligned pieces of one piece of memory; with a null base it only adds up their sizes.
+/// Hands out aligned offsets in one piece of memory.
 class Pieces {
 public:
-    __host__ __device__ explicit Pieces(char* base) : base_(base) {}
     template <class T>
-    __host__ __device__ T* take(std::size_t count) {
-        constexpr std::size_t alignment = 32;
-        T* const piece = reinterpret_cast<T*>(base_ + used_);
+    unsigned take(std::size_t count) {
+        constexpr std::size_t alignment = 128;
+        const std::size_t offset = used_;
         used_ += (count * sizeof(T) + alignment - 1) / alignment * alignment;
-        return piece;
+        return static_cast<unsigned>(offset);
     }
-    __host__ __device__ std::size_t used() const { return used_; }
+    unsigned used() const { return static_cast<unsigned>(used_); }
 
 private:
-    char* base_;
     std::size_t used_ = 0;
 };
 
-/// Positions, and room for the cells' tables and the sort's keys in the second array of them.
+/// `on_chip` says where positions are kept. The table of cells gives its room to lambda.
 template <class Real>
-__host__ __device__ void place_positions(const ModelView<Real>& model, Pieces& pieces, Block<Real>& block) {
-    const std::size_t table = (2 * model.grid.cells + model.particles) * sizeof(int);
-    const std::size_t at_least = (table + sizeof(Quad<Real>) - 1) / sizeof(Quad<Real>);
-    const std::size_t particles = model.particles;
-    block.position = pieces.take<Quad<Real>>(particles > at_least ? particles : at_least);
-    block.next = pieces.take<Quad<Real>>(particles > at_least ? particles : at_least);
-    block.compression = pieces.take<Real>(model.fluid);
-}
-
-template <class Real>
-__host__ __device__ void place_on_chip(const ModelView<Real>& model, bool on_chip, Pieces& pieces, Block<Real>& block) {
-    if (on_chip) place_positions(model, pieces, block);
-    block.slot_of_solid = pieces.take<std::uint16_t>(model.solids);
-    block.rest_length = pieces.take<Real>(model.springs);
-    block.fit = pieces.take<ClusterFit<Real>>(model.clusters);
-    block.scan = pieces.take<int>(warps);
-    block.touched_count = pieces.take<int>(1);
-}
-
-template <class Real>
-__host__ __device__ void place_in_scratch(const ModelView<Real>& model, bool on_chip, Pieces& pieces,
-                                          Block<Real>& block) {
-    if (!on_chip) place_positions(model, pieces, block);
+Layout layout_of(const ModelView<Real>& model, bool on_chip) {
+    Layout at{};
+    Pieces chip, scratch;
+    Pieces& large = on_chip ? chip : scratch;
     const std::size_t particles = model.particles, fluid = model.fluid, solids = model.solids;
-    block.next_velocity = pieces.take<Quad<Real>>(particles);
-    block.predicted = pieces.take<Quad<Real>>(particles);
-    block.drift = pieces.take<Quad<Real>>(particles);
-    block.drift_before = pieces.take<Quad<Real>>(particles);
-    block.start = pieces.take<Quad<Real>>(particles);
-    block.neighbour = pieces.take<std::uint16_t>(fluid * model.most_neighbours);
-    block.neighbour_count = pieces.take<std::uint16_t>(fluid);
-    block.fluid_contact = pieces.take<std::uint16_t>(model.plan.contacts ? fluid * solids : 0);
-    block.solid_contact = pieces.take<std::uint16_t>(model.plan.contacts ? solids * particles : 0);
-    block.contact_count = pieces.take<std::uint16_t>(particles);
-    block.plane_contact = pieces.take<std::uint16_t>(particles);
-    block.touched = pieces.take<std::uint16_t>(particles);
-    block.fit_before = pieces.take<ClusterFit<Real>>(model.clusters);
-    if (model.scheme != Scheme::conserving) return;
-    block.base = pieces.take<Quad<Real>>(particles);
-    block.displacement = pieces.take<Quad<Real>>(particles);
-    block.boundary = pieces.take<Quad<Real>>(fluid);
-    block.lambda_sum = pieces.take<Real>(fluid);
-    block.overlap = pieces.take<Real>(fluid);
-    block.overlap_lambda = pieces.take<Real>(fluid);
-    block.active = pieces.take<std::uint16_t>(particles);
-    block.internal = pieces.take<Quad<Real>>(solids);
-    block.spring_push = pieces.take<Quad<Real>>(model.springs);
-    block.spring_lambda = pieces.take<Real>(model.springs);
-    block.member_displacement = pieces.take<Quad<Real>>(model.members);
-    block.member_push = pieces.take<Quad<Real>>(model.members);
-    block.motion = pieces.take<BodyMotion>(model.free_bodies);
+    at.position = large.take<Quad<Real>>(particles + 1);
+    const std::size_t least_staging = 25 * threads * sizeof(std::uint16_t) / sizeof(Quad<Real>);
+    const std::size_t next = std::max(particles + 1, least_staging);
+    at.next = large.take<Quad<Real>>(next);
+    const std::size_t cells =
+        static_cast<std::size_t>(model.grid.cells) * sizeof(std::uint32_t);  // of fluid and solids
+    const std::size_t lambdas = model.scheme == Scheme::conserving ? (particles + 1) * sizeof(Real) : 0;
+    at.table = large.take<char>(std::max(cells, lambdas));
+    at.slot_of_solid = chip.take<std::uint16_t>(solids);
+    at.rest_length = chip.take<Real>(model.springs);
+    at.fit = chip.take<ClusterFit<Real>>(model.clusters);
+    at.scan = chip.take<int>(warps);
+    at.shared = chip.take<Shared<Real>>(1);
+
+    at.next_velocity = scratch.take<Quad<Real>>(particles);
+    at.predicted = scratch.take<Quad<Real>>(particles);
+    at.drift = scratch.take<Quad<Real>>(particles);
+    at.drift_before = scratch.take<Quad<Real>>(particles);
+    at.start = scratch.take<Quad<Real>>(particles + 1);
+    at.number = scratch.take<std::uint16_t>(particles);
+    at.neighbour = scratch.take<uint4>(fluid * ((model.most_neighbours + 7) / 8));
+    at.chunk_count = scratch.take<std::uint16_t>(fluid);
+    at.fluid_contact = scratch.take<std::uint16_t>(model.plan.contacts ? fluid * solids : 0);
+    at.solid_contact = scratch.take<std::uint16_t>(model.plan.contacts ? solids * particles : 0);
+    at.contact_count = scratch.take<std::uint16_t>(particles);
+    at.plane_contact = scratch.take<std::uint16_t>(particles);
+    at.touched = scratch.take<std::uint16_t>(particles);
+    at.contact_push = scratch.take<Quad<Real>>(particles);
+    at.fit_before = scratch.take<ClusterFit<Real>>(model.clusters);
+    if (model.scheme == Scheme::conserving || model.plan.dissipation)
+        at.active = scratch.take<std::uint16_t>(particles);
+    if (model.scheme == Scheme::conserving) {
+        at.base = scratch.take<Quad<Real>>(particles);
+        at.displacement = scratch.take<Quad<Real>>(particles);
+        at.boundary = scratch.take<Quad<Real>>(fluid);
+        at.lambda_sum = scratch.take<Real>(fluid);
+        at.overlap = scratch.take<Real>(fluid);
+        at.overlap_lambda = scratch.take<Real>(fluid);
+        at.internal = scratch.take<Quad<Real>>(solids);
+        at.spring_push = scratch.take<Quad<Real>>(model.springs);
+        at.spring_lambda = scratch.take<Real>(model.springs);
+        at.member_displacement = scratch.take<Quad<Real>>(model.members);
+        at.member_push = scratch.take<Quad<Real>>(model.members);
+        at.motion = scratch.take<BodyMotion>(model.free_bodies);
+    }
+    at.chip_bytes = chip.used();
+    at.scratch_bytes = scratch.used();
+    const std::size_t rows = next * sizeof(Quad<Real>) / (threads * sizeof(std::uint16_t));
+    at.staged = static_cast<int>(rows - 1) / 8 * 8;  // one row is for what is no neighbour
+    return at;
 }
 
 }  // namespace natator::cuda

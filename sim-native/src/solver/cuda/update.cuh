@@ -10,19 +10,18 @@
 namespace natator::cuda {
 
 /// Rest lengths as the State or the Model has them. Ends with a barrier.
-template <class Real>
-__device__ void rest(const BatchView<Real>& batch, int state, Block<Real>& block) {
+template <class Real, class Block>
+__device__ void rest(const BatchView<Real>& batch, int state, Block& block) {
     const ModelView<Real>& model = batch.model;
     for (int s = threadIdx.x; s < model.springs; s += threads)
-        block.rest_length[s] =
+        block.rest_length()[s] =
             batch.rest_length ? batch.rest_length[state * model.springs + s] : model.spring[s].rest_length;
     __syncthreads();
 }
 
 /// Muscles as gait/actuate.cpp has them. Ends with a barrier.
-template <Scheme scheme, class Real>
-__device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time,
-                        Block<Real>& block) {
+template <Scheme scheme, class Real, class Block>
+__device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time, Block& block) {
     if (!gait.frequency) return;
     double ramp = 1;
     if (scheme == Scheme::conserving) {
@@ -38,107 +37,113 @@ __device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int 
         constexpr double epsilon = 0.5;  // thesis 2.8
         const double drive = ramp * gait.amplitude[a] * activation;
         const double length = muscle.rest_length * (1 + epsilon * muscle.lateral * drive);
-        block.rest_length[muscle.spring] = static_cast<Real>(length);
+        block.rest_length()[muscle.spring] = static_cast<Real>(length);
     }
     __syncthreads();
 }
 
-template <class Real>
-__device__ void record(const Block<Real>& block, int particles, Quad<Real>* to, int row) {
+template <class Real, class Block>
+__device__ void record(const Block& block, int particles, Quad<Real>* to, int row) {
     if (!to) return;
     for (int s = threadIdx.x; s < particles; s += threads)
-        to[static_cast<std::size_t>(row) * particles + s] = block.position[s];
+        to[static_cast<std::size_t>(row) * particles + s] =
+            quad(xyz(block.position()[s]), as_number<Real>(block.number()[s]));
 }
 
 /// Substep `number` of an update: the order of stages is that of step.h. True if the outcome is finite.
-template <Scheme scheme, class Real>
-__device__ bool substep(const ModelView<Real>& model, Block<Real>& block, int number) {
+template <Scheme scheme, class Real, class Block>
+__device__ bool substep(const ModelView<Real>& model, const Trace<Real>& trace, Block& block, int number) {
     predict<scheme>(model, block);
+    block.book(Stage::predict);
     sort_into_cells<scheme>(model, block);
-    record(block, model.particles, block.trace.predicted, number);
+    block.book(Stage::cells);
+    record(block, model.particles, trace.predicted, number);
     find_neighbours(model, block);
-    if constexpr (scheme == Scheme::conserving) begin_iterations(model, block);
+    if constexpr (scheme == Scheme::conserving)
+        begin_iterations(model, block);
+    else if (model.plan.dissipation)
+        count_overlaps(model, block);
+    block.book(Stage::neighbours);
     for (int i = 0; i < model.iterations; ++i) {
         if constexpr (scheme == Scheme::conserving)
             iterate_in_turn(model, block, i == 0);
         else
             iterate_summed(model, block);
-        record(block, model.particles, block.trace.iterated, number * model.iterations + i);
+        record(block, model.particles, trace.iterated, number * model.iterations + i);
     }
     bool finite;
     if constexpr (scheme == Scheme::conserving)
         finite = update_velocities_in_turn(model, block);
     else
         finite = update_velocities(model, block);
-    return !__syncthreads_or(!finite);
+    const bool all_finite = !__syncthreads_or(!finite);
+    block.book(Stage::velocities);
+    return all_finite;
 }
 
 /// As cpu/commit.cpp: particles of infinite mass keep their place. Ends with a barrier.
-template <class Real>
-__device__ void commit(const ModelView<Real>& model, Block<Real>& block, int number) {
+template <class Real, class Block>
+__device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Block& block, int number) {
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        if (!(block.drift[s].w > 0)) block.position[s] = block.start[s];
-        if (block.trace.velocity)
-            block.trace.velocity[static_cast<std::size_t>(number) * model.particles + s] = block.next_velocity[s];
+        if (!(block.position()[s].w > 0)) block.position()[s] = block.start()[s];
+        const Quad<Real> v = block.next_velocity()[s];
+        block.velocity[s] = v;
+        if (trace.velocity) trace.velocity[static_cast<std::size_t>(number) * model.particles + s] = v;
     }
-    Quad<Real>* const swap = block.velocity;
-    block.velocity = block.next_velocity;
-    block.next_velocity = swap;
     __syncthreads();
 }
 
 /// Notes the lowest particle that is not finite, and gives the State its values from before the substep back.
-template <class Real>
-__device__ void note_instability(const ModelView<Real>& model, Block<Real>& block, double time, Progress& progress) {
+template <class Real, class Block>
+__device__ void note_instability(const ModelView<Real>& model, Block& block, double time, Progress& progress) {
     if (threadIdx.x == 0) {
         int lowest = model.particles;
         for (int s = 0; s < model.particles; ++s) {
-            const Quad<Real> x = block.position[s], v = block.next_velocity[s];
-            if (!isfinite(x.x + x.y + x.z) || !isfinite(v.x + v.y + v.z)) lowest = min(lowest, number_in(x.w));
+            const Quad<Real> x = block.position()[s], v = block.next_velocity()[s];
+            const bool finite = isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
+            if (!finite) lowest = min(lowest, static_cast<int>(block.number()[s]));
         }
         progress.stopped = static_cast<int>(Stopped::unstable);
         progress.bad_particle = lowest;
         progress.bad_time = time;
     }
     __syncthreads();
-    int* const slot_of = block.cell_table();
-    for (int s = threadIdx.x; s < model.particles; s += threads) slot_of[number_in(block.start[s].w)] = s;
+    std::uint32_t* const slot_of = block.keys();
+    for (int s = threadIdx.x; s < model.particles; s += threads) slot_of[block.number()[s]] = s;
     __syncthreads();
     // Velocities are still in the order that slots had before the substep.
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        block.position[s] = block.start[s];
-        block.next_velocity[slot_of[number_in(block.predicted[s].w)]] = block.velocity[s];
+        block.position()[s] = block.start()[s];
+        block.next_velocity()[slot_of[number_in(block.predicted()[s].w)]] = block.velocity[s];
     }
-    for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit[k] = block.fit_before[k];
-    Quad<Real>* const swap = block.velocity;
-    block.velocity = block.next_velocity;
-    block.next_velocity = swap;
+    for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit()[k] = block.fit_before()[k];
+    __syncthreads();
+    for (int s = threadIdx.x; s < model.particles; s += threads) block.velocity[s] = block.next_velocity()[s];
     __syncthreads();
 }
 
 /// What the last update of a State leaves for those who ask.
-template <Scheme scheme, class Real>
-__device__ void report(const BatchView<Real>& batch, int state, Block<Real>& block) {
+template <Scheme scheme, class Real, class Block>
+__device__ void report(const BatchView<Real>& batch, int state, Block& block) {
     const ModelView<Real>& model = batch.model;
     if (batch.neighbours) {
         int* const counts = batch.neighbours + static_cast<std::size_t>(state) * model.particles;
         for (int s = threadIdx.x; s < model.particles; s += threads)
-            counts[number_in(block.position[s].w)] =
-                (s < model.fluid ? block.neighbour_count[s] : 0) + (model.plan.contacts ? block.contact_count[s] : 0);
+            counts[block.number()[s]] = (s < model.fluid ? block.neighbour_count()[s] : 0) +
+                                        (model.plan.contacts ? block.contact_count()[s] : 0);
     }
     if (!batch.density || !model.plan.fluid) return;
     if constexpr (scheme == Scheme::conserving)
         compute_density_above_rest(model, block);
     else
-        compute_density(model, block);
+        compute_density(model, block, Real(-1));
     for (int s = threadIdx.x; s < model.fluid; s += threads)
-        batch.density[static_cast<std::size_t>(state) * model.fluid + number_in(block.position[s].w)] =
-            block.compression[s] + 1;
+        batch.density[static_cast<std::size_t>(state) * model.fluid + block.number()[s]] = block.next()[s].w + 1;
 }
 
 /// Measures the frame that has ended and decides whether the State stops early. Ends with a barrier.
-template <class Real>
-__device__ void end_frame(const BatchView<Real>& batch, int state, int update, Block<Real>& block) {
+template <class Real, class Block>
+__device__ void end_frame(const BatchView<Real>& batch, int state, int update, Block& block) {
     Progress& progress = batch.progress[state];
     double* const path = batch.path + static_cast<std::size_t>(state) * (batch.updates + 1);
     measure_path(batch.model, block, path + update + 1);
@@ -155,49 +160,53 @@ __device__ void end_frame(const BatchView<Real>& batch, int state, int update, B
 }
 
 /// Update `number` of a State.
-template <Scheme scheme, class Real>
-__device__ void update(const BatchView<Real>& batch, int state, int number, Block<Real>& block) {
+template <Scheme scheme, class Real, class Block>
+__device__ void update(const BatchView<Real>& batch, int state, int number, Block& block) {
     const ModelView<Real>& model = batch.model;
     Quad<Real>* const position = batch.position + static_cast<std::size_t>(state) * model.particles;
     Quad<Real>* const velocity = batch.velocity + static_cast<std::size_t>(state) * model.particles;
-    Quad<Real>* const own_velocity = block.next_velocity;
     ClusterFit<Real>* const fit = batch.fit + state * model.clusters;
     Progress& progress = batch.progress[state];
+    block.shared().watch.start();
     block.velocity = velocity;
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        block.position[s] = position[s];
-        if (s >= model.fluid)
-            block.slot_of_solid[number_in(position[s].w) - model.fluid] = static_cast<std::uint16_t>(s);
+        const Quad<Real> x = position[s];
+        const int i = number_in(x.w);
+        block.position()[s] = quad(xyz(x), model.inverse_mass[i]);
+        block.number()[s] = static_cast<std::uint16_t>(i);
+        if (s >= model.fluid) block.slot_of_solid()[i - model.fluid] = static_cast<std::uint16_t>(s);
     }
-    for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit[k] = fit[k];
+    if (threadIdx.x == 0) block.position()[model.particles] = block.start()[model.particles] = far_away<Real>();
+    for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit()[k] = fit[k];
     block.h = static_cast<Real>(batch.time_step) / static_cast<Real>(batch.substeps);
     const bool last = number + 1 == batch.updates;
-    block.trace = last ? batch.trace : Trace<Real>{};
+    const Trace<Real> trace = last ? batch.trace : Trace<Real>{};
     const double time = batch.start_time + (batch.settling ? 0 : number * batch.time_step);
     rest(batch, state, block);
     if constexpr (scheme == Scheme::flex) actuate<scheme>(model, batch.gait, state, time, block);
     if (!batch.settling && number == 0)
         measure_path(model, block, batch.path + static_cast<std::size_t>(state) * (batch.updates + 1));
+    block.book(Stage::load);
 
     for (int k = 0; k < batch.substeps; ++k) {
         if constexpr (scheme == Scheme::conserving)
             actuate<scheme>(model, batch.gait, state, time + batch.time_step * (k + 1) / batch.substeps, block);
-        if (!substep<scheme>(model, block, k)) {
+        if (!substep<scheme>(model, trace, block, k)) {
             note_instability(model, block, time + k * batch.time_step / batch.substeps, progress);
             break;
         }
-        commit(model, block, k);
+        commit(model, trace, block, k);
+        block.book(Stage::commit);
     }
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        position[s] = block.position[s];
-        const Quad<Real> v = block.velocity[s];
-        velocity[s] = batch.settling ? Quad<Real>{0, 0, 0, 0} : v;
+        position[s] = quad(xyz(block.position()[s]), as_number<Real>(block.number()[s]));
+        if (batch.settling) velocity[s] = {0, 0, 0, 0};
     }
-    block.next_velocity = own_velocity;
-    for (int k = threadIdx.x; k < model.clusters; k += threads) fit[k] = block.fit[k];
+    for (int k = threadIdx.x; k < model.clusters; k += threads) fit[k] = block.fit()[k];
     if (progress.stopped >= 0) return;
     if (!batch.settling) end_frame(batch, state, number, block);
     if (progress.stopped >= 0 || last) report<scheme>(batch, state, block);
+    block.book(Stage::measure);
 }
 
 }  // namespace natator::cuda

@@ -2,15 +2,9 @@
 #include <bit>
 
 #include "../substep.h"
+#include "touching.h"
 
 namespace natator::cpu {
-namespace {
-
-/// A particle counts as touching a plane up to this part of the radius beyond collisionDistance.
-constexpr double touching_tolerance = 1e-4;
-
-}  // namespace
-
 /// Of the distance by which a particle that touched a plane at the substep's start has left it, up to adhesion h^2 is
 /// taken back, so a steady pull is withstood if its acceleration is at most `adhesion`. Acts along the normal only.
 template <class Real>

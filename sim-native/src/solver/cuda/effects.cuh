@@ -1,0 +1,60 @@
+#pragma once
+
+// Forces and losses that the thesis leaves off, where the GPU has them. As cpu/effects and cpu/flex/cohesion.cpp.
+#include "contacts.cuh"
+
+namespace natator::cuda {
+
+/// Speed that planes give back to what comes in: restitution.
+template <class Real, class Block>
+__device__ Vec3<Real> rebound(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x,
+                              const Vec3<Real>& predicted, Vec3<Real> v) {
+    const unsigned near = block.plane_contact()[s];
+    for (int k = model.planes - 1; k >= 0; --k) {
+        if (!(near >> k & 1)) continue;
+        const PlaneView<Real>& plane = model.plane[k];
+        if (dot(plane.normal, x) + plane.offset > model.touching_distance) continue;
+        const Real impact = -dot(plane.normal, predicted);
+        if (!(impact > block.h * model.slowest_impact)) continue;
+        const Real missing = model.restitution * impact - dot(plane.normal, v);
+        if (missing > 0) v = v + missing * plane.normal;
+    }
+    return v;
+}
+
+/// Counts for each slot the contacts that would overlap without the solver. Ends with a barrier.
+template <class Real, class Block>
+__device__ void count_overlaps(const ModelView<Real>& model, Block& block) {
+    for (int s = threadIdx.x; s < model.particles; s += threads) {
+        int count = 0;
+        for_each_contact(model, block, s, [&](int other) {
+            count += norm(xyz(block.position()[s]) - xyz(block.position()[other])) < model.solid_rest_distance;
+        });
+        block.active()[s] = static_cast<std::uint16_t>(count);
+    }
+    __syncthreads();
+}
+
+/// Part of its velocity that a particle in contacts keeps in scheme flex: dissipation.
+template <class Real, class Block>
+__device__ Real kept_by_dissipation(const ModelView<Real>& model, const Block& block, int s) {
+    const Real counted = max(static_cast<Real>(block.active()[s]) - 1, Real(0));
+    const Real step = block.h * model.dissipation * counted;
+    return 1 - step / (1 + step);
+}
+
+/// Pull of the fluid around a slot of `next` in scheme flex, per inverse mass: cohesion.
+template <class Real, class Block>
+__device__ Vec3<Real> cohesion_push(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x) {
+    Vec3<Real> sum{0, 0, 0};
+    for_each_neighbour(model, block, s, [&](int other) {
+        const Vec3<Real> difference = x - xyz(block.next()[other]);
+        const Real r = norm(difference);
+        if (!(r > 0 && r < model.radius)) return;
+        const Real q = r * model.inverse_radius, b = model.cohesion_slope;
+        sum = sum + (q * q * (b - (b - 1) * q) - 1) / r * difference;
+    });
+    return -model.cohesion_strength * sum;
+}
+
+}  // namespace natator::cuda

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "device_buffer.h"
+
+namespace natator::cuda {
+
+/// A point in the device's own time.
+class Event {
+public:
+    Event() { check(cudaEventCreate(&event_), "event"); }
+    ~Event() { cudaEventDestroy(event_); }
+    Event(const Event&) = delete;
+    Event& operator=(const Event&) = delete;
+
+    void record() const { check(cudaEventRecord(event_), "event"); }
+    /// Both must have passed.
+    double seconds_since(const Event& earlier) const {
+        float milliseconds = 0;
+        check(cudaEventElapsedTime(&milliseconds, earlier.event_, event_), "event");
+        return 1e-3 * static_cast<double>(milliseconds);
+    }
+
+private:
+    cudaEvent_t event_ = nullptr;
+};
+
+}  // namespace natator::cuda

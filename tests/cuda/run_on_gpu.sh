@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# Every check and benchmark of the CUDA backend on a machine with a GPU, and one table of what came out. Ends with 1 if
+# a check fails. Logs, benchmark tables and the table itself go to the folder of --output.
+set -uo pipefail
+
+usage() {
+    cat <<'TEXT'
+usage: tests/cuda/run_on_gpu.sh [--build DIR] [--output DIR] [--no-ensembles] [--scene NAME]...
+  --build DIR     use what was built there (bin/, share/), maybe on another machine; default: build it, preset cuda
+  --output DIR    where logs and tables go; default: build/gpu-results
+  --no-ensembles  leave out the comparison of 4-s ensembles with the CPU's, which takes minutes of all processors
+  --scene NAME    benchmark this scene; default: creature-1 creature-4 vacuum fluid-x8
+TEXT
+}
+
+fail() {
+    printf 'run_on_gpu.sh: %s\n' "$1" >&2
+    exit 1
+}
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+build= output=$root/build/gpu-results ensembles=true scenes=()
+while (( $# > 0 )); do
+    case $1 in
+        --build) build=${2:?--build needs a folder}; shift 2 ;;
+        --output) output=${2:?--output needs a folder}; shift 2 ;;
+        --no-ensembles) ensembles=false; shift ;;
+        --scene) scenes+=(--scene "${2:?--scene needs a name}"); shift 2 ;;
+        -h|--help) usage; exit 0 ;;
+        *) usage >&2; fail "unknown option $1" ;;
+    esac
+done
+mkdir -p "$output" || fail "$output: can't be made"
+output=$(cd "$output" && pwd)
+
+if [[ -z $build ]]; then
+    build=$root/build/cuda
+    cd "$root" && ./setup.sh --cuda && cmake --preset cuda && cmake --build --preset cuda || fail 'could not build'
+fi
+build=$(cd "$build" && pwd) || fail 'no such build folder'
+simulator=$build/bin/natator-sim tests=$build/bin/natator-cuda-tests
+[[ -x $simulator && -x $tests ]] || fail "$build: no bin/natator-sim and bin/natator-cuda-tests in it"
+export NATATOR_CONFORMANCE=$root/tests/conformance
+device=$(nvidia-smi --query-gpu=name,driver_version --format=csv,noheader 2>/dev/null | head -1)
+[[ -n $device ]] || fail 'no GPU here (nvidia-smi finds none)'
+
+# --- the table ----------------------------------------------------------------------------------------------------------
+
+table=$output/gpu-checks.csv
+printf 'check,outcome,seconds,measured\n' >"$table"
+failed=0
+
+row() {  # what, outcome, seconds, what was measured
+    printf '%s,%s,%s,%s\n' "$1" "$2" "$3" "${4//,/;}" >>"$table"
+    [[ $2 == ok || $2 == skipped ]] || failed=1
+}
+
+# check NAME COMMAND...: the command's log is NAME.log; it says what was measured in lines that begin with "measured: ".
+check() {
+    local name=$1 log=$output/$1.log start=$EPOCHREALTIME status=0
+    shift
+    printf '=== %s\n' "$name" >&2
+    timeout 900 "$@" >"$log" 2>&1 || status=$?
+    local seconds
+    seconds=$(awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }')
+    local passed
+    passed=$(sed -n 's/^\[  PASSED  \] \([0-9]*\) test.*/\1 tests passed/p' "$log")
+    local outcome=ok
+    (( status == 0 )) || outcome="failed (exit $status)"
+    grep -q '^\[  SKIPPED \]' "$log" && outcome='skipped tests'
+    row "$name" "$outcome" "$seconds" "${passed}$(sed -n 's/^measured: / /p' "$log" | tr '\n' ';')"
+}
+
+suite() {
+    check "$1" "$tests" --gtest_filter="$2"
+}
+
+suite conformance '*GpuMicro*:*GpuOneFrame*:GpuEffects*'
+suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
+suite laws-of-scheme-conserving 'GpuLaws*:*GpuVacuum*:GpuParticles*'
+suite same-bits-in-any-batch '*GpuBatch*'
+$ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
+
+# --- benchmarks -----------------------------------------------------------------------------------------------------------
+
+rm -f "$output"/gpu-speed.csv "$output"/gpu-speed-profile.csv
+(( ${#scenes[@]} > 0 )) || scenes=(--scene creature-1 creature-4 vacuum fluid-x8)
+check bench-speed "$simulator" bench speed --backend cuda "${scenes[@]}" --output "$output/gpu-speed.csv"
+
+# 150 requests in a stream, as a generation asks them: process, reading, settling and answers included.
+generation() {
+    local k
+    for (( k = 0; k < 150; ++k )); do
+        printf '{"id":%d,"scene":"thesis/creature-1","duration":4,"gait":{"frequency":1.%03d,"amplitude":[0.97,0.69],' $k $k
+        printf '"phase":[0,0.648]},"overrides":{"stopping":{"planeContact":false,"noProgressAfter":0}}}\n'
+    done
+}
+serve_generation() {
+    generation | "$simulator" serve --backend cuda | grep -c '"status":"ok"' | sed 's/^/measured: answers /'
+}
+export -f generation serve_generation
+export simulator
+check serve-150-requests bash -uo pipefail -c serve_generation
+
+# --- memory accesses and races, on short runs of both schemes -------------------------------------------------------------
+
+sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null)
+short_runs() {
+    local scheme
+    for scheme in flex conserving; do
+        printf '{"id":1,"scene":"bench/small-tank","scheme":"%s","duration":0.0167,' "$scheme"
+        printf '"gait":{"frequency":1,"amplitude":[0.9,0.7],"phase":[0,0.3]},"overrides":{"settling":{"updates":2}}}\n'
+    done
+}
+sanitize() {  # tool
+    short_runs | "$sanitizer" --tool "$1" --error-exitcode 9 "$simulator" serve --backend cuda &&
+        "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" --gtest_filter='GpuParticles*'
+}
+for tool in memcheck racecheck; do
+    if [[ -n $sanitizer ]]; then
+        export -f sanitize short_runs
+        export sanitizer simulator tests
+        check "$tool" bash -uo pipefail -c "sanitize $tool"
+    else
+        row "$tool" skipped 0 'no compute-sanitizer here'
+    fi
+done
+
+# --- what came out ----------------------------------------------------------------------------------------------------------
+
+{
+    printf '\n%s\n\n' "$device"
+    awk -F, '{ printf "%-26s %-16s %8s  %s\n", $1, $2, $3, $4 }' "$table"
+    printf '\n%-11s %-10s %-6s %5s %10s %10s %10s %12s\n' scene scheme real batch 'kernel s' 'settle s' 'whole s' 'M p-it/s'
+    awk -F, 'NR > 1 { printf "%-11s %-10s %-6s %5s %10s %10s %10s %12s\n", $1, $2, $3, $4, $11, $12, $13, $14 }' \
+        "$output/gpu-speed.csv"
+} | tee "$output/gpu-table.txt"
+exit "$failed"
