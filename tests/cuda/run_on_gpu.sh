@@ -79,6 +79,7 @@ suite conformance '*GpuMicro*:*GpuOneFrame*:GpuEffects*'
 suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
 suite laws-of-scheme-conserving 'GpuLaws*:*GpuVacuum*:GpuParticles*'
 suite same-bits-in-any-batch '*GpuBatch*'
+suite one-scene-by-the-whole-GPU '*WholeGpu*'
 $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
 
 # --- benchmarks -----------------------------------------------------------------------------------------------------------
@@ -86,6 +87,7 @@ $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
 rm -f "$output"/gpu-speed.csv "$output"/gpu-speed-profile.csv
 (( ${#scenes[@]} > 0 )) || scenes=(--scene creature-1 creature-4 vacuum fluid-x8)
 check bench-speed "$simulator" bench speed --backend cuda "${scenes[@]}" --output "$output/gpu-speed.csv"
+check bench-large-scene "$simulator" bench speed --backend cuda --scene fluid-x64 --batch 1 --output "$output/gpu-speed.csv"
 
 # 150 requests in a stream, as a generation asks them: process, reading, settling and answers included.
 generation() {
@@ -114,7 +116,7 @@ short_runs() {
 }
 sanitize() {  # tool
     short_runs | "$sanitizer" --tool "$1" --error-exitcode 9 "$simulator" serve --backend cuda &&
-        "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" --gtest_filter='GpuParticles*'
+        "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" --gtest_filter='GpuParticles*:*WholeGpu.ContactsWithout*:*WholeGpu.FullLists*'
 }
 for tool in memcheck racecheck; do
     if [[ -n $sanitizer ]]; then

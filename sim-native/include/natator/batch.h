@@ -36,11 +36,11 @@ struct BatchTimes {
     StageProfile* profile = nullptr;  ///< gets the kernel's time by stage, if there is one
 };
 
-/// Evaluates gaits in one scene on a GPU, all at once; member k of the result belongs to member k. The result of a
-/// member is the same, bit by bit, whatever the others and their number. A batch that does not fit into the device's
-/// memory is computed in parts. Of an unstable member the CPU does the last substep again, to name its stage. Throws
-/// InputError when a gait does not fit the scene or the scene needs what the GPU's stages do not do, NoDevice without
-/// that GPU.
+/// Evaluates gaits in one scene on a GPU, all at once, or one after another, each by the whole GPU, in scenes of more
+/// than 20 000 particles; member k of the result belongs to member k. The result of a member is the same, bit by bit,
+/// whatever the others and their number. A batch that does not fit into the device's memory is computed in parts. Of an
+/// unstable member the CPU does the last substep again, to name its stage. Throws InputError when a gait does not fit
+/// the scene or the scene needs what the GPU's stages do not do, NoDevice without that GPU.
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
                                         Precision precision = Precision::single_precision, int device = 0,
                                         BatchTimes* times = nullptr);

@@ -8,13 +8,21 @@
 
 namespace natator {
 
+/// How a State is computed.
+enum class GpuPath {
+    by_size,           ///< as evaluate_on_gpu does
+    block,             ///< by one block, as in a batch; at most 65535 particles
+    whole_gpu,         ///< by the whole GPU
+    whole_gpu_search,  ///< the same with contacts searched anew in each iteration, as where lists overflow
+};
+
 /// Advances one State of a Model on a GPU, update by update, as Solver does on the CPU: for observing and testing what
 /// batches compute. The State travels to the device and back with every update.
 template <class Real>
 class GpuSolver {
 public:
     /// Throws NoDevice without that GPU, InputError when the Model needs what the GPU's stages do not do.
-    explicit GpuSolver(const Model& model, int device = 0);
+    explicit GpuSolver(const Model& model, int device = 0, GpuPath path = GpuPath::by_size);
     ~GpuSolver();
     GpuSolver(GpuSolver&&) noexcept;
     GpuSolver& operator=(GpuSolver&&) noexcept;
@@ -28,6 +36,8 @@ public:
 
 private:
     class Implementation;
+    class ByBlock;
+    class ByWholeGpu;
     std::unique_ptr<Implementation> implementation_;
 };
 

@@ -27,7 +27,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMem
 template <class Real>
 class GpuSolver<Real>::Implementation {};
 template <class Real>
-GpuSolver<Real>::GpuSolver(const Model&, int) {
+GpuSolver<Real>::GpuSolver(const Model&, int, GpuPath) {
     refuse();
 }
 template <class Real>

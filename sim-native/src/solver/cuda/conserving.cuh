@@ -132,31 +132,43 @@ __device__ Vec3<Real> viscosity_change(const ModelView<Real>& model, const Block
     return model.kernel_scale * sum;
 }
 
+/// The velocity that the displacement of slot s means, with its inverse mass.
+template <class Real, class Block>
+__device__ Quad<Real> constrained_velocity(const Block& block, int s) {
+    const Quad<Real> drift = block.drift()[s];
+    return quad(xyz(drift) + (1 / block.h) * xyz(block.displacement()[s]), drift.w);
+}
+
+/// The velocity that slot s leaves the substep with, where `next` holds what the constraints left.
+template <class Real, class Block>
+__device__ Vec3<Real> velocity_in_turn(const ModelView<Real>& model, const Block& block, int s) {
+    const Real smoothing = block.h * model.viscosity / (1 + 2 * block.h * model.viscosity);
+    const Real kept = model.plan.damping ? 1 / (1 + block.h * model.damping) : Real(1);
+    const Vec3<Real> x = xyz(block.position()[s]);
+    const Quad<Real> u = block.next()[s];
+    Vec3<Real> v = xyz(u);
+    if (model.plan.viscosity && s < model.fluid) v = v + smoothing * viscosity_change(model, block, s, x, u);
+    v = kept * v;
+    if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
+    if (model.plan.restitution) v = rebound(model, block, s, x, xyz(block.drift()[s]), v);
+    return v;
+}
+
 /// True if all that this thread wrote is finite.
 template <class Real, class Block>
 __device__ bool update_velocities_in_turn(const ModelView<Real>& model, Block& block) {
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
-        const Quad<Real> drift = block.drift()[s];
-        block.next()[s] = quad(xyz(drift) + (1 / block.h) * xyz(block.displacement()[s]), drift.w);
-    }
+    for (int s = threadIdx.x; s < model.particles; s += threads) block.next()[s] = constrained_velocity<Real>(block, s);
     __syncthreads();
     if (model.free_bodies > 0) keep_body_momentum(model, block);
     if (model.plan.fluid) solve_density_rate(model, block);
-    const Real smoothing = block.h * model.viscosity / (1 + 2 * block.h * model.viscosity);
-    const Real kept = model.plan.damping ? 1 / (1 + block.h * model.damping) : Real(1);
     bool finite = true;
     for_each_unit(block, (model.particles + 31) / 32, [&](int unit) {
         const int s = unit * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
         const Vec3<Real> x = xyz(block.position()[s]);
-        const Quad<Real> u = block.next()[s];
-        Vec3<Real> v = xyz(u);
-        if (model.plan.viscosity && s < model.fluid) v = v + smoothing * viscosity_change(model, block, s, x, u);
-        v = kept * v;
-        if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
-        if (model.plan.restitution) v = rebound(model, block, s, x, xyz(block.drift()[s]), v);
+        const Vec3<Real> v = velocity_in_turn(model, block, s);
         finite &= isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
-        block.next_velocity()[s] = quad(u.w > 0 ? v : xyz(block.drift()[s]), Real(0));
+        block.next_velocity()[s] = quad(block.next()[s].w > 0 ? v : xyz(block.drift()[s]), Real(0));
     });
     return finite;
 }

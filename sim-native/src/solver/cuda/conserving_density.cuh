@@ -134,18 +134,22 @@ __device__ void compute_density_above_rest(const ModelView<Real>& model, Block& 
     __syncthreads();
 }
 
-/// Notes C_i of the particles that began the substep overlapping; true if there are any. Ends with a barrier.
+/// Notes C_i of slot s if it began the substep overlapping; true if it did.
+template <class Real, class Block>
+__device__ bool note_overlap(const ModelView<Real>& model, Block& block, int s) {
+    const Boundary<Real> boundary = boundary_terms(model, block, s, xyz(block.position()[s]));
+    const Real above = density_of(model, block, s, block.start(), boundary).above;
+    const Real overlap = above > cpu::overlap_tolerance<Real> ? above : Real(0);
+    block.overlap()[s] = overlap;
+    block.overlap_lambda()[s] = 0;
+    return overlap > 0;
+}
+
+/// True if any particles began the substep overlapping. Ends with a barrier.
 template <class Real, class Block>
 __device__ bool find_overlap(const ModelView<Real>& model, Block& block) {
     bool any = false;
-    for (int s = threadIdx.x; s < model.fluid; s += threads) {
-        const Boundary<Real> boundary = boundary_terms(model, block, s, xyz(block.position()[s]));
-        const Real above = density_of(model, block, s, block.start(), boundary).above;
-        const Real overlap = above > cpu::overlap_tolerance<Real> ? above : Real(0);
-        block.overlap()[s] = overlap;
-        block.overlap_lambda()[s] = 0;
-        any |= overlap > 0;
-    }
+    for (int s = threadIdx.x; s < model.fluid; s += threads) any |= note_overlap(model, block, s);
     return __syncthreads_or(any);
 }
 
@@ -199,11 +203,9 @@ __device__ void push_solids_by_pressure(const ModelView<Real>& model, Block& blo
     });
 }
 
-/// Moves the fluid of a unit of slots by the density constraints.
+/// Moves fluid slot s by the density constraints.
 template <class Real, class Block>
-__device__ void push_fluid_by_pressure(const ModelView<Real>& model, Block& block, int unit) {
-    const int s = unit * 32 + threadIdx.x % 32;
-    if (s >= model.fluid) return;
+__device__ void push_fluid_by_pressure(const ModelView<Real>& model, Block& block, int s) {
     const Real inverse_mass = block.position()[s].w;
     if (!(inverse_mass > 0)) return;
     const Quad<Real> here = block.next()[s];
@@ -218,6 +220,17 @@ __device__ void push_fluid_by_pressure(const ModelView<Real>& model, Block& bloc
     move(block, s, model.relaxation_factor * Real(pair_share) * inverse_mass * push);
 }
 
+/// Moves fluid and solids by the density constraints, where lambda is beside the positions in `next`.
+template <class Real, class Block>
+__device__ void push_by_pressure(const ModelView<Real>& model, Block& block) {
+    const int touched = model.plan.solid_pressure ? touched_units<Real>(model, block) : 0;
+    for_each_unit(block, touched + (model.fluid + 31) / 32, [&](int unit) {
+        if (unit < touched) return push_solids_by_pressure(model, block, unit);
+        const int s = (unit - touched) * 32 + threadIdx.x % 32;
+        if (s < model.fluid) push_fluid_by_pressure(model, block, s);
+    });
+}
+
 /// As cpu/conserving/density.cpp. Ends with a barrier.
 template <class Real, class Block>
 __device__ void solve_density_constraint(const ModelView<Real>& model, Block& block, bool first) {
@@ -228,22 +241,14 @@ __device__ void solve_density_constraint(const ModelView<Real>& model, Block& bl
         __syncthreads();
         compute_lambda(model, block);
     }
-    const int touched = model.plan.solid_pressure ? touched_units<Real>(model, block) : 0;
-    for_each_unit(block, touched + (model.fluid + 31) / 32, [&](int unit) {
-        if (unit < touched)
-            push_solids_by_pressure(model, block, unit);
-        else
-            push_fluid_by_pressure(model, block, unit - touched);
-    });
+    push_by_pressure(model, block);
     __syncthreads();
 }
 
-/// Takes the rate of change of the density to 0 where the fluid is under pressure. As cpu/conserving/velocities.cpp:
-/// `next` holds velocities, with inverse masses, before and after. Ends with a barrier.
+/// lambda of the constraints on the density's rate.
 template <class Real, class Block>
-__device__ void solve_density_rate(const ModelView<Real>& model, Block& block) {
-    const int units = (model.fluid + 31) / 32;
-    for_each_unit(block, units, [&](int unit) {
+__device__ void compute_rate_lambda(const ModelView<Real>& model, Block& block) {
+    for_each_unit(block, (model.fluid + 31) / 32, [&](int unit) {
         const int s = unit * 32 + threadIdx.x % 32;
         if (s >= model.fluid) return;
         const Vec3<Real> x = xyz(block.position()[s]);
@@ -268,8 +273,11 @@ __device__ void solve_density_rate(const ModelView<Real>& model, Block& block) {
         block.lambda()[s] = limited;
         block.lambda_sum()[s] = sum + block.h * limited;
     });
-    __syncthreads();
-    for_each_unit(block, units, [&](int unit) {
+}
+
+template <class Real, class Block>
+__device__ void push_by_rate_lambda(const ModelView<Real>& model, Block& block) {
+    for_each_unit(block, (model.fluid + 31) / 32, [&](int unit) {
         const int s = unit * 32 + threadIdx.x % 32;
         if (s >= model.fluid) return;
         const Quad<Real> u = block.next()[s];
@@ -277,6 +285,15 @@ __device__ void solve_density_rate(const ModelView<Real>& model, Block& block) {
                                              [&](int slot, const Quad<Real>&) { return block.lambda()[slot]; });
         block.next()[s] = quad(xyz(u) + Real(pair_share) * u.w * push, u.w);
     });
+}
+
+/// Takes the rate of change of the density to 0 where the fluid is under pressure. As cpu/conserving/velocities.cpp:
+/// `next` holds velocities, with inverse masses, before and after. Ends with a barrier.
+template <class Real, class Block>
+__device__ void solve_density_rate(const ModelView<Real>& model, Block& block) {
+    compute_rate_lambda(model, block);
+    __syncthreads();
+    push_by_rate_lambda(model, block);
     __syncthreads();
 }
 

@@ -189,36 +189,40 @@ __device__ void solve_clusters(const ModelView<Real>& model, Block& block) {
     __syncthreads();
 }
 
-/// Moves each slot out of the planes near it, one after the other. Ends with a barrier.
+/// Moves slot s out of the planes near it, one after the other.
+template <class Real, class Block>
+__device__ void solve_planes_of(const ModelView<Real>& model, Block& block, int s) {
+    const unsigned near = block.plane_contact()[s];
+    if (near == 0) return;
+    const Quad<Real> here = block.position()[s];
+    Vec3<Real> x = xyz(here), base{}, displacement{}, start{};
+    bool moved = false;
+    for (int k = model.planes - 1; k >= 0; --k) {
+        if (!(near >> k & 1)) continue;
+        const PlaneView<Real>& plane = model.plane[k];
+        const Real depth = model.collision_distance - (dot(plane.normal, x) + plane.offset);
+        if (!(depth > 0)) continue;
+        if (!moved) {
+            base = xyz(block.base()[s]);
+            displacement = xyz(block.displacement()[s]);
+            start = xyz(block.start()[s]);
+            moved = true;
+        }
+        displacement = displacement + depth * plane.normal;
+        x = base + displacement;
+        if (!model.plan.plane_friction) continue;
+        displacement = displacement - friction(model, x - start, plane.normal, depth, model.dynamic_friction);
+        x = base + displacement;
+    }
+    if (!moved) return;
+    block.displacement()[s] = quad(displacement, Real(0));
+    block.position()[s] = quad(x, here.w);
+}
+
+/// Ends with a barrier.
 template <class Real, class Block>
 __device__ void solve_planes_in_turn(const ModelView<Real>& model, Block& block) {
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
-        const unsigned near = block.plane_contact()[s];
-        if (near == 0) continue;
-        const Quad<Real> here = block.position()[s];
-        Vec3<Real> x = xyz(here), base{}, displacement{}, start{};
-        bool moved = false;
-        for (int k = model.planes - 1; k >= 0; --k) {
-            if (!(near >> k & 1)) continue;
-            const PlaneView<Real>& plane = model.plane[k];
-            const Real depth = model.collision_distance - (dot(plane.normal, x) + plane.offset);
-            if (!(depth > 0)) continue;
-            if (!moved) {
-                base = xyz(block.base()[s]);
-                displacement = xyz(block.displacement()[s]);
-                start = xyz(block.start()[s]);
-                moved = true;
-            }
-            displacement = displacement + depth * plane.normal;
-            x = base + displacement;
-            if (!model.plan.plane_friction) continue;
-            displacement = displacement - friction(model, x - start, plane.normal, depth, model.dynamic_friction);
-            x = base + displacement;
-        }
-        if (!moved) continue;
-        block.displacement()[s] = quad(displacement, Real(0));
-        block.position()[s] = quad(x, here.w);
-    }
+    for (int s = threadIdx.x; s < model.particles; s += threads) solve_planes_of(model, block, s);
     __syncthreads();
 }
 

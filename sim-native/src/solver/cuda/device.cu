@@ -20,8 +20,6 @@ void choose_device(int device) {
 std::optional<std::string> refusal(const Model& model) {
     const Plan plan = make_plan(model);
     if (model.particles() == 0) return "the scene has no particles; must have some";
-    if (model.particles() > 65535)
-        return std::to_string(model.particles()) + " particles are not done on the GPU yet; must be at most 65535";
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
     const bool flex = model.scheme == Scheme::flex;

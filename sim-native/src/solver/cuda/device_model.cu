@@ -34,7 +34,7 @@ struct Lists {
 }  // namespace
 
 template <class Real>
-DeviceModel<Real>::DeviceModel(const Model& model) {
+DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
     const cpu::Constants<Real> constants(model.parameters);
     const SolverParameters& p = model.parameters;
     view_.plan = make_plan(model);
@@ -98,7 +98,7 @@ DeviceModel<Real>::DeviceModel(const Model& model) {
     view_.rest_position = keep(rest_position_, rest);
     if (model.scheme == Scheme::conserving) set_conserving(model);
     upload_solids(model);
-    lay_grid(model);
+    lay_grid(model, most_cells);
 }
 
 template <class Real>
@@ -201,7 +201,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
 /// Over the box of the start positions, extended to the planes that face an axis. The tables of the fluid's and the
 /// solids' cells, 4 bytes a cell, must fit on the chip beside two buffers of positions where these do.
 template <class Real>
-void DeviceModel<Real>::lay_grid(const Model& model) {
+void DeviceModel<Real>::lay_grid(const Model& model, int most_cells) {
     std::array<Real, 3> low{}, high{};
     for (int axis = 0; axis < 3; ++axis) {
         low[axis] = std::numeric_limits<Real>::max();
@@ -217,7 +217,7 @@ void DeviceModel<Real>::lay_grid(const Model& model) {
     }
     constexpr int chip = 223 << 10, elsewhere = 1 << 20;
     const int positions = 2 * model.particles() * static_cast<int>(sizeof(Quad<Real>));
-    const int most_cells = positions < chip - (8 << 10) ? (chip - positions) / 4 : elsewhere / 4;
+    if (most_cells == 0) most_cells = positions < chip - (8 << 10) ? (chip - positions) / 4 : elsewhere / 4;
     cpu::CellGrid<Real> grid;
     grid.cover(low, high, view_.search_distance, most_cells);
     const auto box = grid.box();

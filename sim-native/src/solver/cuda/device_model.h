@@ -12,8 +12,9 @@ namespace natator::cuda {
 template <class Real>
 class DeviceModel {
 public:
-    /// At most `most_planes` planes. Throws InputError for springs or clusters of fluid, std::bad_alloc without memory.
-    explicit DeviceModel(const Model& model);
+    /// At most `most_planes` planes; `most_cells` of the grid, 0 for as many as suit a block.
+    /// Throws InputError for springs or clusters of fluid, std::bad_alloc without memory.
+    explicit DeviceModel(const Model& model, int most_cells = 0);
 
     const ModelView<Real>& view() const { return view_; }
     /// Device number of each particle of the Model.
@@ -29,7 +30,7 @@ private:
     }
     void set_conserving(const Model& model);
     void upload_solids(const Model& model);
-    void lay_grid(const Model& model);
+    void lay_grid(const Model& model, int most_cells);
 
     ModelView<Real> view_{};
     std::vector<int> number_of_, particle_of_;

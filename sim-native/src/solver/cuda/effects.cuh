@@ -22,16 +22,21 @@ __device__ Vec3<Real> rebound(const ModelView<Real>& model, const Block& block, 
     return v;
 }
 
-/// Counts for each slot the contacts that would overlap without the solver. Ends with a barrier.
+/// Number of contacts of slot s that would overlap without the solver.
+template <class Real, class Block>
+__device__ int overlaps_of(const ModelView<Real>& model, const Block& block, int s) {
+    int count = 0;
+    for_each_contact(model, block, s, [&](int other) {
+        count += norm(xyz(block.position()[s]) - xyz(block.position()[other])) < model.solid_rest_distance;
+    });
+    return count;
+}
+
+/// Counts them for each slot. Ends with a barrier.
 template <class Real, class Block>
 __device__ void count_overlaps(const ModelView<Real>& model, Block& block) {
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
-        int count = 0;
-        for_each_contact(model, block, s, [&](int other) {
-            count += norm(xyz(block.position()[s]) - xyz(block.position()[other])) < model.solid_rest_distance;
-        });
-        block.active()[s] = static_cast<std::uint16_t>(count);
-    }
+    for (int s = threadIdx.x; s < model.particles; s += threads)
+        block.active()[s] = static_cast<std::uint16_t>(overlaps_of(model, block, s));
     __syncthreads();
 }
 

@@ -6,13 +6,12 @@
 #include <new>
 #include <thread>
 
-#include "batch_runner.h"
-#include "evaluate/law_figures.h"
 #include "evaluate/perturb.h"
 #include "evaluate/start_key.h"
+#include "evaluation.h"
+#include "large/evaluate_large.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
-#include "natator/measure.h"
 #include "natator/model_builder.h"
 
 namespace natator {
@@ -150,38 +149,12 @@ private:
         std::vector<Evaluation> evaluations(members.size());
         on_all_processors(states.count(), [&](int k) {
             const Gait* const gait = settled[k].stopped >= 0 ? nullptr : &members[k].gait;
-            evaluations[k] =
-                evaluation_of(progress[k], gait, &path[static_cast<std::size_t>(k) * (frames + 1)], ends.state(k, like),
-                              densities.data() + static_cast<std::size_t>(k) * view.fluid);
+            const auto first = densities.begin() + static_cast<std::ptrdiff_t>(k) * view.fluid;
+            evaluations[k] = evaluation_of(scene_, model_, runner_.model().particle_of(), progress[k], gait,
+                                           &path[static_cast<std::size_t>(k) * (frames + 1)], ends.state(k, like),
+                                           std::vector<Real>(first, first + view.fluid));
         });
         return evaluations;
-    }
-
-    /// `gait` is null for a State that became unstable while it settled.
-    Evaluation evaluation_of(const Progress& progress, const Gait* gait, const double* path, const State<Real>& end,
-                             const Real* densities) const {
-        Evaluation evaluation;
-        evaluation.frames = progress.frames;
-        evaluation.simulated = progress.frames * scene_.time_step;
-        evaluation.distance = progress.frames > 0 ? path[progress.frames] - path[0] : 0;
-        evaluation.hash = state_hash(end);
-        if (progress.stopped >= 0) evaluation.stopped = static_cast<Stopped>(progress.stopped);
-        const std::vector<int>& particle_of = runner_.model().particle_of();
-        if (evaluation.stopped == Stopped::unstable) {
-            State<Real> before = end;
-            before.time = progress.bad_time;
-            const int bad = progress.bad_particle < model_.particles() ? particle_of[progress.bad_particle] : 0;
-            const double step = gait ? scene_.time_step : scene_.settling.time_step;
-            const int substeps = gait ? scene_.solver.substeps : scene_.settling.substeps;
-            evaluation.instability = located(model_, before, gait, step, substeps, evaluation.simulated,
-                                             {bad, "velocities", progress.bad_time});
-            return evaluation;
-        }
-        std::vector<Real> density(model_.particles(), Real(0));
-        for (int number = 0; number < runner_.model().view().fluid; ++number)
-            if (model_.inverse_mass[particle_of[number]] > 0) density[particle_of[number]] = densities[number];
-        evaluation.laws = law_figures(model_, end, density);
-        return evaluation;
     }
 
     const Scene& scene_;
@@ -215,6 +188,9 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     if (members.empty()) return {};
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
+    if (model.particles() > cuda::most_particles_of_a_block)
+        return precision == Precision::double_precision ? cuda::evaluate_large<double>(scene, model, members, times)
+                                                        : cuda::evaluate_large<float>(scene, model, members, times);
     if (precision == Precision::double_precision) {
         cuda::Batch<double> batch(scene, model, times);
         return cuda::evaluate_in_parts(batch, members);

@@ -187,12 +187,9 @@ __device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Block& bl
     return x;
 }
 
-/// One constraint iteration: every correction from the same positions, summed, relaxed and applied, planes last. As
-/// iterate_summed in step.h. Ends with a barrier.
+/// Every correction from the same positions, summed, relaxed and applied, planes last.
 template <class Real, class Block>
-__device__ void iterate_summed(const ModelView<Real>& model, Block& block) {
-    compute_density(model, block, Real(0));
-    block.book(Stage::density);
+__device__ void apply_corrections(const ModelView<Real>& model, Block& block) {
     const int units = (model.particles + 31) / 32;
     for_each_unit(block, units, [&](int unit) {
         const int s = (units - 1 - unit) * 32 + threadIdx.x % 32;  // the last slots first: solids take longest
@@ -218,17 +215,53 @@ __device__ void iterate_summed(const ModelView<Real>& model, Block& block) {
         const Vec3<Real> moved = x + scale * correction.sum;
         block.position()[s] = quad(solve_planes(model, block, s, moved), inverse_mass);
     });
+}
+
+/// One constraint iteration. As iterate_summed in step.h. Ends with a barrier.
+template <class Real, class Block>
+__device__ void iterate_summed(const ModelView<Real>& model, Block& block) {
+    compute_density(model, block, Real(0));
+    block.book(Stage::density);
+    apply_corrections(model, block);
     __syncthreads();
     block.book(Stage::corrections);
 }
 
-/// As cpu/flex/velocities.cpp. True if all that this thread wrote is finite.
+/// What slot s moved by per second.
+template <class Real, class Block>
+__device__ Vec3<Real> moved_per_second(const Block& block, int s) {
+    return 1 / block.h * (xyz(block.position()[s]) - xyz(block.start()[s]));
+}
+
+/// The velocity that slot s leaves the substep with; for viscosity `next` holds what the fluid moved by per second. As
+/// cpu/flex/velocities.cpp.
+template <class Real, class Block>
+__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Block& block, int s) {
+    const Vec3<Real> x = xyz(block.position()[s]), u = moved_per_second<Real>(block, s);
+    Vec3<Real> v = u;
+    if (model.plan.viscosity && s < model.fluid) {
+        Vec3<Real> sum{0, 0, 0};
+        for_each_neighbour(model, block, s, [&](int other) {
+            const Real t = max(1 - separation(x, xyz(block.position()[other])).r * model.inverse_radius, Real(0));
+            sum = sum + t * t * (xyz(block.next()[other]) - u);
+        });
+        v = v + block.h * model.viscosity * model.density_scale * sum;
+    }
+    if (model.plan.damping) v = v - block.h * model.damping * u;
+    const Vec3<Real> predicted = xyz(block.drift()[s]);
+    if (model.plan.clamp_acceleration) v = predicted + clamped(v - predicted, model.max_acceleration * block.h);
+    if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
+    if (model.plan.dissipation) v = kept_by_dissipation(model, block, s) * v;
+    if (model.plan.restitution) v = rebound(model, block, s, x, predicted, v);
+    return v;
+}
+
+/// True if all that this thread wrote is finite.
 template <class Real, class Block>
 __device__ bool update_velocities(const ModelView<Real>& model, Block& block) {
-    const Real inverse_h = 1 / block.h;
     if (model.plan.viscosity) {
         for (int s = threadIdx.x; s < model.fluid; s += threads)
-            block.next()[s] = quad(inverse_h * (xyz(block.position()[s]) - xyz(block.start()[s])), Real(0));
+            block.next()[s] = quad(moved_per_second<Real>(block, s), Real(0));
         __syncthreads();
     }
     bool finite = true;
@@ -236,25 +269,9 @@ __device__ bool update_velocities(const ModelView<Real>& model, Block& block) {
         const int s = unit * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
         const Quad<Real> here = block.position()[s];
-        const Vec3<Real> x = xyz(here);
-        const Vec3<Real> u = inverse_h * (x - xyz(block.start()[s]));
-        Vec3<Real> v = u;
-        if (model.plan.viscosity && s < model.fluid) {
-            Vec3<Real> sum{0, 0, 0};
-            for_each_neighbour(model, block, s, [&](int other) {
-                const Real t = max(1 - separation(x, xyz(block.position()[other])).r * model.inverse_radius, Real(0));
-                sum = sum + t * t * (xyz(block.next()[other]) - u);
-            });
-            v = v + block.h * model.viscosity * model.density_scale * sum;
-        }
-        if (model.plan.damping) v = v - block.h * model.damping * u;
-        const Vec3<Real> predicted = xyz(block.drift()[s]);
-        if (model.plan.clamp_acceleration) v = predicted + clamped(v - predicted, model.max_acceleration * block.h);
-        if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
-        if (model.plan.dissipation) v = kept_by_dissipation(model, block, s) * v;
-        if (model.plan.restitution) v = rebound(model, block, s, x, predicted, v);
-        finite &= isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
-        block.next_velocity()[s] = quad(here.w > 0 ? v : predicted, Real(0));
+        const Vec3<Real> v = new_velocity(model, block, s);
+        finite &= isfinite(here.x + here.y + here.z) && isfinite(v.x + v.y + v.z);
+        block.next_velocity()[s] = quad(here.w > 0 ? v : xyz(block.drift()[s]), Real(0));
     });
     return finite;
 }

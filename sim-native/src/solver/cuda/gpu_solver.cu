@@ -1,6 +1,8 @@
 #include "solver/gpu_solver.h"
 
 #include "batch_runner.h"
+#include "large/evaluate_large.h"
+#include "large/large_runner.h"
 #include "natator/batch.h"
 
 namespace natator {
@@ -47,10 +49,64 @@ private:
 template <class Real>
 class GpuSolver<Real>::Implementation {
 public:
-    explicit Implementation(const Model& model) : model_(model), runner_(model), states_(runner_.model(), 1) {}
+    explicit Implementation(const Model& model) : model_(model) {}
+    virtual ~Implementation() = default;
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
                                       const Gait* gait) {
+        std::optional<cuda::TraceBuffers<Real>> trace;
+        if (observer) trace.emplace(device_model().view(), substeps);
+        const double start = state.time;
+        const cuda::Progress progress =
+            run(state, time_step, substeps, gait, trace ? trace->view() : cuda::Trace<Real>{});
+        if (progress.stopped >= 0) {
+            state.time = progress.bad_time;
+            const int bad =
+                progress.bad_particle < model_.particles() ? device_model().particle_of()[progress.bad_particle] : 0;
+            return cuda::located(model_, state, gait, time_step, substeps, start, {bad, "velocities", state.time});
+        }
+        state.time = start + time_step;
+        if (observer) trace->tell(device_model(), *observer);
+        return std::nullopt;
+    }
+
+    std::vector<Real> densities() const {
+        std::vector<Real> densities(model_.particles(), Real(0));
+        for (std::size_t k = 0; k < densities_.size(); ++k) {
+            const int i = device_model().particle_of()[k];
+            if (model_.inverse_mass[i] > 0) densities[i] = densities_[k];
+        }
+        return densities;
+    }
+
+    std::vector<int> neighbour_counts() const {
+        std::vector<int> counts(model_.particles(), 0);
+        for (std::size_t k = 0; k < neighbours_.size(); ++k) counts[device_model().particle_of()[k]] = neighbours_[k];
+        return counts;
+    }
+
+    const Model& model() const { return model_; }
+
+protected:
+    virtual const cuda::DeviceModel<Real>& device_model() const = 0;
+    /// One update of `state`, and of what is kept of it by device number; its time stays.
+    virtual cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
+                               const cuda::Trace<Real>& trace) = 0;
+
+    const Model& model_;
+    std::vector<Real> densities_;
+    std::vector<int> neighbours_;
+};
+
+template <class Real>
+class GpuSolver<Real>::ByBlock : public Implementation {
+public:
+    explicit ByBlock(const Model& model) : Implementation(model), runner_(model), states_(runner_.model(), 1) {}
+
+private:
+    const cuda::DeviceModel<Real>& device_model() const override { return runner_.model(); }
+    cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
+                       const cuda::Trace<Real>& trace) override {
         const cuda::ModelView<Real>& view = runner_.model().view();
         states_.upload({state});
         const auto row = [](double value) { return std::vector<double>{value}; };
@@ -66,56 +122,59 @@ public:
         cuda::DeviceBuffer<int> neighbours(view.particles);
         batch.density = density.data();
         batch.neighbours = neighbours.data();
-        std::optional<cuda::TraceBuffers<Real>> trace;
-        if (observer) batch.trace = trace.emplace(view, substeps).view();
+        batch.trace = trace;
         runner_.run(batch, {cuda::Progress{}});
-
-        const cuda::Progress progress = runner_.progress().front();
-        const double start = state.time;
         state = typename cuda::DeviceStates<Real>::Copy(states_).state(0, state);
-        if (progress.stopped >= 0) {
-            state.time = progress.bad_time;
-            const auto& particle_of = runner_.model().particle_of();
-            const int bad = progress.bad_particle < view.particles ? particle_of[progress.bad_particle] : 0;
-            return cuda::located(model_, state, gait, time_step, substeps, start, {bad, "velocities", state.time});
-        }
-        state.time = start + time_step;
-        densities_ = density.download();
-        neighbours_ = neighbours.download();
-        if (observer) trace->tell(runner_.model(), *observer);
-        return std::nullopt;
+        this->densities_ = density.download();
+        this->neighbours_ = neighbours.download();
+        return runner_.progress().front();
     }
 
-    std::vector<Real> densities() const {
-        std::vector<Real> densities(model_.particles(), Real(0));
-        for (std::size_t k = 0; k < densities_.size(); ++k) {
-            const int i = runner_.model().particle_of()[k];
-            if (model_.inverse_mass[i] > 0) densities[i] = densities_[k];
-        }
-        return densities;
-    }
-
-    std::vector<int> neighbour_counts() const {
-        std::vector<int> counts(model_.particles(), 0);
-        for (std::size_t k = 0; k < neighbours_.size(); ++k) counts[runner_.model().particle_of()[k]] = neighbours_[k];
-        return counts;
-    }
-
-    const Model& model() const { return model_; }
-
-private:
-    const Model& model_;
     cuda::BatchRunner<Real> runner_;
     cuda::DeviceStates<Real> states_;
-    std::vector<Real> densities_;  ///< of the last update, by device number
-    std::vector<int> neighbours_;
 };
 
 template <class Real>
-GpuSolver<Real>::GpuSolver(const Model& model, int device) {
+class GpuSolver<Real>::ByWholeGpu : public Implementation {
+public:
+    ByWholeGpu(const Model& model, cuda::ContactRoom room) : Implementation(model), runner_(model, room) {}
+
+private:
+    const cuda::DeviceModel<Real>& device_model() const override { return runner_.model(); }
+    cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
+                       const cuda::Trace<Real>& trace) override {
+        runner_.upload(state);
+        const auto end = runner_.run({state.time, time_step, substeps, gait, false}, nullptr, trace);
+        state = runner_.download(state);
+        cuda::Progress progress;
+        if (!end.finite) {
+            progress.stopped = static_cast<int>(Stopped::unstable);
+            progress.bad_particle = end.bad_particle;
+            progress.bad_time = state.time + end.bad_substep * time_step / substeps;
+            return progress;
+        }
+        this->densities_ = runner_.densities();
+        this->neighbours_ = runner_.neighbour_counts();
+        return progress;
+    }
+
+    cuda::LargeRunner<Real> runner_;
+};
+
+template <class Real>
+GpuSolver<Real>::GpuSolver(const Model& model, int device, GpuPath path) {
     cuda::choose_device(device);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
-    implementation_ = std::make_unique<Implementation>(model);
+    if (path == GpuPath::by_size)
+        path = model.particles() > cuda::most_particles_of_a_block ? GpuPath::whole_gpu : GpuPath::block;
+    if (path == GpuPath::block && model.particles() > 65535)
+        throw InputError("backend cuda: " + std::to_string(model.particles()) +
+                         " particles in one block; must be at most 65535");
+    if (path == GpuPath::block)
+        implementation_ = std::make_unique<ByBlock>(model);
+    else
+        implementation_ = std::make_unique<ByWholeGpu>(
+            model, path == GpuPath::whole_gpu ? cuda::LargeRunner<Real>::usual_room : cuda::ContactRoom{0, 0});
 }
 template <class Real>
 GpuSolver<Real>::~GpuSolver() = default;

@@ -10,8 +10,15 @@ __device__ bool needs_cells(const ModelView<Real>& model) {
     return model.plan.fluid || model.plan.contacts;
 }
 
-/// v* = v + h g, |v*| <= maxSpeed, x* = x + h v*; counts the particles of each cell, the fluid's first. As
-/// cpu/predict.cpp. Ends with a barrier.
+/// v* = v + h g, |v*| <= maxSpeed. As cpu/predict.cpp.
+template <class Real>
+__device__ Vec3<Real> drift_velocity(const ModelView<Real>& model, Vec3<Real> v, Real inverse_mass, bool fluid,
+                                     Real h) {
+    if (inverse_mass > 0) v = v + h * (fluid ? model.fluid_gravity : model.gravity);
+    return model.plan.clamp_speed ? clamped(v, model.max_speed) : v;
+}
+
+/// v*, x* = x + h v*; counts the particles of each cell, the fluid's first. Ends with a barrier.
 template <Scheme scheme, class Real, class Block>
 __device__ void predict(const ModelView<Real>& model, Block& block) {
     std::uint32_t* const table = block.table();
@@ -20,14 +27,12 @@ __device__ void predict(const ModelView<Real>& model, Block& block) {
     for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit_before()[k] = block.fit()[k];
     for (int s = threadIdx.x; s < model.particles; s += threads) {
         Quad<Real> x = block.position()[s];
-        Vec3<Real> v = xyz(block.velocity[s]);
         const Real inverse_mass = x.w;
-        if (inverse_mass > 0) v = v + block.h * (s < model.fluid ? model.fluid_gravity : model.gravity);
         if (scheme == Scheme::conserving && inverse_mass > 0) {
             x = quad(put_before_planes(model, xyz(x)), x.w);
             block.position()[s] = x;
         }
-        if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
+        const Vec3<Real> v = drift_velocity(model, xyz(block.velocity[s]), inverse_mass, s < model.fluid, block.h);
         const Vec3<Real> there = xyz(x) + block.h * v;
         block.predicted()[s] = quad(there, as_number<Real>(block.number()[s]));
         block.drift_before()[s] = quad(v, inverse_mass);

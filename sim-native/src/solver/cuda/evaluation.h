@@ -1,0 +1,38 @@
+#pragma once
+
+#include "batch_runner.h"
+#include "evaluate/law_figures.h"
+#include "natator/measure.h"
+
+namespace natator::cuda {
+
+/// What a member's run has come to. `gait` is null for a State that became unstable while it settled; `path` has the
+/// body's mean x by frame, `densities` the fluid's by device number.
+template <class Real>
+Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vector<int>& particle_of,
+                         const Progress& progress, const Gait* gait, const double* path, const State<Real>& end,
+                         const std::vector<Real>& densities) {
+    Evaluation evaluation;
+    evaluation.frames = progress.frames;
+    evaluation.simulated = progress.frames * scene.time_step;
+    evaluation.distance = progress.frames > 0 ? path[progress.frames] - path[0] : 0;
+    evaluation.hash = state_hash(end);
+    if (progress.stopped >= 0) evaluation.stopped = static_cast<Stopped>(progress.stopped);
+    if (evaluation.stopped == Stopped::unstable) {
+        State<Real> before = end;
+        before.time = progress.bad_time;
+        const int bad = progress.bad_particle < model.particles() ? particle_of[progress.bad_particle] : 0;
+        const double step = gait ? scene.time_step : scene.settling.time_step;
+        const int substeps = gait ? scene.solver.substeps : scene.settling.substeps;
+        evaluation.instability =
+            located(model, before, gait, step, substeps, evaluation.simulated, {bad, "velocities", progress.bad_time});
+        return evaluation;
+    }
+    std::vector<Real> density(model.particles(), Real(0));
+    for (std::size_t number = 0; number < densities.size(); ++number)
+        if (model.inverse_mass[particle_of[number]] > 0) density[particle_of[number]] = densities[number];
+    evaluation.laws = law_figures(model, end, density);
+    return evaluation;
+}
+
+}  // namespace natator::cuda

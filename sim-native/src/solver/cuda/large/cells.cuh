@@ -1,0 +1,76 @@
+#pragma once
+
+#include "slots.cuh"
+
+namespace natator::cuda {
+
+__device__ inline int own_index() {
+    return static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+}
+
+/// v* = v + h g, |v*| <= maxSpeed, x* = x + h v*; counts the particles of each cell, the fluid's first.
+template <Scheme scheme, class Real>
+__global__ void __launch_bounds__(large_threads)
+    predict_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    Quad<Real> x = slots.at.state_position[s];
+    const Quad<Real> before = slots.at.state_velocity[s];
+    const bool fluid = number_in(before.w) < model.fluid;
+    if (scheme == Scheme::conserving && x.w > 0) {
+        x = quad(put_before_planes(model, xyz(x)), x.w);
+        slots.at.state_position[s] = x;
+    }
+    const Vec3<Real> v = drift_velocity(model, xyz(before), x.w, fluid, slots.h);
+    const Vec3<Real> there = xyz(x) + slots.h * v;
+    const int cell = model.grid.cell(there) + (fluid ? 0 : model.grid.cells);
+    slots.at.predicted[s] = quad(there, x.w);
+    slots.at.drift_before[s] = quad(v, before.w);
+    slots.at.cell[s] = cell;
+    atomicAdd(slots.at.table + cell, 1);
+}
+
+/// Puts the particles of each cell together, in no order. Turns the cells' begins in the table into their ends.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    scatter_into_cells(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const auto number = static_cast<std::uint64_t>(number_in(slots.at.drift_before[s].w));
+    slots.at.keys[atomicAdd(slots.at.table + slots.at.cell[s], 1)] = number << 32 | static_cast<unsigned>(s);
+}
+
+/// Numbers the slots anew: a particle's slot is its rank in its cell by number, so that the order depends on positions
+/// alone.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    order_in_cells(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int k = own_index();
+    if (k >= model.particles || slots.failed()) return;
+    const SlotArrays<Real>& at = slots.at;
+    const std::uint64_t key = at.keys[k];
+    const int before = static_cast<int>(key & 0xffffffffu), number = static_cast<int>(key >> 32);
+    const int cell = at.cell[before];
+    const int begin = cell > 0 ? at.table[cell - 1] : 0, end = at.table[cell];
+    int s = begin;
+    for (int other = begin; other < end; ++other) s += at.keys[other] < key;
+    const Quad<Real> there = at.predicted[before];
+    at.start[s] = at.state_position[before];
+    at.drift[s] = quad(xyz(at.drift_before[before]), there.w);
+    at.position[s] = at.base[s] = there;
+    at.number[s] = number;
+    if (s >= model.fluid) at.slot_of_solid[number - model.fluid] = s;
+}
+
+/// One block, which finds the box around the solids.
+template <class Real>
+__global__ void prepare_search(const __grid_constant__ ModelView<Real> model,
+                               const __grid_constant__ Slots<Real> slots) {
+    if (slots.failed()) return;
+    bound_solids(model, slots);
+    if (threadIdx.x > 0) return;
+    LargeShared<Real>& shared = slots.shared();
+    shared.touched = shared.high = shared.overlapping = shared.full = 0;
+}
+
+}  // namespace natator::cuda

@@ -1,0 +1,136 @@
+#include "conserving_kernels.cuh"
+#include "flex_kernels.cuh"
+#include "solver/cuda/measure.cuh"
+#include "substep.cuh"
+
+namespace natator::cuda {
+namespace {
+
+template <class Real>
+__global__ void densities_large(const __grid_constant__ ModelView<Real> model,
+                                const __grid_constant__ Slots<Real> slots, Real* density) {
+    const int s = own_index();
+    if (s >= model.fluid) return;
+    const Vec3<Real> x = xyz(slots.position()[s]);
+    const Real above = model.scheme == Scheme::conserving
+                           ? density_of(model, slots, s, slots.position(), boundary_terms(model, slots, s, x)).above
+                           : compression_of(model, slots, s, x);
+    density[slots.number()[s]] = above + 1;
+}
+
+template <class Real>
+__global__ void neighbour_counts_large(const __grid_constant__ ModelView<Real> model,
+                                       const __grid_constant__ Slots<Real> slots, int* counts) {
+    const int s = own_index();
+    if (s >= model.particles) return;
+    counts[slots.number()[s]] =
+        (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
+}
+
+template <class Real>
+__global__ void measure_large(const __grid_constant__ ModelView<Real> model,
+                              const __grid_constant__ Slots<Real> slots) {
+    measure_path(model, slots, &slots.shared().mean_x);
+    const bool touches = touches_plane(model, slots);
+    if (threadIdx.x == 0) slots.shared().touches = touches;
+}
+
+template <class Real>
+__global__ void rest_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s < model.particles) slots.at.state_velocity[s] = {0, 0, 0, slots.at.state_velocity[s].w};
+}
+
+template <class Real>
+__global__ void far_slot_large(const __grid_constant__ ModelView<Real> model,
+                               const __grid_constant__ Slots<Real> slots) {
+    for (Quad<Real>* const array : {slots.at.state_position, slots.position(), slots.next(), slots.start()})
+        array[model.particles] = far_away<Real>();
+    if (model.scheme == Scheme::conserving) slots.lambda()[model.particles] = 0;
+}
+
+template <class Real>
+__global__ void record_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots,
+                             Quad<Real>* to) {
+    const int s = own_index();
+    if (s < model.particles) to[s] = quad(xyz(slots.position()[s]), as_number<Real>(slots.number()[s]));
+}
+
+/// With the State's positions in place of those of the last iteration: they differ for particles of infinite mass.
+template <class Real>
+Slots<Real> at_the_end(const LargeLaunch<Real>& launch) {
+    Slots<Real> slots = launch.slots;
+    slots.at.position = slots.at.state_position;
+    return slots;
+}
+
+template <class Real>
+int blocks_of(const LargeLaunch<Real>& launch) {
+    return blocks_for(launch.model.particles, large_threads);
+}
+
+}  // namespace
+
+template <class Real>
+void launch_substep(const LargeLaunch<Real>& launch) {
+    if (launch.model.scheme == Scheme::conserving)
+        launch_substep_of<Real, Scheme::conserving>(launch);
+    else
+        launch_substep_of<Real, Scheme::flex>(launch);
+    if (launch.trace.velocity)
+        check(cudaMemcpyAsync(launch.trace.velocity + std::size_t(launch.slots.substep) * launch.model.particles,
+                              launch.slots.at.state_velocity, launch.model.particles * sizeof(Quad<Real>),
+                              cudaMemcpyDeviceToDevice, launch.stream),
+              "copy");
+}
+
+template <class Real>
+void record_positions(const LargeLaunch<Real>& launch, Quad<Real>* to, int row) {
+    if (!to) return;
+    to += static_cast<std::size_t>(row) * launch.model.particles;
+    record_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, launch.slots, to);
+}
+
+template <class Real>
+void launch_densities(const LargeLaunch<Real>& launch, Real* density) {
+    densities_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, at_the_end(launch), density);
+    check(cudaGetLastError(), "launch");
+}
+
+template <class Real>
+void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts) {
+    neighbour_counts_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, launch.slots, counts);
+    check(cudaGetLastError(), "launch");
+}
+
+template <class Real>
+void launch_measure(const LargeLaunch<Real>& launch) {
+    measure_large<<<1, threads, 0, launch.stream>>>(launch.model, at_the_end(launch));
+    check(cudaGetLastError(), "launch");
+}
+
+template <class Real>
+void launch_rest(const LargeLaunch<Real>& launch) {
+    rest_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, launch.slots);
+    check(cudaGetLastError(), "launch");
+}
+
+template <class Real>
+void launch_far_slot(const LargeLaunch<Real>& launch) {
+    far_slot_large<<<1, 1, 0, launch.stream>>>(launch.model, launch.slots);
+    check(cudaGetLastError(), "launch");
+}
+
+#define NATATOR_INSTANTIATE(Real)                                               \
+    template void launch_substep(const LargeLaunch<Real>&);                     \
+    template void record_positions(const LargeLaunch<Real>&, Quad<Real>*, int); \
+    template void launch_densities(const LargeLaunch<Real>&, Real*);            \
+    template void launch_neighbour_counts(const LargeLaunch<Real>&, int*);      \
+    template void launch_measure(const LargeLaunch<Real>&);                     \
+    template void launch_rest(const LargeLaunch<Real>&);                        \
+    template void launch_far_slot(const LargeLaunch<Real>&)
+NATATOR_INSTANTIATE(float);
+NATATOR_INSTANTIATE(double);
+#undef NATATOR_INSTANTIATE
+
+}  // namespace natator::cuda

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include <cstddef>
+
+namespace natator::cuda {
+
+/// Bytes of room that exclusive_scan needs for so many values.
+std::size_t scan_bytes(int count);
+
+/// Replaces values[0..count) by the sums of all before each.
+void exclusive_scan(int* values, int count, void* room, std::size_t bytes, cudaStream_t stream);
+
+}  // namespace natator::cuda

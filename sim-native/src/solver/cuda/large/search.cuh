@@ -1,0 +1,91 @@
+#pragma once
+
+#include "cells.cuh"
+
+namespace natator::cuda {
+
+inline constexpr int search_threads = 128;
+inline constexpr int staged_neighbours = 32;  ///< that a thread has room for on the chip while it searches
+
+/// Lists the fluid neighbours of a fluid slot, without a branch on what is near: entries are written one behind the
+/// other, and the next one over what was not near. What ends the last chunk is the far slot.
+template <class Real>
+__device__ int list_fluid_neighbours(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Vec3<Real>& x,
+                                     int* staging) {
+    uint4* const list = slots.at.neighbour + (static_cast<std::size_t>(s / 32) * slots.chunks * 32 + s % 32);
+    const auto entry = [&](int k) -> unsigned& { return slots.neighbour_entry(s, k); };
+    const int most = model.most_neighbours;
+    int n = 0;
+    const auto take = [&](int other, bool near) {
+        near = near && n < most;
+        staging[min(n, staged_neighbours) * search_threads] = other;
+        if (near && n >= staged_neighbours) entry(n) = static_cast<unsigned>(other);
+        n += near;
+    };
+    if (model.plan.uniform_fluid) {
+        for_each_candidate(model, slots, false, x, take);
+    } else {
+        const int i = slots.number()[s];
+        for_each_candidate(model, slots, false, x, [&](int other, bool near) {
+            take(other, near && collides(model, i, slots.number()[other]));
+        });
+    }
+    for (int k = n; k % 4 != 0; ++k) {
+        if (k < staged_neighbours)
+            staging[k * search_threads] = model.particles;
+        else
+            entry(k) = static_cast<unsigned>(model.particles);
+    }
+    const int in_staging = min((n + 3) / 4 * 4, staged_neighbours);
+    for (int k = 0; k < in_staging; k += 4) {
+        const auto staged = [&](int e) { return static_cast<unsigned>(staging[(k + e) * search_threads]); };
+        list[k / 4 * 32] = {staged(0), staged(1), staged(2), staged(3)};
+    }
+    return n;
+}
+
+/// Lists the contacts of a slot as far as there is room; returns how many it has.
+template <class Real>
+__device__ int list_contacts(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Vec3<Real>& x) {
+    const bool fluid = s < model.fluid;
+    if (fluid) {
+        const auto& shared = slots.shared();
+        const Real at[3] = {x.x, x.y, x.z};
+        for (int axis = 0; axis < 3; ++axis)
+            if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return 0;
+    }
+    int* const list = fluid ? slots.at.fluid_contact + s : slots.at.solid_contact + (s - model.fluid);
+    const std::size_t stride = fluid ? model.fluid : model.solids;
+    const int room = fluid ? slots.room.fluid : slots.room.solid;
+    return search_contacts(model, slots, s, [&](int k, int other) {
+        if (k < room) list[k * stride] = other;
+    });
+}
+
+/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions. As
+/// cpu/find_fluid_neighbours.cpp and cpu/find_contacts.cpp. The last slots first: solids take longest.
+template <class Real>
+__global__ void __launch_bounds__(search_threads, 12)
+    find_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    __shared__ int staging[(staged_neighbours + 1) * search_threads];
+    const int s = static_cast<int>((gridDim.x - 1 - blockIdx.x) * blockDim.x + threadIdx.x);
+    if (s >= model.particles || slots.failed()) return;
+    const Quad<Real> here = slots.base()[s];
+    const Vec3<Real> x = xyz(here);
+    if (s < model.fluid) {
+        const int n = list_fluid_neighbours(model, slots, s, x, staging + threadIdx.x);
+        slots.neighbour_count()[s] = n;
+        if (n == model.most_neighbours) slots.shared().full = 1;
+    }
+    if (model.plan.contacts) {
+        const int contacts = list_contacts(model, slots, s, x);
+        slots.contact_count()[s] = contacts;
+        if (contacts > 0) slots.touched()[atomicAdd(&slots.shared().touched, 1)] = s;
+    }
+    int planes = 0;
+    for (int k = 0; k < model.planes; ++k)
+        if (dot(model.plane[k].normal, x) + model.plane[k].offset <= model.plane_search_distance) planes |= 1 << k;
+    slots.plane_contact()[s] = here.w > 0 ? planes : 0;
+}
+
+}  // namespace natator::cuda

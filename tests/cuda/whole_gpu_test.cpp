@@ -1,0 +1,172 @@
+// A State computed by the whole GPU: against the CPU, and against itself.
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "../native/bare_particles.h"
+#include "evaluate/settle.h"
+#include "gpu_test.h"
+#include "natator/evaluate.h"
+#include "natator/measure.h"
+#include "natator/model_builder.h"
+#include "natator/momentum.h"
+#include "solver/gpu_solver.h"
+
+namespace natator::test {
+namespace {
+
+/// The thesis' tank, `scale` times as long, high and deep.
+Scene tank(int scale, Scheme scheme) {
+    nlohmann::json overrides = {{"settling", {{"updates", 3}}}};
+    if (scale > 1) {
+        const auto wall = [scale](int count) { return 0.1 + 0.09 * (scale * count - 1); };
+        overrides["fluid"]["count"] = {scale * 50, scale * 7, scale * 17};
+        overrides["planes"] = {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, wall(50)}, {0, 0, -1, wall(17)}};
+    }
+    Scene scene = load_scene("thesis/creature-1", overrides);
+    scene.scheme = scheme;
+    return scene;
+}
+
+template <class Real>
+double largest_distance(const State<Real>& a, const State<Real>& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.position.size(); ++i) {
+        const double distance = (a.position[i] - b.position[i]).norm();
+        if (!(distance <= largest)) largest = distance;  // also for NaN
+    }
+    return largest;
+}
+
+/// One substep and one frame from a settled start.
+template <class Real>
+void expect_agreement(const Scene& scene, double substep_bound, double frame_bound) {
+    const Model model = build_model(scene);
+    const Gait gait = wave(scene);
+    Solver<Real> cpu(model, {.threads = 2});
+    GpuSolver<Real> gpu(model, 0, GpuPath::whole_gpu);
+    State<Real> on_cpu = initial_state<Real>(model);
+    ASSERT_FALSE(settle(scene.settling, cpu, on_cpu));
+    State<Real> on_gpu = on_cpu;
+    const double substep = scene.time_step / scene.solver.substeps;
+    State<Real> cpu_substep = on_cpu, gpu_substep = on_gpu;
+    ASSERT_FALSE(cpu.update(cpu_substep, substep, 1));
+    ASSERT_FALSE(gpu.update(gpu_substep, substep, 1));
+    std::cout << "measured: after a substep " << largest_distance(cpu_substep, gpu_substep);
+    EXPECT_LE(largest_distance(cpu_substep, gpu_substep), substep_bound);
+    EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts());
+    ASSERT_FALSE(cpu.frame(on_cpu, gait));
+    ASSERT_FALSE(gpu.frame(on_gpu, gait));
+    std::cout << ", after a frame " << largest_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_LE(largest_distance(on_cpu, on_gpu), frame_bound);
+    const auto cpu_density = cpu.densities(), gpu_density = gpu.densities();
+    double density_apart = 0;
+    for (std::size_t i = 0; i < cpu_density.size(); ++i)
+        density_apart = std::max(density_apart, std::abs(double(cpu_density[i]) - double(gpu_density[i])));
+    EXPECT_LE(density_apart, 100 * frame_bound);
+}
+
+class WholeGpu : public OnGpu<testing::TestWithParam<Scheme>> {};
+
+TEST_P(WholeGpu, TheThesisTankAgreesWithTheCpu) {
+    expect_agreement<float>(tank(1, GetParam()), 1e-5, 2e-4);
+}
+TEST_P(WholeGpu, TheThesisTankAgreesWithTheCpuInDouble) {
+    expect_agreement<double>(tank(1, GetParam()), 1e-14, 1e-12);
+}
+TEST_P(WholeGpu, EightTimesTheFluidAgreesWithTheCpu) {
+    expect_agreement<float>(tank(2, GetParam()), 1e-5, 2e-4);
+}
+TEST_P(WholeGpu, SixtyFourTimesTheFluidAgreesWithTheCpu) {
+    expect_agreement<float>(tank(4, GetParam()), 1e-5, 2e-4);
+}
+
+/// A member's bits depend on nothing but itself, whatever was computed before it.
+TEST_P(WholeGpu, EveryRunGivesTheSameBits) {
+    Scene scene = tank(2, GetParam());
+    scene.duration = 0.1;
+    const std::vector<BatchMember> members{
+        {wave(scene, 0), {}}, {wave(scene, 1), {1e-6, 1}}, {wave(scene, 0), {}}, {wave(scene, 2), {}}};
+    const std::vector<Evaluation> first = evaluate_on_gpu(scene, members), second = evaluate_on_gpu(scene, members);
+    for (std::size_t k = 0; k < members.size(); ++k) EXPECT_EQ(first[k].hash, second[k].hash) << k;
+    EXPECT_EQ(first[0].hash, first[2].hash);
+    EXPECT_NE(first[0].hash, first[1].hash);
+    EXPECT_NE(first[0].hash, first[3].hash);
+    EXPECT_EQ(first[0].frames, 6);
+    EXPECT_EQ(first[3].hash, evaluate_on_gpu(scene, {members[3]})[0].hash) << "alone";
+}
+
+/// Where lists of contacts overflow they are searched anew: the same contacts in the same order.
+TEST_P(WholeGpu, ContactsWithoutListsAreTheSame) {
+    const Scene scene = tank(1, GetParam());
+    const Model model = build_model(scene);
+    State<double> with = initial_state<double>(model), without = with;
+    GpuSolver<double> lists(model, 0, GpuPath::whole_gpu), search(model, 0, GpuPath::whole_gpu_search);
+    for (int frame = 0; frame < 5; ++frame) {
+        ASSERT_FALSE(lists.frame(with, wave(scene)));
+        ASSERT_FALSE(search.frame(without, wave(scene)));
+    }
+    EXPECT_LE(largest_distance(with, without), 1e-12);
+    EXPECT_EQ(lists.neighbour_counts(), search.neighbour_counts());
+}
+
+/// More neighbours than a list holds, in cells that hold many particles: pairs that both sides keep, so momentum is
+/// kept, and 96 at most.
+TEST_P(WholeGpu, FullListsHoldTheirMostAndKeepMomentum) {
+    Points positions = lattice(12, 12, 12, 0.02);
+    positions.resize(1500);  // not symmetric
+    Model model = bare_model(GetParam(), positions, fluid_phase);
+    model.parameters.maxAcceleration = 100;
+    GpuSolver<double> gpu(model, 0, GpuPath::whole_gpu);
+    State<double> state = initial_state<double>(model);
+    ASSERT_FALSE(gpu.update(state, substep, 1));
+    const std::vector<int> counts = gpu.neighbour_counts();
+    const int largest = *std::max_element(counts.begin(), counts.end());
+    std::cout << "most neighbours " << largest << '\n';
+    EXPECT_GT(largest, 80);
+    if (GetParam() == Scheme::flex) {
+        EXPECT_EQ(largest, model.parameters.maxNeighborsPerParticle);
+        return;
+    }
+    for (int k = 0; k < 20; ++k) ASSERT_FALSE(gpu.update(state, substep, 1));
+    const Momentum now = measure_momentum(model, state);
+    EXPECT_GT(now.linear_size, 0);
+    EXPECT_LE(now.linear, 1e-12 * now.linear_size);
+}
+
+/// A wide, flat block: more particles in a layer of cells than 16 bits number.
+TEST_P(WholeGpu, AFlatBlockAgreesWithTheCpu) {
+    Points positions = lattice(220, 160, 3, 0.09);
+    Model model = bare_model(GetParam(), positions, fluid_phase);
+    Solver<float> cpu(model, {.threads = 2});
+    GpuSolver<float> gpu(model, 0, GpuPath::whole_gpu);
+    State<float> on_cpu = initial_state<float>(model), on_gpu = on_cpu;
+    ASSERT_FALSE(cpu.update(on_cpu, substep, 1));
+    ASSERT_FALSE(gpu.update(on_gpu, substep, 1));
+    EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts());
+    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-5);
+}
+
+/// Undivided relaxation explodes: the particle and the substep are the CPU's, the State is that before it.
+TEST(WholeGpuInstability, IsNamedAsTheCpuNamesIt) {
+    if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
+    Scene scene = tank(2, Scheme::flex);
+    scene.solver.relaxationMode = RelaxationMode::global;
+    scene.solver.relaxationFactor = 1e12;
+    scene.duration = 0.1;
+    const Evaluation cpu = evaluate(scene, wave(scene));
+    ASSERT_EQ(cpu.stopped, Stopped::unstable);
+    for (const Evaluation& gpu : evaluate_on_gpu(scene, {{wave(scene), {}}, {wave(scene), {}}})) {
+        ASSERT_EQ(gpu.stopped, Stopped::unstable);
+        ASSERT_TRUE(gpu.instability);
+        EXPECT_EQ(gpu.instability->stage, cpu.instability->stage);
+        EXPECT_EQ(gpu.instability->particle, cpu.instability->particle);
+        EXPECT_NEAR(gpu.instability->time, cpu.instability->time, 1e-12);
+        EXPECT_EQ(gpu.frames, cpu.frames);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, WholeGpu, testing::Values(Scheme::flex, Scheme::conserving),
+                         [](const auto& test) { return name_of(test.param); });
+
+}  // namespace
+}  // namespace natator::test
