@@ -50,14 +50,15 @@ struct Measured {
     std::string hash;
 };
 
-Measured measure(const Scene& scene, const std::vector<BatchMember>& members, Precision precision, int device,
-                 int repeats) {
+Measured measure(const GpuSpeedStudy& study, const Scene& scene, const std::vector<BatchMember>& members,
+                 Precision precision) {
     using Clock = std::chrono::steady_clock;
     Measured least;
-    for (int k = 0; k < repeats; ++k) {
+    for (int k = 0; k < study.repeats; ++k) {
         BatchTimes times;
         const auto start = Clock::now();
-        const std::vector<Evaluation> evaluations = evaluate_on_gpu(scene, members, precision, device, &times);
+        const std::vector<Evaluation> evaluations =
+            evaluate_on_gpu(scene, members, precision, study.device, &times, study.whole_gpu);
         least.whole = std::min(least.whole, std::chrono::duration<double>(Clock::now() - start).count());
         least.device.kernel = std::min(least.device.kernel, times.kernel);
         least.device.settling = std::max(least.device.settling, times.settling);
@@ -119,7 +120,7 @@ Row gpu_speed_profile_columns() {
 
 void run_gpu_speed_study(const GpuSpeedStudy& study, ResultTable& table, ResultTable& profile,
                          const std::function<void(const std::string&)>& report) {
-    const std::string device = device_text(study.device);
+    const std::string device = device_text(study.device) + (study.whole_gpu ? "; whole" : "");
     for (const std::string& name : study.scenes)
         for (const Scheme scheme : study.schemes) {
             Scene scene = speed_scene(name, study.quick);
@@ -133,12 +134,12 @@ void run_gpu_speed_study(const GpuSpeedStudy& study, ResultTable& table, ResultT
                     const Row key{name, to_string(scheme), to_string(precision), std::to_string(batch), device};
                     if (table.has(key)) continue;
                     const std::vector<BatchMember> members = members_of(scene, batch);
-                    const Measured measured = measure(scene, members, precision, study.device, study.repeats);
+                    const Measured measured = measure(study, scene, members, precision);
                     table.add(joined_rows(key, figures(scene, members.size(), study.repeats, measured)));
                     report(joined(table.rows().back(), " "));
                     StageProfile stages;
                     BatchTimes times{.profile = &stages};
-                    evaluate_on_gpu(scene, members, precision, study.device, &times);
+                    evaluate_on_gpu(scene, members, precision, study.device, &times, study.whole_gpu);
                     for (const StageProfile::Entry& entry : stages.entries())
                         profile.add(joined_rows(key, {entry.stage, measured_text(entry.seconds),
                                                       measured_text(entry.seconds / stages.seconds())}));

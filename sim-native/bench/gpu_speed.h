@@ -17,7 +17,8 @@ struct GpuSpeedStudy {
     std::vector<int> batches{1, 150};  ///< evaluations per launch
     int device = 0;
     int repeats = 3;
-    bool quick = false;  ///< a few frames of each scene
+    bool quick = false;      ///< a few frames of each scene
+    bool whole_gpu = false;  ///< for each evaluation, however small; the device's name says so
 };
 
 /// Columns scene, scheme, precision, evaluations, device (these are the key); particles, fluid_particles, substeps and

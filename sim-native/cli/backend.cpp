@@ -15,6 +15,10 @@ void add_backend_options(CLI::App* command, BackendChoice& choice) {
     command->add_option("--device", choice.device, "Number of the GPU, see natator-sim info.")
         ->check(CLI::Range(0, 1023))
         ->capture_default_str();
+    command->add_flag(
+        "--whole-gpu", choice.whole_gpu,
+        "Use the whole GPU for one scene at a time, however small: faster for a single evaluation, slower "
+        "for many, with bits of its own.");
 }
 
 bool on_gpu(const BackendChoice& choice, const Scene& scene) {

@@ -11,9 +11,10 @@ namespace natator::cli {
 struct BackendChoice {
     std::string name = "cpu";  ///< cpu, cuda or auto
     int device = 0;            ///< number of the GPU
+    bool whole_gpu = false;    ///< also for scenes that a block can do
 };
 
-/// Adds --backend and --device.
+/// Adds --backend, --device and --whole-gpu.
 void add_backend_options(CLI::App* command, BackendChoice& choice);
 
 /// True if the scene is to be computed on the GPU. `auto` takes the GPU where there is one that does the whole scene,

@@ -3,6 +3,7 @@
 #include <memory>
 #include <sstream>
 
+#include "backend.h"
 #include "commands.h"
 #include "ensemble.h"
 #include "gpu_speed.h"
@@ -246,19 +247,14 @@ void add_speed(CLI::App* bench, int& status) {
         Common common;
         std::vector<std::string> scenes = speed_scene_names();
         std::vector<int> threads{1};
-        std::string backend = "cpu";
+        BackendChoice backend;
         std::vector<int> batches{1, 150};
-        int repeats = 3, device = 0;
+        int repeats = 3;
     };
     const auto options = std::make_shared<Options>();
     CLI::App* command = bench->add_subcommand(
         "speed", "Run time of whole evaluations, with a state hash, peak memory and the share of every stage.");
-    command->add_option("--backend", options->backend, "cpu, or cuda (a GPU): batches of evaluations.")
-        ->check(CLI::IsMember({"cpu", "cuda"}))
-        ->capture_default_str();
-    command->add_option("--device", options->device, "Number of the GPU, see natator-sim info.")
-        ->check(CLI::Range(0, 1023))
-        ->capture_default_str();
+    add_backend_options(command, options->backend);
     command->add_option("--batch", options->batches, "Evaluations at a time on the GPU.")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
@@ -274,10 +270,10 @@ void add_speed(CLI::App* bench, int& status) {
         ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
-        if (options->backend == "cuda") {
-            const GpuSpeedStudy study{options->scenes,  common.chosen_schemes(), common.chosen_precisions(),
-                                      options->batches, options->device,         options->repeats,
-                                      common.quick};
+        if (on_gpu(options->backend, {})) {
+            const GpuSpeedStudy study{options->scenes,  common.chosen_schemes(),   common.chosen_precisions(),
+                                      options->batches, options->backend.device,   options->repeats,
+                                      common.quick,     options->backend.whole_gpu};
             ResultTable table(common.output, gpu_speed_columns(), gpu_speed_key_columns);
             ResultTable profile(common.output.empty() ? "" : path_beside(common.output, "profile"),
                                 gpu_speed_profile_columns(), gpu_speed_key_columns + 1);

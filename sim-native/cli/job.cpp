@@ -45,7 +45,8 @@ Evaluation evaluate_job(const Job& job, const Execution& execution) {
     const Request& request = job.request;
     if (!on_gpu(job.backend, job.scene))
         return evaluate(job.scene, job.gait, request.precision, request.perturbation, {}, execution);
-    return evaluate_on_gpu(job.scene, {{job.gait, request.perturbation}}, request.precision, job.backend.device)
+    return evaluate_on_gpu(job.scene, {{job.gait, request.perturbation}}, request.precision, job.backend.device,
+                           nullptr, job.backend.whole_gpu)
         .front();
 }
 

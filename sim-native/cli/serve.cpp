@@ -54,8 +54,8 @@ void evaluate_group(const std::vector<SharedJob>& group) {
     for (const auto& [job, ids] : group) members.push_back({job.gait, job.request.perturbation});
     try {
         const Job& first = group.front().job;
-        const std::vector<Evaluation> evaluations =
-            evaluate_on_gpu(first.scene, members, first.request.precision, first.backend.device);
+        const std::vector<Evaluation> evaluations = evaluate_on_gpu(
+            first.scene, members, first.request.precision, first.backend.device, nullptr, first.backend.whole_gpu);
         for (std::size_t k = 0; k < group.size(); ++k) answer(group[k], evaluations[k]);
     } catch (const InputError& error) {
         if (group.size() == 1) return answer(group.front(), error.what());

@@ -87,6 +87,8 @@ $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
 rm -f "$output"/gpu-speed.csv "$output"/gpu-speed-profile.csv
 (( ${#scenes[@]} > 0 )) || scenes=(--scene creature-1 creature-4 vacuum fluid-x8)
 check bench-speed "$simulator" bench speed --backend cuda "${scenes[@]}" --output "$output/gpu-speed.csv"
+check bench-single-scene "$simulator" bench speed --backend cuda --whole-gpu --scene creature-1 --batch 1 \
+    --output "$output/gpu-speed.csv"
 check bench-large-scene "$simulator" bench speed --backend cuda --scene fluid-x64 --batch 1 --output "$output/gpu-speed.csv"
 
 # 150 requests in a stream, as a generation asks them: process, reading, settling and answers included.

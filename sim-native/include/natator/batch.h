@@ -37,12 +37,13 @@ struct BatchTimes {
 };
 
 /// Evaluates gaits in one scene on a GPU, all at once, or one after another, each by the whole GPU, in scenes of more
-/// than 20 000 particles; member k of the result belongs to member k. The result of a member is the same, bit by bit,
+/// than 20 000 particles and with `whole_gpu`, which is the faster way to a single evaluation and has bits of its own;
+/// member k of the result belongs to member k. The result of a member is the same, bit by bit,
 /// whatever the others and their number. A batch that does not fit into the device's memory is computed in parts. Of an
 /// unstable member the CPU does the last substep again, to name its stage. Throws InputError when a gait does not fit
 /// the scene or the scene needs what the GPU's stages do not do, NoDevice without that GPU.
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
                                         Precision precision = Precision::single_precision, int device = 0,
-                                        BatchTimes* times = nullptr);
+                                        BatchTimes* times = nullptr, bool whole_gpu = false);
 
 }  // namespace natator

@@ -20,7 +20,8 @@ std::optional<std::string> gpu_refusal(const Scene&) {
     return "built without CUDA";
 }
 
-std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMember>&, Precision, int, BatchTimes*) {
+std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMember>&, Precision, int, BatchTimes*,
+                                        bool) {
     refuse();
 }
 

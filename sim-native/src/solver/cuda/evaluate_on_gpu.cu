@@ -182,13 +182,13 @@ std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<
 }  // namespace cuda
 
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
-                                        Precision precision, int device, BatchTimes* times) {
+                                        Precision precision, int device, BatchTimes* times, bool whole_gpu) {
     for (const BatchMember& member : members) check_gait(member.gait, scene.creature ? scene.creature->actuators() : 0);
     cuda::choose_device(device);
     if (members.empty()) return {};
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
-    if (model.particles() > cuda::most_particles_of_a_block)
+    if (whole_gpu || model.particles() > cuda::most_particles_of_a_block)
         return precision == Precision::double_precision ? cuda::evaluate_large<double>(scene, model, members, times)
                                                         : cuda::evaluate_large<float>(scene, model, members, times);
     if (precision == Precision::double_precision) {
