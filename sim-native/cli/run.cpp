@@ -5,9 +5,11 @@
 
 #include "commands.h"
 #include "job.h"
+#include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/protocol.h"
 #include "natator/scene_json.h"
+#include "natator/snapshot.h"
 #include "natator/strict_json.h"
 #include "natator/trajectory.h"
 
@@ -17,9 +19,10 @@ namespace {
 using nlohmann::json;
 
 struct Options {
-    std::string scene, gait, overrides, trajectory, scheme;
+    std::string scene, gait, overrides, trajectory, snapshot, scheme;
     std::string precision = "float";
-    std::optional<double> duration;
+    std::optional<double> duration, snapshot_at;
+    Perturbation perturbation;
     bool particles = false;
     ExecutionOptions execution;
 };
@@ -88,12 +91,32 @@ int run_scene(Options& options) {
         on_frame = [&trajectory](double time, const auto& positions) { trajectory->add_frame(time, positions); };
     }
 
+    bool snapshot_taken = false;
+    SnapshotOrder snapshot;
+    if (!options.snapshot.empty()) {
+        snapshot.at = options.snapshot_at.value_or(scene.duration);
+        if (snapshot.at > scene.duration) {
+            throw InputError("--at " + json(snapshot.at).dump() + ": must be at most the duration, " +
+                             json(scene.duration).dump() + " s");
+        }
+        snapshot.take = [&](const Model& model, const Snapshot& taken) {
+            write_snapshot(options.snapshot, model, taken);
+            snapshot_taken = true;
+        };
+    }
+
     const auto start = std::chrono::steady_clock::now();
-    const Evaluation result = evaluate(scene, gait, precision, {}, on_frame, options.execution.execution());
+    const Evaluation result =
+        evaluate(scene, gait, precision, options.perturbation, on_frame, options.execution.execution(), snapshot);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));
-    return result.instability ? unstable : ok;
+    if (result.instability) return unstable;
+    if (snapshot.take && !snapshot_taken) {
+        throw std::runtime_error("no snapshot: the run ended at " + json(result.simulated).dump() + " s, before --at " +
+                                 json(snapshot.at).dump());
+    }
+    return ok;
 }
 
 }  // namespace
@@ -118,6 +141,18 @@ void add_run(CLI::App& app, int& status) {
         ->add_flag("--particles", options->particles,
                    "In the trajectory, every body particle instead of slice centres.")
         ->needs(trajectory);
+    auto* snapshot = command->add_option(
+        "--snapshot", options->snapshot,
+        "CSV file for all particles at one time: time,kind,mass,x,y,z,vx,vy,vz,density (fluid too).");
+    command->add_option("--at", options->snapshot_at, "Time of the snapshot, s. Default: the end.")
+        ->needs(snapshot)
+        ->check(CLI::NonNegativeNumber);
+    command
+        ->add_option("--perturbation", options->perturbation.amplitude,
+                     "Random shift of all starting positions, at most this along each axis.")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--perturbation-seed", options->perturbation.seed, "The same seed gives the same shifts.")
+        ->capture_default_str();
     add_execution_options(command, options->execution);
     command->callback([options, &status] { status = run_scene(*options); });
 }

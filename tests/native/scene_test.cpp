@@ -49,7 +49,8 @@ TEST(SceneTest, AllNamedScenesAreThere) {
         "bench/dam-break",          "bench/pool",               "bench/small-tank",
         "thesis/creature-1",        "thesis/creature-1-vacuum", "thesis/creature-2",
         "thesis/creature-2-vacuum", "thesis/creature-3",        "thesis/creature-3-vacuum",
-        "thesis/creature-4",        "thesis/creature-4-vacuum", "thesis/tank"};
+        "thesis/creature-4",        "thesis/creature-4-vacuum", "thesis/tank",
+        "thesis/two-clusters",      "thesis/two-clusters-vacuum"};
     EXPECT_EQ(scene_names(), expected);
 }
 

@@ -7,6 +7,7 @@
 
 #include "natator/gait.h"
 #include "natator/scene.h"
+#include "natator/snapshot.h"
 #include "natator/solver.h"
 #include "natator/start_cache.h"
 
@@ -48,6 +49,6 @@ using FrameObserver = std::function<void(double time, const std::vector<Eigen::V
 /// Throws InputError when the gait does not fit the scene.
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision = Precision::single_precision,
                     const Perturbation& perturbation = {}, const FrameObserver& on_frame = {},
-                    const Execution& execution = {});
+                    const Execution& execution = {}, const SnapshotOrder& snapshot = {});
 
 }  // namespace natator

@@ -39,6 +39,7 @@ struct Creature {
     std::string description;
     std::vector<Slice> slices;
     std::vector<int> joints;           ///< indices of the slices shared by neighbouring clusters, ascending
+    std::vector<int> muscle_slices;    ///< slices that muscles run between, ascending; empty = the joints (thesis 2.4)
     double spacing = 0.075;            ///< distance of neighbouring particles at rest, length
     double cluster_stiffness = 0.2;    ///< shape-matching stiffness of every cluster, [0, 1]
     double particle_mass = 1.0;        ///< m_s
@@ -46,7 +47,8 @@ struct Creature {
     int springs_per_particle = 4;      ///< springs that each connected particle gives (thesis 2.4)
     Eigen::Vector3d rear_centre{0.45, 0.6, 0.6};  ///< start of the centre of the last slice
 
-    int actuators() const { return joints.empty() ? 0 : static_cast<int>(joints.size()) - 1; }
+    const std::vector<int>& muscle_ends() const { return muscle_slices.empty() ? joints : muscle_slices; }
+    int actuators() const { return muscle_ends().empty() ? 0 : static_cast<int>(muscle_ends().size()) - 1; }
 };
 
 /// Brings the initial block to rest before time 0 (thesis 2.3): short updates, velocities zeroed after each.

@@ -27,6 +27,16 @@ void observe(const Body& body, const State<Real>& state, const FrameObserver& on
     on_frame(state.time, positions);
 }
 
+template <class Real>
+Snapshot snapshot_of(const State<Real>& state, const std::vector<Real>& densities) {
+    Snapshot snapshot;
+    snapshot.time = state.time;
+    for (const auto& position : state.position) snapshot.position.push_back(position.template cast<double>());
+    for (const auto& velocity : state.velocity) snapshot.velocity.push_back(velocity.template cast<double>());
+    snapshot.density.assign(densities.begin(), densities.end());
+    return snapshot;
+}
+
 /// The start of the scene at rest: from the cache if it is there, else settled and kept there.
 template <class Real>
 State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver, const StartCache* starts,
@@ -43,7 +53,7 @@ State<Real> settled_start(const Model& model, const Settling& settling, Solver<R
 /// Runs frame by frame to the duration or an early stop.
 template <class Real>
 Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const FrameObserver& on_frame,
-                       const Execution& execution) {
+                       const Execution& execution, const SnapshotOrder& order) {
     const bool swims = !model.body.particles.empty();
     const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
     const double window = swims ? std::round(scene.stopping.no_progress_after / scene.time_step) : 0;
@@ -55,6 +65,7 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
     State<Real> state = settled_start(model, scene.settling, solver, starts, result.instability);
     observe(model.body, state, on_frame);
 
+    bool snapshot_due = static_cast<bool>(order.take);
     std::vector<double> path{mean_x(model.body, state)};
     while (!result.instability && result.stopped == Stopped::completed && result.frames < frames) {
         result.instability = solver.frame(state, gait);
@@ -62,6 +73,10 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
         state.time = ++result.frames * scene.time_step;  // free of summed rounding
         path.push_back(mean_x(model.body, state));
         observe(model.body, state, on_frame);
+        if (snapshot_due && state.time > order.at - scene.time_step / 1000) {
+            snapshot_due = false;
+            order.take(model, snapshot_of(state, solver.densities()));
+        }
         if (scene.stopping.plane_contact && touches_plane(model, state)) {
             result.stopped = Stopped::touched_plane;
         } else if (without_progress(path, static_cast<std::size_t>(window))) {
@@ -82,14 +97,14 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
 }  // namespace
 
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision, const Perturbation& perturbation,
-                    const FrameObserver& on_frame, const Execution& execution) {
+                    const FrameObserver& on_frame, const Execution& execution, const SnapshotOrder& snapshot) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
     Model model = build_model(scene);
     perturb(perturbation, model);
     Execution own = execution;
     if (perturbation.amplitude != 0) own.starts = nullptr;  // such starts are as many as seeds
-    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame, own)
-                                                    : evaluate_as<float>(scene, model, gait, on_frame, own);
+    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame, own, snapshot)
+                                                    : evaluate_as<float>(scene, model, gait, on_frame, own, snapshot);
 }
 
 }  // namespace natator

@@ -35,9 +35,10 @@ void check_muscles(const Scene& scene, const Model& model) {
     for (const Muscle& muscle : model.muscles) ++count[muscle.actuator];
     for (int i = 0; i < model.actuators; ++i) {
         if (count[i] > 0) continue;
+        const std::vector<int>& ends = scene.creature->muscle_ends();
         std::ostringstream text;
-        text << "creature.joints[" << i << "], [" << i + 1 << "] = " << scene.creature->joints[i] << ", "
-             << scene.creature->joints[i + 1] << ": no muscle fits between these slices (actuator " << i
+        text << (scene.creature->muscle_slices.empty() ? "creature.joints[" : "creature.muscleSlices[") << i << "], ["
+             << i + 1 << "] = " << ends[i] << ", " << ends[i + 1] << ": no muscle fits between these slices (actuator " << i
              << "); both must be at least 2 wide and the slices between them not thinner";
         refuse(scene, text.str());
     }

@@ -94,8 +94,9 @@ double lateral(const Creature& creature, const Place& place) {
 
 void add_muscles(const Creature& creature, const BodyLayout& layout, Model& model) {
     model.actuators = creature.actuators();
+    const std::vector<int>& ends = creature.muscle_ends();
     for (int actuator = 0; actuator < model.actuators; ++actuator) {
-        for (const Pair& pair : pairs_between(creature, creature.joints[actuator], creature.joints[actuator + 1])) {
+        for (const Pair& pair : pairs_between(creature, ends[actuator], ends[actuator + 1])) {
             const int a = layout.index(pair.front.slice, pair.front.iy, pair.front.iz);
             const int b = layout.index(pair.rear.slice, pair.rear.iy, pair.rear.iz);
             const double length = (model.position[a] - model.position[b]).norm();

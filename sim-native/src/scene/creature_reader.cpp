@@ -49,30 +49,36 @@ std::vector<Slice> read_slices(const json& value, const Place& place) {
     return slices;
 }
 
-/// Joints lie inside the body and ascend.
-std::vector<int> read_joints(const json& value, const Place& place, int slices) {
+/// Slices of the body in ascending order, from `first` to `last` at most. `what` says which, for messages.
+std::vector<int> read_ascending(const json& value, const Place& place, int first, int last, const char* what) {
     if (!value.is_array()) refuse(place, value, "an array of slice indices");
-    std::vector<int> joints;
+    std::vector<int> chosen;
     for (std::size_t i = 0; i < value.size(); ++i) {
-        const int lowest = joints.empty() ? 1 : joints.back() + 1;
-        const int highest = slices - 2;
+        const int lowest = chosen.empty() ? first : chosen.back() + 1;
         const Place at = place.item(i);
-        if (lowest > highest) refuse(at, value[i], "left out (no slice before the last is left for it)");
-        const Range range{static_cast<double>(lowest), static_cast<double>(highest), false,
-                          "slice index, ascending, neither first nor last slice"};
-        read(value[i], at, range, joints.emplace_back());
+        if (lowest > last) {
+            refuse(at, value[i],
+                   first > 0 ? "left out (no slice before the last is left for it)" : "left out (no slice is left for it)");
+        }
+        const Range range{static_cast<double>(lowest), static_cast<double>(last), false, what};
+        read(value[i], at, range, chosen.emplace_back());
     }
-    return joints;
+    return chosen;
 }
 
 }  // namespace
 
 Creature read_creature(const json& value, const Place& place) {
     Creature creature;
-    read_object(value, place, creature_fields(), {"slices", "joints"}, creature);
+    read_object(value, place, creature_fields(), {"slices", "joints", "muscleSlices"}, creature);
     creature.slices = read_slices(required(value, place, "slices"), place.key("slices"));
-    creature.joints =
-        read_joints(required(value, place, "joints"), place.key("joints"), static_cast<int>(creature.slices.size()));
+    const auto last = static_cast<int>(creature.slices.size()) - 1;
+    creature.joints = read_ascending(required(value, place, "joints"), place.key("joints"), 1, last - 1,
+                                     "slice index, ascending, neither first nor last slice");
+    if (value.contains("muscleSlices")) {
+        creature.muscle_slices =
+            read_ascending(value.at("muscleSlices"), place.key("muscleSlices"), 0, last, "slice index, ascending");
+    }
     return creature;
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "natator/model.h"
+
+namespace natator {
+
+/// All particles at the end of a frame, in the order of the Model.
+struct Snapshot {
+    double time = 0;                        ///< s since the end of settling
+    std::vector<Eigen::Vector3d> position;  ///< length
+    std::vector<Eigen::Vector3d> velocity;  ///< length/s
+    std::vector<double> density;            ///< in units of rest density; 0 for solids
+};
+
+/// A wish for one Snapshot. Taking it changes nothing in the run.
+struct SnapshotOrder {
+    double at = 0;  ///< s; taken after the first frame that ends at this time or later, of time 0 after the first frame
+    std::function<void(const Model&, const Snapshot&)> take;  ///< empty = no snapshot; not called if the run ends before
+};
+
+/// Writes a snapshot as CSV. Columns: time (s), kind (body or fluid), mass, x, y, z (length), vx, vy, vz (length/s),
+/// density (rest densities). The mass of a particle that is held in place is inf.
+/// Throws std::runtime_error when the file can't be written.
+void write_snapshot(const std::string& path, const Model& model, const Snapshot& snapshot);
+
+}  // namespace natator

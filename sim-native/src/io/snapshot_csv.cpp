@@ -1,0 +1,24 @@
+#include <fstream>
+#include <stdexcept>
+
+#include "natator/snapshot.h"
+#include "natator/strict_json.h"
+
+namespace natator {
+
+void write_snapshot(const std::string& path, const Model& model, const Snapshot& snapshot) {
+    std::ofstream file(path);
+    file.precision(9);
+    file << "time,kind,mass,x,y,z,vx,vy,vz,density\n";
+    for (int i = 0; i < model.particles(); ++i) {
+        const Eigen::Vector3d& x = snapshot.position[i];
+        const Eigen::Vector3d& v = snapshot.velocity[i];
+        file << snapshot.time << ',' << (model.is_fluid(i) ? "fluid" : "body") << ',' << 1 / model.inverse_mass[i] << ','
+             << x.x() << ',' << x.y() << ',' << x.z() << ',' << v.x() << ',' << v.y() << ',' << v.z() << ','
+             << snapshot.density[i] << '\n';
+    }
+    file.close();
+    if (!file) throw std::runtime_error("file " + quoted(path) + ": cannot be written");
+}
+
+}  // namespace natator
