@@ -117,7 +117,8 @@ final class CompareOptimizersCommand implements Callable<Integer> {
                     err.println("interrupted; the same command continues");
                     err.flush();
                 })) {
-            StudyProgress progress = new StudyProgress(study, err) {
+            StudyProgress progress = new StudyProgress(study.size(), study.finished(), study.evaluations(),
+                    study.recorded(), err) {
                 @Override
                 public EvolutionListener forRun() {
                     return execution.mode() == SimulatorMode.BATCH ? stopper.beforeLateGenerations()

@@ -6,7 +6,8 @@ import picocli.CommandLine.Command;
 /** The {@code natator} program. Results go to standard output, logs and progress to standard error. */
 @Command(name = "natator", description = "Evolves and evaluates gaits of swimming soft bodies.",
         subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, ShowCommand.class,
-            CompareCommand.class, CompareOptimizersCommand.class, CompareFlexCommand.class, PlotCommand.class},
+            CompareCommand.class, CompareOptimizersCommand.class, CompareFlexCommand.class,
+            ReproduceCommand.class, PlotCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})

@@ -1,12 +1,12 @@
 package io.natator.cli;
 
-import io.natator.study.optimizer.OptimizerStudy;
+import io.natator.run.RunQueue;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.Locale;
 
 /** Tells how a study goes: a line for each finished run, and every few seconds one for the whole. */
-abstract class StudyProgress implements OptimizerStudy.Watcher {
+abstract class StudyProgress implements RunQueue.Watcher {
 
     private static final double INTERVAL_SECONDS = 10;
     private static final double NANOSECONDS = 1e9;
@@ -20,12 +20,20 @@ abstract class StudyProgress implements OptimizerStudy.Watcher {
     private long done;
     private int finished;
 
-    StudyProgress(OptimizerStudy study, PrintWriter out) {
+    /**
+     * Starts the clock.
+     *
+     * @param runs        of the study
+     * @param finished    of them already
+     * @param evaluations that all runs take together, as far as is known
+     * @param before      of them already recorded
+     */
+    StudyProgress(int runs, int finished, long evaluations, long before, PrintWriter out) {
         this.out = out;
-        this.runs = study.size();
-        this.evaluations = study.evaluations();
-        this.before = study.recorded();
-        this.finished = study.finished();
+        this.runs = runs;
+        this.evaluations = evaluations;
+        this.before = before;
+        this.finished = finished;
     }
 
     @Override
@@ -37,7 +45,7 @@ abstract class StudyProgress implements OptimizerStudy.Watcher {
             double rate = done / ((now - started) / NANOSECONDS);
             out.printf(Locale.ROOT, "%d of %d runs, %d of %d evaluations, %.1f/s, left %s%n", finished, runs,
                     before + done, evaluations, rate,
-                    Pace.readable(Math.round((evaluations - before - done) / rate)));
+                    Pace.readable(Math.round(Math.max(evaluations - before - done, 0) / rate)));
             out.flush();
         }
     }

@@ -1,10 +1,9 @@
 package io.natator.study.optimizer;
 
 import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
+import io.natator.run.PlannedRun;
 import java.nio.file.Path;
 
 /**
@@ -17,22 +16,9 @@ import java.nio.file.Path;
  */
 record OptimizerRun(String scene, Contestant contestant, EvolutionSettings settings, Path directory) {
 
-    /**
-     * Opens its folder, or makes it.
-     *
-     * @throws InvalidInputException if there is a run of other settings in it
-     */
-    RunFolder open() {
-        if (!StoredRun.exists(directory)) {
-            return RunFolder.create(directory, settings);
-        }
-        RunFolder folder = RunFolder.open(directory);
-        if (!folder.settings().equals(settings)) {
-            folder.close();
-            throw new InvalidInputException(directory + " was begun with other settings; choose another --output-dir, "
-                    + "or the options that it was begun with");
-        }
-        return folder;
+    /** Itself as one of many runs. */
+    PlannedRun plan() {
+        return new PlannedRun(settings, directory);
     }
 
     /** Best fitness after each evaluation. */

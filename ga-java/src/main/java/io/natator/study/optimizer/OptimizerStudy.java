@@ -1,26 +1,14 @@
 package io.natator.study.optimizer;
 
-import io.natator.checkpoint.RunFolder;
-import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
-import io.natator.evolution.EvaluationRecord;
-import io.natator.evolution.EvolutionListener;
-import io.natator.evolution.EvolutionStoppedException;
-import io.natator.run.EvolutionRun;
+import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.concurrent.ConcurrentLinkedQueue;
-import java.util.concurrent.ExecutionException;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
-import java.util.concurrent.Future;
-import java.util.concurrent.TimeUnit;
-import java.util.function.Supplier;
 
 /**
  * Optimizers side by side: each runs on each scene with each seed, and all take the same number of evaluations. Every
@@ -79,8 +67,7 @@ public final class OptimizerStudy {
 
     /** How many evaluations are recorded already. */
     public long recorded() {
-        return runs.stream().filter(run -> StoredRun.exists(run.directory()))
-                .mapToLong(run -> StoredRun.evaluations(run.directory()).size()).sum();
+        return runs.stream().mapToLong(run -> run.plan().recorded()).sum();
     }
 
     /** How many runs are finished. */
@@ -89,20 +76,7 @@ public final class OptimizerStudy {
     }
 
     private List<OptimizerRun> finishedRuns() {
-        return runs.stream().filter(run -> StoredRun.isFinished(run.directory())).toList();
-    }
-
-    /** Follows the study; called from several threads. */
-    public interface Watcher {
-
-        /** An evaluation has ended that was not recorded before. */
-        void evaluated();
-
-        /** A run has reached its end. */
-        void finished(Path run, double bestDistance);
-
-        /** An own listener for a run that is about to begin or to continue. */
-        EvolutionListener forRun();
+        return runs.stream().filter(run -> run.plan().isFinished()).toList();
     }
 
     /**
@@ -114,65 +88,9 @@ public final class OptimizerStudy {
      * @return whether all runs are finished; false if the evaluator was closed meanwhile
      * @throws InterruptedException if the calling thread is interrupted
      */
-    public boolean run(ExecutionSettings execution, Evaluator evaluator, int atOnce, Watcher watcher)
+    public boolean run(ExecutionSettings execution, Evaluator evaluator, int atOnce, RunQueue.Watcher watcher)
             throws InterruptedException {
-        ConcurrentLinkedQueue<OptimizerRun> waiting = new ConcurrentLinkedQueue<>(
-                runs.stream().filter(run -> !StoredRun.isFinished(run.directory())).toList());
-        ExecutorService threads = Executors.newFixedThreadPool(atOnce);
-        try {
-            List<Future<Boolean>> lanes = new ArrayList<>();
-            for (int i = 0; i < atOnce; i++) {
-                lanes.add(threads.submit(() -> work(waiting::poll, execution, evaluator, watcher)));
-            }
-            boolean all = true;
-            for (Future<Boolean> lane : lanes) {
-                all &= lane.get();
-            }
-            return all;
-        } catch (ExecutionException e) {
-            evaluator.close();
-            if (e.getCause() instanceof RuntimeException cause) {
-                throw cause;
-            }
-            throw new IllegalStateException(e.getCause());
-        } finally {
-            threads.shutdown();
-            threads.awaitTermination(1, TimeUnit.MINUTES);
-        }
-    }
-
-    private static boolean work(Supplier<OptimizerRun> waiting, ExecutionSettings execution, Evaluator evaluator,
-            Watcher watcher) throws InterruptedException {
-        try {
-            for (OptimizerRun run = waiting.get(); run != null; run = waiting.get()) {
-                carryOut(run, execution, evaluator, watcher);
-            }
-            return true;
-        } catch (EvolutionStoppedException | InterruptedException e) {
-            return false;
-        } catch (RuntimeException e) {
-            evaluator.close();
-            throw e;
-        }
-    }
-
-    private static void carryOut(OptimizerRun run, ExecutionSettings execution, Evaluator evaluator, Watcher watcher)
-            throws InterruptedException {
-        try (RunFolder folder = run.open()) {
-            int before = folder.recorded().size();
-            EvolutionListener counter = new EvolutionListener() {
-                @Override
-                public void evaluated(EvaluationRecord evaluation) {
-                    if (evaluation.result().id() >= before) {
-                        watcher.evaluated();
-                    }
-                }
-            };
-            EvolutionRun.Outcome outcome = new EvolutionRun(folder).run(execution, evaluator, counter,
-                    watcher.forRun());
-            watcher.finished(run.directory(),
-                    outcome.state().best() == null ? 0 : outcome.state().best().result().score());
-        }
+        return new RunQueue(runs.stream().map(OptimizerRun::plan).toList()).run(execution, evaluator, atOnce, watcher);
     }
 
     /**

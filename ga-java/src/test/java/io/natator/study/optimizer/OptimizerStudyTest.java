@@ -11,6 +11,7 @@ import io.natator.config.InvalidInputException;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.ToySimulator;
+import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.FakeSimulator;
 import io.natator.simulator.WorkerPool;
@@ -47,7 +48,7 @@ class OptimizerStudyTest {
         AtomicInteger left = new AtomicInteger(evaluations);
         try (Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
             Runnable stop = evaluator::close;
-            return study.run(execution, evaluator, atOnce, new OptimizerStudy.Watcher() {
+            return study.run(execution, evaluator, atOnce, new RunQueue.Watcher() {
                 @Override
                 public void evaluated() {
                     if (left.decrementAndGet() == 0) {

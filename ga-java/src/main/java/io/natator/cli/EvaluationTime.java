@@ -1,0 +1,58 @@
+package io.natator.cli;
+
+import io.natator.config.EvolutionSettings;
+import io.natator.encoding.Encoding;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import java.util.List;
+import java.util.stream.LongStream;
+
+/** How long evaluations take, judged by a few short ones of the gait in the middle of all ranges. */
+final class EvaluationTime {
+
+    /** Simulated seconds of the trials; their difference leaves out what every evaluation costs once. */
+    private static final double SHORT_TRIAL = 0.05;
+    private static final double LONG_TRIAL = 0.25;
+    private static final double NANOSECONDS = 1e9;
+
+    private final EvolutionSettings settings;
+    private final Encoding encoding;
+    private final Evaluator evaluator;
+
+    /** For evaluations with these settings; the evaluator stays the caller's. */
+    EvaluationTime(EvolutionSettings settings, Evaluator evaluator) {
+        this.settings = settings;
+        this.encoding = settings.encoding().forActuators(settings.actuators());
+        this.evaluator = evaluator;
+    }
+
+    /**
+     * Seconds that evaluations take together.
+     *
+     * @param together how many, at least 1
+     * @param duration simulated seconds of each
+     */
+    double of(int together, double duration) throws InterruptedException {
+        seconds(1, SHORT_TRIAL);
+        double small = seconds(together, SHORT_TRIAL);
+        double large = seconds(together, LONG_TRIAL);
+        double perSecond = Math.max(large - small, 0) / (LONG_TRIAL - SHORT_TRIAL);
+        return small + Math.max(duration - SHORT_TRIAL, 0) * perSecond;
+    }
+
+    private double seconds(int count, double duration) throws InterruptedException {
+        List<Double> middle = encoding.genes().stream().map(range -> (range.lower() + range.upper()) / 2).toList();
+        List<SimulationRequest> requests = LongStream.range(0, count)
+                .mapToObj(id -> new SimulationRequest(id, settings.scene(), encoding.decode(middle), duration,
+                        settings.scheme(), settings.overrides()))
+                .toList();
+        long start = System.nanoTime();
+        evaluator.evaluateAll(requests, result -> {
+            if (result.status() == SimulationResult.Status.FAILED) {
+                throw new IllegalStateException("a trial evaluation failed: " + result.error());
+            }
+        });
+        return (System.nanoTime() - start) / NANOSECONDS;
+    }
+}

@@ -1,0 +1,44 @@
+package io.natator.run;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import java.nio.file.Path;
+
+/**
+ * A run that is one of many.
+ *
+ * @param settings  all that determines it
+ * @param directory its run folder, which need not be there yet
+ */
+public record PlannedRun(EvolutionSettings settings, Path directory) {
+
+    /**
+     * Opens its folder, or makes it.
+     *
+     * @throws InvalidInputException if there is a run of other settings in it
+     */
+    public RunFolder open() {
+        if (!StoredRun.exists(directory)) {
+            return RunFolder.create(directory, settings);
+        }
+        RunFolder folder = RunFolder.open(directory);
+        if (!folder.settings().equals(settings)) {
+            folder.close();
+            throw new InvalidInputException(directory + " was begun with other settings; choose another --output-dir, "
+                    + "or the options that it was begun with");
+        }
+        return folder;
+    }
+
+    /** Whether it has come to its end. */
+    public boolean isFinished() {
+        return StoredRun.isFinished(directory);
+    }
+
+    /** How many of its evaluations are recorded. */
+    public long recorded() {
+        return StoredRun.exists(directory) ? StoredRun.evaluations(directory).size() : 0;
+    }
+}

@@ -1,0 +1,70 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.checkpoint.StoredRun;
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import picocli.CommandLine;
+
+/** The whole study in miniature, with the real simulator. */
+class ReproduceTest {
+
+    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+
+    @TempDir
+    private Path folder;
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    private int reproduce(String... more) {
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
+        List<String> all = new ArrayList<>(List.of("reproduce", "--simulator-path", SIMULATOR.toString(), "--seeds", "1",
+                "--population", "4", "--duration", "0.05", "--output-dir", folder.toString()));
+        all.addAll(List.of(more));
+        return command.execute(all.toArray(String[]::new));
+    }
+
+    @Test
+    void evolvesInABatchWhatIsNotFinished() throws IOException {
+        List<String> options = List.of("--creature", "1,2", "--generations", "1", "--phase", "evolve", "--simulator", "batch",
+                "--compact");
+
+        assertThat(reproduce(options.toArray(String[]::new))).as(err.toString()).isZero();
+
+        for (String run : List.of("runs/creature-1/flex/seed-1", "runs/creature-1/conserving/seed-1",
+                "runs/creature-2/flex/seed-1", "runs/creature-2/conserving/seed-1")) {
+            StoredRun stored = StoredRun.in(folder.resolve(run));
+            assertThat(StoredRun.isFinished(folder.resolve(run))).isTrue();
+            assertThat(stored.state().history()).hasSize(2);
+            assertThat(stored.best().result().scheme()).isEqualTo(run.contains("flex") ? "flex" : "conserving");
+            assertThat(folder.resolve(run).resolve("evaluations.jsonl")).doesNotExist();
+        }
+        String environment = Files.readString(folder.resolve("runs/creature-1/flex/seed-1/environment.json"));
+        assertThat(reproduce(options.toArray(String[]::new))).isZero();
+        assertThat(folder.resolve("runs/creature-1/flex/seed-1/environment.json")).hasContent(environment);
+    }
+
+    @Test
+    void saysHowLongItWillTakeAndDoesNothing() {
+        assertThat(reproduce("--creature", "1", "--scheme", "flex", "--generations", "100", "--dry-run")).isZero();
+
+        assertThat(out.toString()).contains("1 evolutions").contains("about 604 evaluations left")
+                .contains("creature 1, flex").contains("at most ");
+        assertThat(folder).isEmptyDirectory();
+    }
+
+    @Test
+    void refusesWhatIsNotThere() {
+        assertThat(reproduce("--creature", "5")).isEqualTo(2);
+        assertThat(err.toString()).contains("--creature has 5; expected 1, 2, 3 or 4");
+        assertThat(reproduce("--seeds", "0", "--creature", "1")).isEqualTo(2);
+    }
+}
