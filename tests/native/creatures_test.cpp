@@ -1,6 +1,7 @@
 // The four creatures of the thesis (2.7): counts, and that each fits its tank.
 #include <gtest/gtest.h>
 
+#include "natator/error.h"
 #include "natator/model_builder.h"
 #include "natator/scene_json.h"
 #include "test_name.h"
@@ -60,6 +61,30 @@ TEST(CreatureTest, CreatureThreeHasMostClustersInItsTail) {
     const auto half = static_cast<int>(scene.creature->slices.size()) / 2;
     const auto& joints = scene.creature->joints;
     EXPECT_GE(std::count_if(joints.begin(), joints.end(), [&](int joint) { return joint >= half - 1; }), 5);
+}
+
+/// Its muscles run across the joint, from the first slice to the last, outside the lateral middle.
+TEST(CreatureTest, TwoClustersHaveOneActuatorAcrossTheirJoint) {
+    const Scene scene = load_scene("thesis/two-clusters");
+    const Model model = build_model(scene);
+    EXPECT_EQ(model.clusters.size(), 2u);
+    EXPECT_EQ(model.actuators, 1);
+    EXPECT_EQ(model.muscles.size(), 5u * 2 * 4);
+    for (const Spring& spring : model.springs) EXPECT_NEAR(spring.rest_length, 16 * 0.075, 1e-12);
+    EXPECT_EQ(build_model(load_scene("thesis/two-clusters-vacuum")).particles(), 170);
+}
+
+/// Left out, the joints are what muscles run between; out of order or outside the body they are refused.
+TEST(CreatureTest, MuscleSlicesReplaceTheJoints) {
+    const auto muscles = [](const char* slices) {
+        return nlohmann::json{{"creature", {{"muscleSlices", nlohmann::json::parse(slices)}}}};
+    };
+    EXPECT_EQ(build_model(load_scene("thesis/creature-1", muscles("[0, 4, 8, 16]"))).actuators, 3);
+    EXPECT_EQ(build_model(load_scene("thesis/creature-1", muscles("[4, 8, 12]"))).springs.size(),
+              build_model(load_scene("thesis/creature-1")).springs.size());
+    for (const char* bad : {"[4, 4]", "[8, 4]", "[0, 17]", "[-1, 3]", "3"}) {
+        EXPECT_THROW(load_scene("thesis/creature-1", muscles(bad)), InputError) << bad;
+    }
 }
 
 }  // namespace

@@ -76,6 +76,68 @@ TEST(InfoTest, DescribesTheProgramWithoutAScene) {
     EXPECT_NE(run_simulator({"info"}).out.find("thesis/creature-4-vacuum"), std::string::npos);
 }
 
+TEST(RunTest, ASnapshotHoldsAllParticlesAndChangesNothing) {
+    const TemporaryPath file("-snapshot.csv");
+    const std::vector<std::string> run = {"run", "thesis/creature-1", "--gait", gait, "--duration", "0.1"};
+    std::vector<std::string> with = run;
+    for (const char* word : {"--snapshot", file.path.c_str(), "--at", "0.05"}) with.emplace_back(word);
+    const Outcome plain = run_simulator(run);
+    const Outcome outcome = run_simulator(with);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto hash = [](const std::string& text) { return text.substr(text.find("hash"), 27); };
+    EXPECT_EQ(hash(outcome.out), hash(plain.out));
+
+    const std::vector<std::string> lines = file_lines(file.path);
+    ASSERT_EQ(lines.size(), 1u + 5915u);
+    EXPECT_EQ(lines[0], "time,kind,mass,x,y,z,vx,vy,vz,density");
+    double lowest_mass = 1e9, highest_mass = 0, density = 0;
+    int fluid = 0;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        std::istringstream fields(lines[i]);
+        std::string time, kind, mass, skipped, rho;
+        std::getline(fields, time, ',');
+        std::getline(fields, kind, ',');
+        std::getline(fields, mass, ',');
+        for (int k = 0; k < 6; ++k) std::getline(fields, skipped, ',');
+        std::getline(fields, rho, ',');
+        EXPECT_NEAR(std::stod(time), 0.05, 1e-9);
+        if (kind != "fluid") {
+            EXPECT_EQ(kind + mass + rho, "body10");
+            continue;
+        }
+        ++fluid;
+        density += std::stod(rho);
+        lowest_mass = std::min(lowest_mass, std::stod(mass));
+        highest_mass = std::max(highest_mass, std::stod(mass));
+    }
+    EXPECT_EQ(fluid, 5660);
+    EXPECT_NEAR(lowest_mass, 1.0 / 14, 1e-6);
+    EXPECT_NEAR(highest_mass, 2, 1e-6);
+    EXPECT_NEAR(density / fluid, 1, 0.05);
+}
+
+TEST(RunTest, ASnapshotThatNeverComesIsSaid) {
+    const TemporaryPath file("-snapshot.csv");
+    const Outcome late = run_simulator({"run", "thesis/creature-1-vacuum", "--snapshot", file.path, "--at", "5"});
+    EXPECT_EQ(late.exit_code, 2);
+    EXPECT_NE(late.err.find("--at 5"), std::string::npos) << late.err;
+    const Outcome early = run_simulator({"run", "thesis/creature-1", "--snapshot", file.path, "--at", "3", "--overrides",
+                                         R"({"stopping":{"noProgressAfter":0.05}})"});
+    EXPECT_EQ(early.exit_code, 1);
+    EXPECT_NE(early.err.find("before --at 3"), std::string::npos) << early.err;
+}
+
+TEST(RunTest, AShiftedStartTakesAnotherCourse) {
+    const auto run = [](const char* seed) {
+        return run_simulator({"run", "thesis/creature-1", "--gait", gait, "--duration", "0.1", "--perturbation", "1e-4",
+                              "--perturbation-seed", seed})
+            .out;
+    };
+    const auto hash = [](const std::string& text) { return text.substr(text.find("hash"), 27); };
+    EXPECT_EQ(hash(run("1")), hash(run("1")));
+    EXPECT_NE(hash(run("1")), hash(run("2")));
+}
+
 TEST(RunTest, PrintsASummary) {
     const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--gait", gait, "--duration", "0.1"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
