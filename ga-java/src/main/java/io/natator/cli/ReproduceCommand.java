@@ -1,28 +1,22 @@
 package io.natator.cli;
 
-import io.natator.checkpoint.CompactRun;
 import io.natator.config.Backend;
-import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Scheme;
-import io.natator.config.SimulatorMode;
-import io.natator.evolution.EvolutionListener;
 import io.natator.run.EvolutionRun;
-import io.natator.run.RunQueue;
-import io.natator.simulator.Evaluator;
 import io.natator.study.thesis.EvolutionPlan;
 import io.natator.study.thesis.EvolvedRun;
+import io.natator.study.thesis.ThesisStudy;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
-import java.util.Locale;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
@@ -32,14 +26,12 @@ import picocli.CommandLine.Spec;
             "The same command continues where it was stopped."})
 final class ReproduceCommand implements Callable<Integer> {
 
-    private static final int RUNS_AT_ONCE = 2;
-    private static final int RUNS_AT_ONCE_IN_BATCHES = 32;
-    /** Evaluations of a generation as a share of the population (measured on JGAP: 1.49). */
-    private static final double CHILDREN_PER_SELECTED = 1.5;
-    private static final double THESIS_SECONDS = 4;
-
     /** What is to be done. */
-    enum Phase { EVOLVE, ALL }
+    enum Phase { EVOLVE, MEASURE, REPORT, ALL }
+
+    private static final double NANOSECONDS = 1e9;
+    private static final List<String> WITHOUT_OUTCOME = List.of("--stop-after", "--simulator-path", "--workers",
+            "--timeout", "--phase", "--runs-at-once", "--compact", "--device");
 
     @Spec
     private CommandSpec spec;
@@ -76,12 +68,16 @@ final class ReproduceCommand implements Callable<Integer> {
     private Path directory;
 
     @Option(names = "--phase", paramLabel = "PHASE", defaultValue = "all",
-            description = "${COMPLETION-CANDIDATES}. Default: ${DEFAULT-VALUE}.")
+            description = "evolve, measure, report or all. Default: ${DEFAULT-VALUE}.")
     private Phase phase;
 
+    @Option(names = "--runs", paramLabel = "N", defaultValue = "5",
+            description = "Runs of every measured gait, from 1, with starts that differ by 1e-6. "
+                    + "Default: ${DEFAULT-VALUE}.")
+    private int runs;
+
     @Option(names = "--runs-at-once", paramLabel = "N", description = "Evolutions under way at the same time; their "
-            + "generations share a batch. Default: " + RUNS_AT_ONCE_IN_BATCHES + " with --simulator batch, else "
-            + RUNS_AT_ONCE + ".")
+            + "generations share a batch. Default: 32 with --simulator batch, else 2.")
     private Integer runsAtOnce;
 
     @Option(names = "--compact", description = "Drop the single evaluations of finished evolutions, some ten megabytes "
@@ -101,56 +97,52 @@ final class ReproduceCommand implements Callable<Integer> {
         EvolutionPlan plan = new EvolutionPlan(creatures, schemes, seeds, population, generations, duration,
                 execution.backend(), execution.simulator(), directory);
         execution = withTimeLimit(execution, plan);
+        PrintWriter out = spec.commandLine().getOut();
+        PrintWriter err = spec.commandLine().getErr();
+        EvolvePhase evolution = new EvolvePhase(plan, execution);
         if (dryRun) {
-            forecast(plan, execution);
+            evolution.forecast(out);
+            try (ThesisStudy study = new ThesisStudy(directory, plan, runs, duration)) {
+                out.printf("then, of what is evolved so far, %d evaluations to measure and %d runs to record%n",
+                        study.missingMeasurements(), study.missingMotions());
+            }
             return ExitCode.OK;
         }
-        boolean all = evolve(plan, execution);
-        if (!all) {
-            spec.commandLine().getOut().printf("%d of %d evolutions finished; the same command continues%n",
-                    plan.finished().size(), plan.runs().size());
+        long started = System.nanoTime();
+        if (phase == Phase.EVOLVE || phase == Phase.ALL) {
+            if (!evolution.run(runsAtOnce, compact, stopAfter, err)) {
+                out.printf("%d of %d evolutions finished; the same command continues%n", plan.finished().size(),
+                        plan.runs().size());
+                return ExitCode.OK;
+            }
+        }
+        try (ThesisStudy study = new ThesisStudy(directory, plan, runs, duration)) {
+            if (phase == Phase.MEASURE || phase == Phase.ALL) {
+                Double left = stopAfter == null ? null
+                        : Math.max(1, stopAfter - (System.nanoTime() - started) / NANOSECONDS);
+                if (!new MeasurePhase(study, execution).run(left, err)) {
+                    out.printf("%d evaluations and %d recordings left; the same command continues%n",
+                            study.missingMeasurements(), study.missingMotions());
+                    return ExitCode.OK;
+                }
+            }
+            if (phase == Phase.REPORT || phase == Phase.ALL) {
+                out.println(study.report(plan, command()));
+            }
         }
         return ExitCode.OK;
     }
 
-    private boolean evolve(EvolutionPlan plan, ExecutionSettings execution) throws InterruptedException {
-        PrintWriter err = spec.commandLine().getErr();
-        int atOnce = runsAtOnce != null ? runsAtOnce
-                : execution.mode() == SimulatorMode.BATCH ? RUNS_AT_ONCE_IN_BATCHES : RUNS_AT_ONCE;
-        if (atOnce < 1) {
-            throw new InvalidInputException("--runs-at-once is " + atOnce + "; expected a whole number from 1");
-        }
-        long recorded = plan.runs().stream().mapToLong(run -> run.plan().recorded()).sum();
-        try (Evaluator evaluator = EvolutionRun.open(execution);
-                Stopper stopper = new Stopper(evaluator, stopAfter, () -> {
-                    err.println("interrupted; the same command continues");
-                    err.flush();
-                })) {
-            StudyProgress progress = new StudyProgress(plan.runs().size(), plan.finished().size(),
-                    recorded + left(plan), recorded, err) {
-                @Override
-                public EvolutionListener forRun() {
-                    return execution.mode() == SimulatorMode.BATCH ? stopper.beforeLateGenerations()
-                            : new EvolutionListener() { };
-                }
-            };
-            return new RunQueue(plan.runs().stream().map(EvolvedRun::plan).toList())
-                    .run(execution, evaluator, atOnce, progress);
-        } finally {
-            if (compact) {
-                plan.finished().forEach(run -> CompactRun.compact(run.plan().directory()));
+    /** The command line, but for what does not change the outcome. */
+    private String command() {
+        StringBuilder command = new StringBuilder("java -jar ga-java/target/natator.jar reproduce");
+        for (OptionSpec option : spec.commandLine().getParseResult().matchedOptions()) {
+            if (!WITHOUT_OUTCOME.contains(option.longestName())) {
+                command.append(' ').append(option.longestName()).append(' ')
+                        .append(String.join(",", option.originalStringValues()));
             }
         }
-    }
-
-    /** Evaluations that are still to be done, as far as can be known. */
-    private static long left(EvolutionPlan plan) {
-        return plan.runs().stream().filter(run -> !run.plan().isFinished())
-                .mapToLong(run -> Math.max(0, expected(run.plan().settings()) - run.plan().recorded())).sum();
-    }
-
-    private static long expected(EvolutionSettings settings) {
-        return Math.round(settings.population() * (1 + CHILDREN_PER_SELECTED * settings.generations()));
+        return command.toString();
     }
 
     /** The longest of the limits that suit the scenes, unless one was given. */
@@ -164,31 +156,5 @@ final class ReproduceCommand implements Callable<Integer> {
             }
         }
         return execution.withTimeout(longest);
-    }
-
-    private void forecast(EvolutionPlan plan, ExecutionSettings execution) throws InterruptedException {
-        PrintWriter out = spec.commandLine().getOut();
-        out.printf("%d evolutions in %s, %d of them finished; about %d evaluations left%n", plan.runs().size(),
-                directory, plan.finished().size(), left(plan));
-        int together = execution.mode() == SimulatorMode.BATCH ? population : execution.workers();
-        double seconds = 0;
-        try (Evaluator evaluator = Evaluator.open(execution)) {
-            for (int creature : creatures) {
-                for (Scheme scheme : schemes) {
-                    List<EvolvedRun> cell = plan.runs().stream()
-                            .filter(run -> run.creature() == creature && run.scheme() == scheme).toList();
-                    long evaluations = cell.stream().filter(run -> !run.plan().isFinished())
-                            .mapToLong(run -> Math.max(0, expected(run.plan().settings()) - run.plan().recorded())).sum();
-                    double each = new EvaluationTime(cell.get(0).plan().settings(), evaluator)
-                            .of(together, duration == null ? THESIS_SECONDS : duration) / together;
-                    out.printf(Locale.ROOT, "  creature %d, %-10s  %7d evaluations of %.3f s: %s%n", creature,
-                            scheme.name().toLowerCase(Locale.ROOT), evaluations, each,
-                            Pace.readable(Math.round(evaluations * each)));
-                    seconds += evaluations * each;
-                }
-            }
-        }
-        out.printf("at most %s, with %s%n", Pace.readable(Math.round(seconds)),
-                execution.mode() == SimulatorMode.BATCH ? "batches of " + together : together + " at once");
     }
 }

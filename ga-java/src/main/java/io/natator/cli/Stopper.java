@@ -15,20 +15,26 @@ final class Stopper implements AutoCloseable {
 
     private static final long PATIENCE_SECONDS = 10;
 
-    private final Evaluator evaluator;
+    private final Runnable stop;
     private final Long deadline;
     private final CountDownLatch finished = new CountDownLatch(1);
     private final Thread atExit;
     private volatile boolean timeIsUp;
 
     /**
-     * Begins to watch.
+     * Begins to watch evolutions.
      *
+     * @param evaluator of theirs
      * @param seconds after which to stop, or null
      * @param farewell done when this program is told to end, after everything was written
      */
     Stopper(Evaluator evaluator, Double seconds, Runnable farewell) {
-        this.evaluator = evaluator;
+        this(evaluator::close, seconds, farewell);
+    }
+
+    /** Begins to watch something that can be stopped in its own way. */
+    Stopper(Runnable stop, Double seconds, Runnable farewell) {
+        this.stop = stop;
         this.deadline = seconds == null ? null : System.nanoTime() + Math.round(seconds * 1e9);
         this.atExit = new Thread(() -> end(farewell), "stop-evolution");
         Runtime.getRuntime().addShutdownHook(atExit);
@@ -43,7 +49,7 @@ final class Stopper implements AutoCloseable {
         try {
             if (!finished.await(deadline - System.nanoTime(), TimeUnit.NANOSECONDS)) {
                 timeIsUp = true;
-                evaluator.close();
+                stop.run();
             }
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
@@ -51,7 +57,7 @@ final class Stopper implements AutoCloseable {
     }
 
     private void end(Runnable farewell) {
-        evaluator.close();
+        stop.run();
         try {
             finished.await(PATIENCE_SECONDS, TimeUnit.SECONDS);
         } catch (InterruptedException e) {

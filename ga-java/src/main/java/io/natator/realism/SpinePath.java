@@ -1,6 +1,5 @@
 package io.natator.realism;
 
-import java.util.ArrayList;
 import java.util.List;
 
 /**
@@ -48,17 +47,24 @@ public record SpinePath(double[] times, double[][][] centres) {
         return length;
     }
 
-    /** The part from a time on. */
-    public SpinePath from(double time) {
-        List<double[][]> kept = new ArrayList<>();
-        List<Double> moments = new ArrayList<>();
-        for (int i = 0; i < times.length; i++) {
-            if (times[i] >= time) {
-                kept.add(centres[i]);
-                moments.add(times[i]);
+    /**
+     * The same motion seen in the body's own upright: each frame is turned back about x by its roll, so that bending to a
+     * body's side counts as sideways also where it has tipped over.
+     *
+     * @param attitude one per frame
+     */
+    public SpinePath unrolled(List<Attitude> attitude) {
+        double[][][] turned = new double[centres.length][][];
+        for (int frame = 0; frame < centres.length; frame++) {
+            double cosine = Math.cos(attitude.get(frame).roll());
+            double sine = Math.sin(attitude.get(frame).roll());
+            turned[frame] = new double[centres[frame].length][];
+            for (int slice = 0; slice < centres[frame].length; slice++) {
+                double[] place = centres[frame][slice];
+                turned[frame][slice] = new double[] {place[0], cosine * place[1] + sine * place[2],
+                    cosine * place[2] - sine * place[1]};
             }
         }
-        return new SpinePath(moments.stream().mapToDouble(Double::doubleValue).toArray(),
-                kept.toArray(double[][][]::new));
+        return new SpinePath(times, turned);
     }
 }

@@ -9,9 +9,10 @@ import java.util.List;
  * @param mean              NaN without a value
  * @param standardDeviation with count − 1 in the denominator; NaN for less than two values
  */
-record Sample(int count, double mean, double standardDeviation) {
+public record Sample(int count, double mean, double standardDeviation) {
 
-    static Sample of(List<Double> values) {
+    /** Of these values. */
+    public static Sample of(List<Double> values) {
         int count = values.size();
         double mean = values.stream().mapToDouble(Double::doubleValue).sum() / count;
         double squares = values.stream().mapToDouble(value -> (value - mean) * (value - mean)).sum();
@@ -19,7 +20,7 @@ record Sample(int count, double mean, double standardDeviation) {
     }
 
     /** Whether there are enough values to say how much they scatter. */
-    boolean hasSpread() {
+    public boolean hasSpread() {
         return count >= 2;
     }
 }

@@ -8,6 +8,8 @@ import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.Arrays;
+import java.util.List;
 import net.jqwik.api.ForAll;
 import net.jqwik.api.Property;
 import net.jqwik.api.constraints.DoubleRange;
@@ -52,6 +54,27 @@ class SwimmingTest {
         double[][] line = swimming.line(5);
         assertThat(line[0][0]).isZero();
         assertThat(line[0][line[0].length - 1]).isCloseTo(SyntheticSwimmer.LENGTH, within(1e-9));
+    }
+
+    /** A body that bends to its side while it lies on its side. */
+    @Test
+    void theRollIsTakenOut() {
+        SpinePath upright = SyntheticSwimmer.path((x, t) -> 0.1 * x * Math.sin(8 * t), 0, 0);
+        List<Attitude> tipping = Arrays.stream(upright.times()).mapToObj(time -> new Attitude(0.7 * time, 0, 0)).toList();
+        double[][][] tipped = new double[upright.frames()][][];
+        for (int frame = 0; frame < tipped.length; frame++) {
+            double roll = tipping.get(frame).roll();
+            tipped[frame] = Arrays.stream(upright.centres()[frame]).map(place -> turned(place, 0, roll))
+                    .toArray(double[][]::new);
+        }
+
+        SpinePath back = new SpinePath(upright.times(), tipped).unrolled(tipping);
+
+        for (int frame = 0; frame < tipped.length; frame += 20) {
+            for (int slice = 0; slice < SyntheticSwimmer.SLICES; slice += 6) {
+                assertThat(back.centres()[frame][slice]).containsExactly(upright.centres()[frame][slice], within(1e-12));
+            }
+        }
     }
 
     @Test

@@ -1,0 +1,114 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.CompactRun;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Scheme;
+import io.natator.config.SimulatorMode;
+import io.natator.evolution.EvolutionListener;
+import io.natator.run.EvolutionRun;
+import io.natator.run.RunQueue;
+import io.natator.simulator.Evaluator;
+import io.natator.study.thesis.EvolutionPlan;
+import io.natator.study.thesis.EvolvedRun;
+import java.io.PrintWriter;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Locale;
+
+/** The evolutions of {@code reproduce}: carries them out, or says how long they will take. */
+final class EvolvePhase {
+
+    private static final int RUNS_AT_ONCE = 2;
+    private static final int RUNS_AT_ONCE_IN_BATCHES = 32;
+    /** Evaluations of a generation as a share of the population (measured on JGAP: 1.49). */
+    private static final double CHILDREN_PER_SELECTED = 1.5;
+    private static final double THESIS_SECONDS = 4;
+
+    private final EvolutionPlan plan;
+    private final ExecutionSettings execution;
+
+    EvolvePhase(EvolutionPlan plan, ExecutionSettings execution) {
+        this.plan = plan;
+        this.execution = execution;
+    }
+
+    /**
+     * Evolves what is not finished.
+     *
+     * @param runsAtOnce evolutions under way at the same time, or null for what suits the execution
+     * @param compact    whether finished evolutions are made small
+     * @param stopAfter  seconds, or null
+     * @return whether all are finished
+     */
+    boolean run(Integer runsAtOnce, boolean compact, Double stopAfter, PrintWriter err) throws InterruptedException {
+        int atOnce = runsAtOnce != null ? runsAtOnce
+                : execution.mode() == SimulatorMode.BATCH ? RUNS_AT_ONCE_IN_BATCHES : RUNS_AT_ONCE;
+        if (atOnce < 1) {
+            throw new InvalidInputException("--runs-at-once is " + atOnce + "; expected a whole number from 1");
+        }
+        long recorded = plan.runs().stream().filter(run -> !run.plan().isFinished())
+                .mapToLong(run -> run.plan().recorded()).sum();
+        try (Evaluator evaluator = EvolutionRun.open(execution);
+                Stopper stopper = new Stopper(evaluator, stopAfter, () -> {
+                    err.println("interrupted; the same command continues");
+                    err.flush();
+                })) {
+            StudyProgress progress = new StudyProgress(plan.runs().size(), plan.finished().size(),
+                    recorded + left(), recorded, err) {
+                @Override
+                public EvolutionListener forRun() {
+                    return execution.mode() == SimulatorMode.BATCH ? stopper.beforeLateGenerations()
+                            : new EvolutionListener() { };
+                }
+            };
+            return new RunQueue(plan.runs().stream().map(EvolvedRun::plan).toList())
+                    .run(execution, evaluator, atOnce, progress);
+        } finally {
+            if (compact) {
+                plan.finished().forEach(run -> CompactRun.compact(run.plan().directory()));
+            }
+        }
+    }
+
+    /** Evaluations that are still to be done, as far as can be known. */
+    private long left() {
+        return plan.runs().stream().filter(run -> !run.plan().isFinished())
+                .mapToLong(run -> Math.max(0, expected(run.plan().settings()) - run.plan().recorded())).sum();
+    }
+
+    private static long expected(EvolutionSettings settings) {
+        return Math.round(settings.population() * (1 + CHILDREN_PER_SELECTED * settings.generations()));
+    }
+
+    /** Says how many evaluations are left and how long they will take, judged by a few short ones. */
+    void forecast(PrintWriter out) throws InterruptedException {
+        out.printf("%d evolutions, %d of them finished; about %d evaluations left%n", plan.runs().size(),
+                plan.finished().size(), left());
+        int together = execution.mode() == SimulatorMode.BATCH ? plan.runs().get(0).plan().settings().population() : execution.workers();
+        double seconds = 0;
+        try (Evaluator evaluator = Evaluator.open(execution)) {
+            for (int creature : plan.runs().stream().map(EvolvedRun::creature).distinct().toList()) {
+                for (Scheme scheme : Arrays.asList(Scheme.values())) {
+                    List<EvolvedRun> cell = plan.runs().stream()
+                            .filter(run -> run.creature() == creature && run.scheme() == scheme).toList();
+                    if (cell.isEmpty()) {
+                        continue;
+                    }
+                    Double duration = cell.get(0).plan().settings().duration();
+                    long evaluations = cell.stream().filter(run -> !run.plan().isFinished())
+                            .mapToLong(run -> Math.max(0, expected(run.plan().settings()) - run.plan().recorded())).sum();
+                    double each = new EvaluationTime(cell.get(0).plan().settings(), evaluator)
+                            .of(together, duration == null ? THESIS_SECONDS : duration) / together;
+                    out.printf(Locale.ROOT, "  creature %d, %-10s  %7d evaluations of %.3f s: %s%n", creature,
+                            scheme.name().toLowerCase(Locale.ROOT), evaluations, each,
+                            Pace.readable(Math.round(evaluations * each)));
+                    seconds += evaluations * each;
+                }
+            }
+        }
+        out.printf("at most %s, with %s%n", Pace.readable(Math.round(seconds)),
+                execution.mode() == SimulatorMode.BATCH ? "batches of " + together : together + " at once");
+    }
+}

@@ -1,0 +1,50 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
+import io.natator.report.GaitReport;
+import io.natator.run.EvolutionRun;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Path;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator report}: the thesis' pictures and numbers for any run. */
+@Command(name = "report", mixinStandardHelpOptions = true,
+        description = {"Runs a run's best gait once more, draws how it swims and says what fish it is like.",
+            "Writes README.md, report.html and the pictures."})
+final class ReportCommand implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private ExecutionOptions executionOptions;
+
+    @Parameters(paramLabel = "RUN", description = "A run folder of evolve.")
+    private Path directory;
+
+    @Option(names = "--output-dir", paramLabel = "DIR", description = "Default: RUN/report.")
+    private Path outputDir;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        StoredRun run = StoredRun.in(directory);
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(Backend.CPU), run.settings());
+        Path folder = outputDir != null ? outputDir : directory.resolve("report");
+        try {
+            spec.commandLine().getOut().println(new GaitReport(run, folder).write(execution));
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write the report: " + e.getMessage(), e);
+        }
+        return ExitCode.OK;
+    }
+}

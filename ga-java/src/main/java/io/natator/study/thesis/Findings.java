@@ -1,0 +1,85 @@
+package io.natator.study.thesis;
+
+import io.natator.config.Scheme;
+import io.natator.realism.FishMode;
+import io.natator.realism.ModeFit;
+import io.natator.study.Sample;
+import java.util.List;
+import java.util.function.Function;
+import java.util.stream.IntStream;
+
+/**
+ * All that was found, for the tables.
+ *
+ * @param evolved finished evolutions
+ */
+record Findings(ThesisData data, Catalogue catalogue, Measurements measurements, Motions motions, Costs costs,
+        List<EvolvedRun> evolved) {
+
+    /** Finished evolutions of a creature in a scheme. */
+    List<EvolvedRun> evolved(int creature, Scheme scheme) {
+        return evolved.stream().filter(run -> run.creature() == creature && run.scheme() == scheme).toList();
+    }
+
+    /** Speeds of a published gait. */
+    Sample speed(ThesisData.PublishedGait gait, Scheme scheme, String setting) {
+        return speed(catalogue.speeds(gait, scheme), setting);
+    }
+
+    /** Speeds of the best gait of one evolution. */
+    Sample speed(EvolvedRun run, String setting) {
+        return speed(catalogue.speeds(run), setting);
+    }
+
+    private Sample speed(List<Experiment> experiments, String setting) {
+        return measurements.speed(experiments.stream().filter(one -> one.setting().equals(setting)).findFirst()
+                .orElseThrow());
+    }
+
+    /** Over the seeds of evolution: the mean and spread of what their best gaits swim on average. */
+    Sample speedOverSeeds(int creature, Scheme scheme, String setting) {
+        return Sample.of(evolved(creature, scheme).stream().map(run -> speed(run, setting))
+                .filter(sample -> sample.count() > 0).map(Sample::mean).toList());
+    }
+
+    /** Of the seeds, the evolution whose best gait swims fastest on average; null if none is measured. */
+    EvolvedRun fastest(int creature, Scheme scheme) {
+        EvolvedRun best = null;
+        for (EvolvedRun run : evolved(creature, scheme)) {
+            double speed = speed(run, Catalogue.FLUID).mean();
+            if (!Double.isNaN(speed) && (best == null || speed > speed(best, Catalogue.FLUID).mean())) {
+                best = run;
+            }
+        }
+        return best;
+    }
+
+    /** e of the recorded runs against a mode. */
+    static Sample error(List<Motion> motions, FishMode mode, Function<Motion, List<ModeFit>> fits) {
+        return Sample.of(motions.stream().map(motion -> fits.apply(motion).get(mode.ordinal()).error()).toList());
+    }
+
+    /** The mode with the least mean e; null without recordings. */
+    static FishMode nearest(List<Motion> motions, Function<Motion, List<ModeFit>> fits) {
+        return motions.isEmpty() ? null : IntStream.range(0, FishMode.values().length).mapToObj(i -> FishMode.values()[i])
+                .min((a, b) -> Double.compare(error(motions, a, fits).mean(), error(motions, b, fits).mean()))
+                .orElseThrow();
+    }
+
+    /** Recorded runs of the best gait of one evolution. */
+    List<Motion> motions(EvolvedRun run) {
+        return motions.of(catalogue.speeds(run).get(0));
+    }
+
+    /** Recorded runs of a published gait. */
+    List<Motion> motions(ThesisData.PublishedGait gait, Scheme scheme) {
+        return motions.of(catalogue.speeds(gait, scheme).get(0));
+    }
+
+    /** Head to tail of a creature at rest, as recorded; NaN if it was not. */
+    double bodyLength(int creature) {
+        return data.gaits().stream().filter(gait -> gait.creature() == creature)
+                .flatMap(gait -> Catalogue.SCHEMES.stream().flatMap(scheme -> motions(gait, scheme).stream()))
+                .mapToDouble(Motion::bodyLength).findFirst().orElse(Double.NaN);
+    }
+}

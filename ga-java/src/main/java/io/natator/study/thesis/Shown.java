@@ -1,0 +1,44 @@
+package io.natator.study.thesis;
+
+import io.natator.config.Scheme;
+import io.natator.study.Sample;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.Collectors;
+
+/** Numbers as the tables show them. */
+final class Shown {
+
+    static final String NOTHING = "–";
+
+    private Shown() {
+    }
+
+    /** Mean ± standard deviation, with the number of values if it is not the usual one. */
+    static String speed(Sample sample) {
+        return sample.count() == 0 ? NOTHING : sample.hasSpread()
+                ? String.format(Locale.ROOT, "%.4f ± %.4f", sample.mean(), sample.standardDeviation())
+                : number(sample.mean());
+    }
+
+    static String number(double value) {
+        return Double.isNaN(value) ? NOTHING : String.format(Locale.ROOT, "%.4f", value);
+    }
+
+    static String shortNumber(double value) {
+        return Double.isNaN(value) ? NOTHING : String.format(Locale.ROOT, "%.2f", value);
+    }
+
+    static String list(List<Double> values) {
+        return values.stream().map(value -> String.format(Locale.ROOT, "%.3f", value)).collect(Collectors.joining(" "));
+    }
+
+    static String name(Scheme scheme) {
+        return scheme.name().toLowerCase(Locale.ROOT);
+    }
+
+    /** A parameter's value: whole where it is, and no limit where it is as good as none. */
+    static String value(double value) {
+        return value >= 1e20 ? "none" : value == Math.rint(value) ? "" + (long) value : "" + value;
+    }
+}

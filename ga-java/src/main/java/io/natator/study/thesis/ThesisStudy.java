@@ -1,0 +1,153 @@
+package io.natator.study.thesis;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Scheme;
+import io.natator.report.Recorded;
+import io.natator.report.Recording;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.SimulationRequest;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+
+/**
+ * The measuring half of the study: what the published gaits and the evolved ones do. Everything is kept in files of the
+ * study's folder, row by row, so that it continues where it was stopped.
+ */
+public final class ThesisStudy implements AutoCloseable {
+
+    private final Path directory;
+    private final Double duration;
+    private final List<EvolvedRun> evolved;
+    private final Catalogue catalogue;
+    private final ThesisData data = ThesisData.load();
+    private final Measurements measurements;
+    private final Motions motions;
+    private final Costs costs;
+
+    /**
+     * Opens the study.
+     *
+     * @param plan     its evolutions; those that are finished are measured
+     * @param runs     of every experiment, at least 1
+     * @param duration simulated seconds, or null for the scenes' own
+     */
+    public ThesisStudy(Path directory, EvolutionPlan plan, int runs, Double duration) {
+        if (runs < 1) {
+            throw new InvalidInputException("--runs is " + runs + "; expected a whole number from 1");
+        }
+        this.directory = directory;
+        this.duration = duration;
+        this.evolved = plan.finished();
+        this.catalogue = new Catalogue(data, evolved, duration, directory);
+        this.measurements = new Measurements(directory, runs);
+        this.motions = new Motions(directory, runs);
+        this.costs = new Costs(directory);
+    }
+
+    /** How many evaluations are still to be measured. */
+    public int missingMeasurements() {
+        return measurements.missing(catalogue.all()).size();
+    }
+
+    /** How many runs are still to be recorded on the processor. */
+    public int missingMotions() {
+        return motions.missing(catalogue.recorded()).size();
+    }
+
+    /**
+     * Measures speeds.
+     *
+     * @param done called after each evaluation
+     * @throws InterruptedException if the evaluator is closed; what is finished is kept
+     */
+    public void measure(Evaluator evaluator, ExecutionSettings execution, Runnable done) throws InterruptedException {
+        measurements.measure(catalogue.all(), evaluator, execution, done);
+    }
+
+    /**
+     * Records how the bodies move, makes the recordings for pictures, and times the parameter study, on the processor.
+     *
+     * @param done called after each run
+     * @throws InterruptedException if the calling thread is interrupted; what is finished is kept
+     */
+    public void record(ExecutionSettings execution, Runnable done) throws InterruptedException {
+        motions.record(catalogue.recorded(), execution, done);
+        for (Map.Entry<String, SimulationRequest> picture : pictured().entrySet()) {
+            Path file = recording(picture.getKey());
+            if (!Files.exists(file)) {
+                double seconds = duration == null ? Catalogue.THESIS_SECONDS : duration;
+                Recorded.of(picture.getValue(), seconds / 2, execution).write(file);
+                done.run();
+            }
+        }
+        costs.time(catalogue.timed(), execution, done);
+    }
+
+    private Path recording(String name) {
+        return directory.resolve("recordings").resolve(name + ".json.gz");
+    }
+
+    /** What is drawn, by the name of its files: the published gaits in flex, and the best that evolved. */
+    private Map<String, SimulationRequest> pictured() {
+        Map<String, SimulationRequest> pictured = new LinkedHashMap<>();
+        for (ThesisData.PublishedGait gait : data.gaits()) {
+            pictured.put("thesis-" + gait.name(), catalogue.speeds(gait, Scheme.FLEX).get(0).request());
+        }
+        for (EvolvedRun run : bestOfSeeds()) {
+            SimulationRequest request = catalogue.speeds(run).get(0).request();
+            ObjectNode on = ((ObjectNode) request.overrides()).deepCopy();
+            ((ObjectNode) on.get("stopping")).put("planeContact", false);
+            pictured.put("creature-" + run.creature() + "-" + run.scheme().name().toLowerCase(Locale.ROOT),
+                    new SimulationRequest(0, request.scene(), request.gait(), request.duration(), request.scheme(), on));
+        }
+        return pictured;
+    }
+
+    /** Of each creature in each scheme the evolution that came farthest. */
+    private List<EvolvedRun> bestOfSeeds() {
+        Map<String, EvolvedRun> best = new LinkedHashMap<>();
+        List<EvolvedRun> sorted = new ArrayList<>(evolved);
+        sorted.sort(Comparator.comparingDouble(run -> -Catalogue.best(run).distance()));
+        sorted.forEach(run -> best.putIfAbsent(run.creature() + " " + run.scheme(), run));
+        return best.values().stream()
+                .sorted(Comparator.comparing(EvolvedRun::creature).thenComparing(EvolvedRun::scheme)).toList();
+    }
+
+    /** Recordings that are there, by name. */
+    private Map<String, Recording> recordings() {
+        Map<String, Recording> found = new LinkedHashMap<>();
+        pictured().keySet().forEach(name -> {
+            if (Files.exists(recording(name))) {
+                found.put(name, Recording.read(recording(name)));
+            }
+        });
+        return found;
+    }
+
+    /**
+     * Writes the report on what is there.
+     *
+     * @param plan    the evolutions that were asked for
+     * @param command what the study was made by
+     * @return the page
+     */
+    public Path report(EvolutionPlan plan, String command) {
+        Findings findings = new Findings(data, catalogue, measurements, motions, costs, evolved);
+        return new ThesisReport(directory, findings, plan.runs().size(), recordings(), command).write();
+    }
+
+    @Override
+    public void close() {
+        measurements.close();
+        motions.close();
+        costs.close();
+    }
+}

@@ -1,0 +1,51 @@
+package io.natator.report;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.plot.Picture;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.knowm.xchart.XYChart;
+
+class PageTest {
+
+    @TempDir
+    private Path folder;
+
+    @Test
+    void writesTheSamePageInBothForms() throws IOException {
+        XYChart chart = Charts.lines("a chart", "x", "y");
+        Charts.add(chart, "line", new double[] {0, 1}, new double[] {0, 1}, 0, 1f);
+        Path png = Picture.save(chart, folder.resolve("plots/chart"));
+
+        Path page = new Page(folder, "Title & more").text("Some **bold** `code`.").picture(png, "a line")
+                .picture(folder.resolve("missing.png"), "not there")
+                .table(List.of("what", "value"), List.of(List.of("a < b", "1"))).list(List.of("one"))
+                .code("run it\n").write("README.md");
+
+        assertThat(Files.readString(page)).isEqualTo("""
+                # Title & more
+
+                Some **bold** `code`.
+
+                ![a line](plots/chart.png)
+
+                | what | value |
+                | --- | ---: |
+                | a < b | 1 |
+
+                - one
+
+                ```
+                run it
+                ```
+                """);
+        String html = Files.readString(folder.resolve("report.html"));
+        assertThat(html).contains("<h1>Title &amp; more</h1>", "<b>bold</b> <code>code</code>", "a &lt; b",
+                "src=\"data:image/svg+xml;base64,").doesNotContain("not there").doesNotContain("src=\"plots");
+    }
+}
