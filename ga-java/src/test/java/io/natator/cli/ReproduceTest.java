@@ -58,8 +58,7 @@ class ReproduceTest {
 
         assertThat(out.toString()).contains("1 evolutions").contains("about 604 evaluations left")
                 .contains("creature 1, flex").contains("at most ");
-        assertThat(out.toString()).contains("860 evaluations to measure and 20 runs to record".replace("860", "2125")
-                .replace("20 runs", "50 runs"));
+        assertThat(out.toString()).containsPattern("\\d{4} evaluations to measure and 50 runs to record");
         assertThat(folder).isEmptyDirectory();
     }
 
