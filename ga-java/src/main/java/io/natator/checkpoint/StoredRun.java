@@ -46,7 +46,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /** The settings of the run in a folder. */
-    static EvolutionSettings settings(Path directory) {
+    public static EvolutionSettings settings(Path directory) {
         if (!exists(directory)) {
             throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
         }
@@ -83,6 +83,16 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     /** The evaluations that the run in a folder has recorded. */
     public static List<EvaluationRecord> evaluations(Path directory) {
         return EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS));
+    }
+
+    /** The state after the last finished generation of the run in a folder, or null. */
+    public static EvolutionState state(Path directory) {
+        return optional(directory, RunFolder.CHECKPOINT, EvolutionState.class);
+    }
+
+    /** The best gait so far of the run in a folder, or null. */
+    public static BestGait best(Path directory) {
+        return optional(directory, RunFolder.BEST, BestGait.class);
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */

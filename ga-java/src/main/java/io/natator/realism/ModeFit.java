@@ -12,7 +12,7 @@ import java.util.List;
  * come out this way.
  *
  * <p>A real fish of the formula would not have e = 0: its spine does not lie about its line of best fit, and turning it
- * there costs a thunniform one 0.16, an anguilliform one 0.03. So it is in the thesis.
+ * there gives an anguilliform one an e of up to 0.04, and more to the others. So it is in the thesis.
  *
  * @param mode  the real fish
  * @param error e; 0 for the same motion, 1/3 for none, above that only for what α = 0 would mend

@@ -10,7 +10,9 @@ import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.Vacuum;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.stream.IntStream;
 
 /** All experiments of the study: what is measured, for the tables of chapter 3 and the experiments of chapter 4. */
@@ -36,6 +38,7 @@ final class Catalogue {
     private final List<EvolvedRun> evolved;
     private final Double duration;
     private final Path directory;
+    private final Map<Path, BestGait> best = new HashMap<>();
 
     /**
      * The experiments on the published gaits and those that were evolved.
@@ -110,8 +113,9 @@ final class Catalogue {
         return all;
     }
 
-    static BestGait best(EvolvedRun run) {
-        return StoredRun.in(run.plan().directory()).best();
+    /** What won an evolution. */
+    BestGait best(EvolvedRun run) {
+        return best.computeIfAbsent(run.plan().directory(), StoredRun::best);
     }
 
     private List<Experiment> speeds(String subject, String scene, Gait gait, Scheme scheme, boolean touchEnds) {

@@ -10,6 +10,8 @@ import java.util.List;
 /** Table 3.1, speeds in fluid and vacuum, and speeds in body lengths. */
 final class SpeedTables {
 
+    private static final int FLEX_RUNS = 5;
+
     private final Findings findings;
 
     SpeedTables(Findings findings) {
@@ -52,7 +54,7 @@ final class SpeedTables {
             }
         }
         for (EvolvedRun run : findings.evolved()) {
-            BestGait best = Catalogue.best(run);
+            BestGait best = findings.catalogue().best(run);
             rows.add(List.of("" + run.creature(), Shown.name(run.scheme()) + ", seed " + run.seed(),
                     Shown.number(best.gait().frequency()), Shown.list(best.gait().amplitude()),
                     Shown.list(best.gait().phase()), Shown.number(best.speed())));
@@ -83,8 +85,13 @@ final class SpeedTables {
 
     private static String flex(ThesisData.PublishedGait gait, String setting) {
         return gait.flex().stream().filter(one -> one.setting().equals(setting)).findFirst()
-                .map(one -> Shown.speed(new Sample(one.deviation() == null ? 1 : 5, one.mean(),
-                        one.deviation() == null ? Double.NaN : one.deviation()))).orElse(Shown.NOTHING);
+                .map(one -> Shown.speed(sample(one))).orElse(Shown.NOTHING);
+    }
+
+    /** Measurements with Flex: one run, or five that give a spread. */
+    static Sample sample(ThesisData.FlexSpeed measured) {
+        return measured.deviation() == null ? new Sample(1, measured.mean(), Double.NaN)
+                : new Sample(FLEX_RUNS, measured.mean(), measured.deviation());
     }
 
     private List<List<String>> bodyLengths() {
@@ -108,7 +115,7 @@ final class SpeedTables {
 
     private List<List<String>> evolutions() {
         return findings.evolved().stream().map(run -> List.of("`" + findings.catalogue().subject(run) + "`",
-                Shown.number(Catalogue.best(run).distance()), Shown.speed(findings.speed(run, Catalogue.FLUID)),
+                Shown.number(findings.catalogue().best(run).distance()), Shown.speed(findings.speed(run, Catalogue.FLUID)),
                 Shown.speed(findings.speed(run, Catalogue.VACUUM)),
                 Shown.speed(findings.speed(run, Catalogue.INVERSE_MASS)),
                 Shown.speed(findings.measurements().speed(findings.catalogue().crossed(run))))).toList();

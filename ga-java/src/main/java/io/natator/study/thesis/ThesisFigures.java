@@ -47,7 +47,7 @@ final class ThesisFigures {
             XYChart chart = Charts.lines("Creature " + creature + ": best distance", "generation", "scene units");
             for (Scheme scheme : Catalogue.SCHEMES) {
                 for (EvolvedRun run : findings.evolved(creature, scheme)) {
-                    List<GenerationSummary> history = StoredRun.in(run.plan().directory()).state().history();
+                    List<GenerationSummary> history = StoredRun.state(run.plan().directory()).history();
                     Charts.add(chart, Shown.name(scheme) + ", seed " + run.seed(),
                             history.stream().mapToDouble(GenerationSummary::generation).toArray(),
                             history.stream().mapToDouble(GenerationSummary::best).toArray(), scheme.ordinal(), 1.5f);

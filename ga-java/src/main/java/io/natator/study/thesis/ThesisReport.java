@@ -1,6 +1,8 @@
 package io.natator.study.thesis;
 
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.Json;
 import io.natator.report.Page;
 import io.natator.report.Recording;
 import java.io.IOException;
@@ -10,6 +12,8 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -52,6 +56,7 @@ final class ThesisReport {
         new SpeedTables(findings).add(page);
         new RealismTables(findings).add(page);
         new ExperimentTables(findings).add(page);
+        new Disagreements(findings).add(page);
         addCommentary(page);
         addCommands(page);
         try {
@@ -63,14 +68,21 @@ final class ThesisReport {
 
     private List<String> scale() {
         List<String> items = new ArrayList<>();
-        String size = findings.evolved().stream().map(run -> run.plan().settings()).map(EvolutionSettings::population)
-                .distinct().toList() + " chromosomes, " + findings.evolved().stream().map(run -> run.plan().settings())
-                .map(EvolutionSettings::generations).distinct().toList() + " generations";
-        items.add(findings.evolved().size() + " of " + asked + " evolutions are finished"
-                + (findings.evolved().isEmpty() ? "." : ": " + size + "."));
-        items.add(findings.measurements().size() + " evaluations measured, by " + findings.measurements().programs() + ".");
+        List<EvolutionSettings> settings = findings.evolved().stream()
+                .map(run -> StoredRun.settings(run.plan().directory())).toList();
+        items.add(findings.evolved().size() + " of " + asked + " evolutions are finished" + (settings.isEmpty() ? "."
+                : ": " + each(settings.stream().map(EvolutionSettings::population)) + " chromosomes, "
+                + each(settings.stream().map(EvolutionSettings::generations)) + " generations, operators "
+                + each(settings.stream().map(one -> Json.line(one.operators()).replace("\"", ""))) + ", on "
+                + each(settings.stream().map(one -> one.backend().argument())) + "."));
+        items.add(findings.measurements().size() + " evaluations measured, by " + each(findings.measurements().programs().stream()) + ".");
         items.add(findings.motions().size() + " runs recorded with all their particles.");
         return items;
+    }
+
+    /** Each value once. */
+    private static String each(Stream<?> values) {
+        return values.distinct().map(String::valueOf).collect(Collectors.joining(", "));
     }
 
     private void addPictures(Page page) {
@@ -90,7 +102,7 @@ final class ThesisReport {
         if (!Files.exists(file)) {
             return;
         }
-        page.heading(2, "Disagreements and their causes");
+        page.heading(3, "Commentary");
         page.text("Written by hand, from `" + COMMENTARY + "`; everything else on this page is computed.");
         try {
             for (String paragraph : Files.readString(file).strip().split("\n\\s*\n")) {

@@ -115,7 +115,7 @@ public final class ThesisStudy implements AutoCloseable {
     private List<EvolvedRun> bestOfSeeds() {
         Map<String, EvolvedRun> best = new LinkedHashMap<>();
         List<EvolvedRun> sorted = new ArrayList<>(evolved);
-        sorted.sort(Comparator.comparingDouble(run -> -Catalogue.best(run).distance()));
+        sorted.sort(Comparator.comparingDouble(run -> -catalogue.best(run).distance()));
         sorted.forEach(run -> best.putIfAbsent(run.creature() + " " + run.scheme(), run));
         return best.values().stream()
                 .sorted(Comparator.comparing(EvolvedRun::creature).thenComparing(EvolvedRun::scheme)).toList();
