@@ -1,6 +1,8 @@
 // The four creatures of the thesis (2.7): counts, and that each fits its tank.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "natator/error.h"
 #include "natator/model_builder.h"
 #include "natator/scene_json.h"

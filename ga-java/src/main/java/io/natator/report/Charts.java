@@ -22,6 +22,7 @@ public final class Charts {
     public static XYChart lines(String title, String x, String y) {
         XYChart chart = new XYChartBuilder().width(800).height(480).title(title).xAxisTitle(x).yAxisTitle(y).build();
         chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
+        chart.getStyler().setYAxisDecimalPattern("0.0###");
         // Dashed lines make an SVG of half a megabyte, since each dash becomes a path.
         chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
         return chart;
@@ -45,5 +46,13 @@ public final class Charts {
         XYSeries series = chart.addSeries(name, x, y, deviation);
         series.setMarker(SeriesMarkers.CIRCLE).setMarkerColor(colour(colour)).setLineColor(colour(colour))
                 .setLineStyle(new BasicStroke(2f));
+    }
+
+    /** Adds a thin line that belongs to an axis of its own, on the right. */
+    public static void addOnTheRight(XYChart chart, String name, double[] x, double[] y, String title, Color colour) {
+        XYSeries series = chart.addSeries(name, x, y);
+        series.setMarker(SeriesMarkers.NONE).setLineColor(colour).setLineStyle(new BasicStroke(1f)).setYAxisGroup(1);
+        chart.setYAxisGroupTitle(1, title);
+        chart.getStyler().setYAxisGroupPosition(1, Styler.YAxisPosition.Right);
     }
 }

@@ -58,7 +58,7 @@ class ReproduceTest {
 
         assertThat(out.toString()).contains("1 evolutions").contains("about 604 evaluations left")
                 .contains("creature 1, flex").contains("at most ");
-        assertThat(out.toString()).containsPattern("\\d{4} evaluations to measure and 50 runs to record");
+        assertThat(out.toString()).containsPattern("\\d{4} evaluations to measure and 75 runs to record");
         assertThat(folder).isEmptyDirectory();
     }
 

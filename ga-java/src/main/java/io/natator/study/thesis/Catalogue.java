@@ -95,10 +95,11 @@ final class Catalogue {
         return directory.relativize(run.plan().directory()).toString().replace('\\', '/');
     }
 
-    /** What is recorded with all its particles: the gaits in fluid. */
+    /** What is recorded with all its particles: the gaits in fluid, the published ones also in that of inverse masses. */
     List<Experiment> recorded() {
         List<Experiment> all = new ArrayList<>();
         data.gaits().forEach(gait -> SCHEMES.forEach(scheme -> all.add(speeds(gait, scheme).get(0))));
+        data.gaits().forEach(gait -> all.add(speeds(gait, Scheme.FLEX).get(1)));
         evolved.forEach(run -> all.add(speeds(run).get(0)));
         return all;
     }

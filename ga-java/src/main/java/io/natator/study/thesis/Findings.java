@@ -76,6 +76,11 @@ record Findings(ThesisData data, Catalogue catalogue, Measurements measurements,
         return motions.of(catalogue.speeds(gait, scheme).get(0));
     }
 
+    /** Recorded runs of a published gait in flex, where inverse masses are linear in height. */
+    List<Motion> motionsOfInverseMass(ThesisData.PublishedGait gait) {
+        return motions.of(catalogue.speeds(gait, Scheme.FLEX).get(1));
+    }
+
     /** Head to tail of a creature at rest, as recorded; NaN if it was not. */
     double bodyLength(int creature) {
         return data.gaits().stream().filter(gait -> gait.creature() == creature)

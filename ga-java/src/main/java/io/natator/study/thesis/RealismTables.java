@@ -50,6 +50,8 @@ final class RealismTables {
                 String name = gait.creature() + (gait.published() != null ? "" : ", " + gait.about());
                 subjects.add(new Subject(name, "thesis' gait, " + Shown.name(scheme), findings.motions(gait, scheme)));
             }
+            subjects.add(new Subject(gait.creature() + (gait.published() != null ? "" : ", " + gait.about()),
+                    "thesis' gait, flex, inverse mass linear", findings.motionsOfInverseMass(gait)));
         }
         for (EvolvedRun run : findings.evolved()) {
             subjects.add(new Subject("" + run.creature(), "evolved, " + Shown.name(run.scheme()) + ", seed " + run.seed(),
@@ -66,7 +68,8 @@ final class RealismTables {
                     rows.add(row("" + gait.creature(), "published", gait.published().errors()));
                 }
                 gait.flex().stream().filter(one -> one.errors() != null).forEach(one -> rows.add(row(gait.creature()
-                        + (gait.published() != null ? "" : ", " + gait.about()), "thesis' gait, Flex 1.2.0", one.errors())));
+                        + (gait.published() != null ? "" : ", " + gait.about()), "thesis' gait, Flex 1.2.0"
+                        + (one.setting().equals(Catalogue.INVERSE_MASS) ? ", inverse mass linear" : ""), one.errors())));
             }
         }
         for (Subject subject : subjects()) {

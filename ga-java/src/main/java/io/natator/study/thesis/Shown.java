@@ -14,19 +14,25 @@ final class Shown {
     private Shown() {
     }
 
-    /** Mean ± standard deviation, with the number of values if it is not the usual one. */
+    /** Mean ± standard deviation, or the one value that there is. */
     static String speed(Sample sample) {
         return sample.count() == 0 ? NOTHING : sample.hasSpread()
-                ? String.format(Locale.ROOT, "%.4f ± %.4f", sample.mean(), sample.standardDeviation())
+                ? number(sample.mean()) + " ± " + number(sample.standardDeviation())
                 : number(sample.mean());
     }
 
     static String number(double value) {
-        return Double.isNaN(value) ? NOTHING : String.format(Locale.ROOT, "%.4f", value);
+        return rounded("%.4f", value);
     }
 
     static String shortNumber(double value) {
-        return Double.isNaN(value) ? NOTHING : String.format(Locale.ROOT, "%.2f", value);
+        return rounded("%.2f", value);
+    }
+
+    /** Without the sign of a negative number that is rounded to 0. */
+    private static String rounded(String format, double value) {
+        return Double.isFinite(value) ? String.format(Locale.ROOT, format, value).replaceFirst("^-(0\\.0+)$", "$1")
+                : NOTHING;
     }
 
     static String list(List<Double> values) {

@@ -12,6 +12,7 @@ import io.natator.report.MotionPlots;
 import io.natator.report.Page;
 import io.natator.report.Recording;
 import io.natator.study.Sample;
+import java.awt.Color;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -96,6 +97,7 @@ final class ThesisFigures {
                     addCurve(chart, parameter, gait, scheme, colour++);
                 }
             }
+            Catalogue.SCHEMES.forEach(scheme -> addCost(chart, parameter, scheme));
             if (!chart.getSeriesMap().isEmpty()) {
                 String file = "4.1-" + parameter.label().replace(' ', '-');
                 page.picture(Picture.save(chart, folder.resolve(file)), "speed over " + parameter.label());
@@ -129,6 +131,22 @@ final class ThesisFigures {
             double[] y = points.stream().mapToDouble(point -> point[1]).toArray();
             double[] deviation = points.stream().mapToDouble(point -> point[2]).toArray();
             Charts.addWithSpread(chart, name, x, y, deviation, colour);
+        }
+    }
+
+    private void addCost(XYChart chart, Parameter parameter, Scheme scheme) {
+        List<double[]> points = new ArrayList<>();
+        for (double value : parameter.settings()) {
+            double cost = findings.costs().of(ExperimentTables.of(findings, parameter, value,
+                    Catalogue.STUDIED_GAITS.get(0), scheme, false));
+            if (Double.isFinite(cost) && value < 1e20) {
+                points.add(new double[] {logarithmic(parameter) ? Math.log(value) / Math.log(2) : value, cost});
+            }
+        }
+        if (!points.isEmpty()) {
+            Charts.addOnTheRight(chart, "cost, " + Shown.name(scheme), points.stream().mapToDouble(point -> point[0]).toArray(),
+                    points.stream().mapToDouble(point -> point[1]).toArray(), "cost (core seconds per simulated second)",
+                    scheme == Scheme.FLEX ? Color.GRAY : Color.LIGHT_GRAY);
         }
     }
 }
