@@ -41,10 +41,11 @@ final class MeasurePhase {
         }
         Double left = stopAfter == null ? null : Math.max(1, stopAfter - (System.nanoTime() - started) / NANOSECONDS);
         Thread recorder = Thread.currentThread();
-        err.printf("%d runs to record, then times%n", study.missingMotions());
+        int recordings = study.missingRecordings();
+        err.printf("%d runs to record or time%n", recordings);
         err.flush();
         try (Stopper stopper = new Stopper(recorder::interrupt, left, () -> sayGoodbye(err))) {
-            study.record(execution, counter(study.missingMotions(), err));
+            study.record(execution, counter(recordings, err));
             return true;
         } catch (InterruptedException e) {
             return false;

@@ -103,8 +103,8 @@ final class ReproduceCommand implements Callable<Integer> {
         if (dryRun) {
             evolution.forecast(out);
             try (ThesisStudy study = new ThesisStudy(directory, plan, runs, duration)) {
-                out.printf("then, of what is evolved so far, %d evaluations to measure and %d runs to record%n",
-                        study.missingMeasurements(), study.missingMotions());
+                out.printf("then, of what is evolved so far, %d evaluations to measure and %d runs to record or time%n",
+                        study.missingMeasurements(), study.missingRecordings());
             }
             return ExitCode.OK;
         }
@@ -121,8 +121,8 @@ final class ReproduceCommand implements Callable<Integer> {
                 Double left = stopAfter == null ? null
                         : Math.max(1, stopAfter - (System.nanoTime() - started) / NANOSECONDS);
                 if (!new MeasurePhase(study, execution).run(left, err)) {
-                    out.printf("%d evaluations and %d recordings left; the same command continues%n",
-                            study.missingMeasurements(), study.missingMotions());
+                    out.printf("%d evaluations and %d recordings or times left; the same command continues%n",
+                            study.missingMeasurements(), study.missingRecordings());
                     return ExitCode.OK;
                 }
             }

@@ -53,12 +53,29 @@ class ReproduceTest {
     }
 
     @Test
+    void reportsOnARunOfOnesOwn() throws IOException {
+        assertThat(reproduce("--creature", "2", "--scheme", "flex", "--generations", "0", "--phase", "evolve"))
+                .as(err.toString()).isZero();
+        Path run = folder.resolve("runs/creature-2/flex/seed-1");
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute("report", "--simulator-path", SIMULATOR.toString(), run.toString()))
+                .as(err.toString()).isZero();
+
+        assertThat(Files.readString(run.resolve("report/README.md"))).contains("# thesis/creature-2, seed 1",
+                "![rotation over time](rotation.png)", "flow-side.png", "| e against anguilliform fish (α, β) | 0.")
+                .doesNotContain("NaN");
+        assertThat(command.execute("report", folder.toString())).isEqualTo(2);
+        assertThat(err.toString()).contains("is not a run folder");
+    }
+
+    @Test
     void saysHowLongItWillTakeAndDoesNothing() {
         assertThat(reproduce("--creature", "1", "--scheme", "flex", "--generations", "100", "--dry-run")).isZero();
 
         assertThat(out.toString()).contains("1 evolutions").contains("about 604 evaluations left")
                 .contains("creature 1, flex").contains("at most ");
-        assertThat(out.toString()).containsPattern("\\d{4} evaluations to measure and 75 runs to record");
+        assertThat(out.toString()).containsPattern("\\d{4} evaluations to measure and \\d{3} runs to record or time");
         assertThat(folder).isEmptyDirectory();
     }
 

@@ -9,7 +9,9 @@ import io.natator.simulator.Evaluator;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.SimulationRequest;
 import java.nio.file.Path;
+import java.util.HashSet;
 import java.util.List;
+import java.util.Set;
 
 /** Times of the parameter study, {@code costs.jsonl}, by the clock: one evaluation at a time, on the processor. */
 final class Costs implements AutoCloseable {
@@ -35,9 +37,11 @@ final class Costs implements AutoCloseable {
                 request.overrides());
     }
 
-    /** Those that are not timed yet. */
+    /** Those that are not timed yet, each once. */
     List<Experiment> missing(List<Experiment> experiments) {
-        return experiments.stream().filter(one -> rows.find(key(one.request())) == null).toList();
+        Set<String> seen = new HashSet<>();
+        return experiments.stream().filter(one -> rows.find(key(one.request())) == null && seen.add(key(one.request())))
+                .toList();
     }
 
     /** Seconds per simulated second, or NaN. */

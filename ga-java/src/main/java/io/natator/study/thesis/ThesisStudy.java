@@ -57,9 +57,11 @@ public final class ThesisStudy implements AutoCloseable {
         return measurements.missing(catalogue.all()).size();
     }
 
-    /** How many runs are still to be recorded on the processor. */
-    public int missingMotions() {
-        return motions.missing(catalogue.recorded()).size();
+    /** How many runs are still to be recorded or timed on the processor. */
+    public int missingRecordings() {
+        long pictures = pictured().keySet().stream().filter(name -> !Files.exists(recording(name))).count();
+        return motions.missing(catalogue.recorded()).size() + (int) pictures
+                + costs.missing(catalogue.timed()).size();
     }
 
     /**
