@@ -15,6 +15,11 @@ final class Conclusions {
     private static final double NOISE = 3;
     private static final double DRIFT = 2;
     private static final double CONFINEMENT = 5;
+    /** Slower is no motion in vacuum worth the name. Scene units per second. */
+    private static final double STILL = 0.01;
+    private static final String YES = "yes";
+    private static final String NO = "no";
+    private static final String ABSENT = "no such motion";
 
     private final Findings findings;
 
@@ -162,7 +167,8 @@ final class Conclusions {
         if (usual.count() > 0 && changed.count() > 0) {
             rows.add(claim(scheme, claim, Shown.speed(changed) + " at " + Shown.value(value) + ", " + Shown.speed(usual)
                     + " at " + Shown.value(parameter.standard()),
-                    Math.abs(usual.mean()) > 0.01 && Math.abs(changed.mean()) < 0.3 * Math.abs(usual.mean())));
+                    Math.abs(usual.mean()) <= STILL ? ABSENT
+                            : Math.abs(changed.mean()) < 0.3 * Math.abs(usual.mean()) ? YES : NO));
         }
     }
 
@@ -171,8 +177,9 @@ final class Conclusions {
         Sample backwards = potentiated(1, scheme, Catalogue.VACUUM);
         if (forwards.count() > 0 && backwards.count() > 0) {
             rows.add(claim(scheme, "potentiation (p = 4) also accelerates in vacuum, backwards with 1 − Δφ",
-                    Shown.speed(forwards) + " and " + Shown.speed(backwards), Math.abs(forwards.mean()) > 0.1
-                            && forwards.mean() * backwards.mean() < 0));
+                    Shown.speed(forwards) + " and " + Shown.speed(backwards),
+                    Math.abs(forwards.mean()) <= STILL && Math.abs(backwards.mean()) <= STILL ? ABSENT
+                            : forwards.mean() * backwards.mean() < 0 ? YES : NO));
         }
         double most = Double.NEGATIVE_INFINITY;
         boolean swims = false;
@@ -194,6 +201,10 @@ final class Conclusions {
     }
 
     private static List<String> claim(Scheme scheme, String claim, String measured, boolean holds) {
-        return List.of(claim + " (" + Shown.name(scheme) + ")", measured, holds ? "yes" : "no");
+        return claim(scheme, claim, measured, holds ? YES : NO);
+    }
+
+    private static List<String> claim(Scheme scheme, String claim, String measured, String holds) {
+        return List.of(claim + " (" + Shown.name(scheme) + ")", measured, holds);
     }
 }
