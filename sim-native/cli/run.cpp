@@ -24,8 +24,17 @@ struct Options {
     std::optional<double> duration, snapshot_at;
     Perturbation perturbation;
     bool particles = false;
+    BackendChoice backend;
     ExecutionOptions execution;
 };
+
+/// Recordings are made on the CPU.
+bool run_on_gpu(const Options& options, const Scene& scene) {
+    if (options.trajectory.empty() && options.snapshot.empty()) return on_gpu(options.backend, scene);
+    if (options.backend.name == "cuda")
+        throw InputError("--backend cuda: records no --trajectory and no --snapshot; must be cpu or auto with them");
+    return false;
+}
 
 /// JSON given on the command line, or in a file if it does not begin with '{'.
 json read_argument(const std::string& argument, const std::string& name) {
@@ -106,8 +115,13 @@ int run_scene(Options& options) {
     }
 
     const auto start = std::chrono::steady_clock::now();
+    const BackendChoice& backend = options.backend;
     const Evaluation result =
-        evaluate(scene, gait, precision, options.perturbation, on_frame, options.execution.execution(), snapshot);
+        run_on_gpu(options, scene)
+            ? evaluate_on_gpu(scene, {{gait, options.perturbation}}, precision, backend.device, nullptr,
+                              backend.whole_gpu)
+                  .front()
+            : evaluate(scene, gait, precision, options.perturbation, on_frame, options.execution.execution(), snapshot);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));
@@ -153,6 +167,7 @@ void add_run(CLI::App& app, int& status) {
         ->check(CLI::NonNegativeNumber);
     command->add_option("--perturbation-seed", options->perturbation.seed, "The same seed gives the same shifts.")
         ->capture_default_str();
+    add_backend_options(command, options->backend);
     add_execution_options(command, options->execution);
     command->callback([options, &status] { status = run_scene(*options); });
 }

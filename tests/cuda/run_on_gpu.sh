@@ -116,9 +116,13 @@ short_runs() {
         printf '"gait":{"frequency":1,"amplitude":[0.9,0.7],"phase":[0,0.3]},"overrides":{"settling":{"updates":2}}}\n'
     done
 }
-sanitize() {  # tool
-    short_runs | "$sanitizer" --tool "$1" --error-exitcode 9 "$simulator" serve --backend cuda &&
-        "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" --gtest_filter='GpuParticles*:*WholeGpu.ContactsWithout*:*WholeGpu.FullLists*'
+sanitize() {  # tool; the tests take racecheck longer than anyone waits
+    local path
+    for path in '' --whole-gpu; do
+        short_runs | "$sanitizer" --tool "$1" --error-exitcode 9 "$simulator" serve --backend cuda $path || return
+    done
+    [[ $1 == racecheck ]] || "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" \
+        --gtest_filter='GpuParticles*:*WholeGpu.ContactsWithout*:*WholeGpu.FullLists*'
 }
 for tool in memcheck racecheck; do
     if [[ -n $sanitizer ]]; then

@@ -55,7 +55,8 @@ TEST(InfoTest, DescribesASceneAsJson) {
 TEST(InfoTest, DefinesASceneWithAllThatItBuildsOn) {
     const std::string patch =
         R"({"fluid":null,"planes":[],"solver":{"gravity":[0,0,0]},"stopping":{"planeContact":false,"noProgressAfter":0}})";
-    const Outcome patched = run_simulator({"info", "thesis/creature-1", "--definition", "--json", "--overrides", patch});
+    const Outcome patched =
+        run_simulator({"info", "thesis/creature-1", "--definition", "--json", "--overrides", patch});
     ASSERT_EQ(patched.exit_code, 0) << patched.err;
     json scene = json::parse(patched.out);
     json vacuum = json::parse(run_simulator({"info", "thesis/creature-1-vacuum", "--definition", "--json"}).out);
@@ -65,7 +66,8 @@ TEST(InfoTest, DefinesASceneWithAllThatItBuildsOn) {
     scene.erase("description");
     vacuum.erase("description");
     EXPECT_EQ(scene, vacuum);
-    const Outcome refused = run_simulator({"info", "thesis/creature-1", "--definition", "--overrides", R"({"planes":1})"});
+    const Outcome refused =
+        run_simulator({"info", "thesis/creature-1", "--definition", "--overrides", R"({"planes":1})"});
     EXPECT_EQ(refused.exit_code, 2);
 }
 
@@ -123,8 +125,8 @@ TEST(RunTest, ASnapshotThatNeverComesIsSaid) {
     const Outcome late = run_simulator({"run", "thesis/creature-1-vacuum", "--snapshot", file.path, "--at", "5"});
     EXPECT_EQ(late.exit_code, 2);
     EXPECT_NE(late.err.find("--at 5"), std::string::npos) << late.err;
-    const Outcome early = run_simulator({"run", "thesis/creature-1", "--snapshot", file.path, "--at", "3", "--overrides",
-                                         R"({"stopping":{"noProgressAfter":0.05}})"});
+    const Outcome early = run_simulator({"run", "thesis/creature-1", "--snapshot", file.path, "--at", "3",
+                                         "--overrides", R"({"stopping":{"noProgressAfter":0.05}})"});
     EXPECT_EQ(early.exit_code, 1);
     EXPECT_NE(early.err.find("before --at 3"), std::string::npos) << early.err;
 }
@@ -262,6 +264,24 @@ TEST(UsageTest, AFullDiskBehindStandardOutputIsAFailure) {
     const Outcome outcome = run_simulator({"info"}, "", "/dev/full");
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+}
+
+TEST(RunTest, BackendAutoRunsEverywhereAndCudaRecordsNothing) {
+    const std::vector<std::string> run{"run", "thesis/creature-1-vacuum", "--duration", "0.05", "--backend"};
+    const auto with = [&run](std::vector<std::string> more) {
+        more.insert(more.begin(), run.begin(), run.end());
+        return run_simulator(more);
+    };
+    EXPECT_EQ(with({"auto"}).exit_code, 0);
+    const TemporaryPath file("trajectory.csv");
+    EXPECT_EQ(with({"auto", "--trajectory", file.path}).exit_code, 0);
+    EXPECT_EQ(file_lines(file.path).front(), "frame,time,slice,x,y,z");
+    for (const char* recording : {"--trajectory", "--snapshot"}) {
+        const Outcome refused = with({"cuda", recording, file.path});
+        EXPECT_EQ(refused.exit_code, 2);
+        EXPECT_EQ(lines(refused.err), 1) << refused.err;
+        EXPECT_NE(refused.err.find("must be cpu or auto"), std::string::npos) << refused.err;
+    }
 }
 
 }  // namespace
