@@ -13,7 +13,7 @@ trap 'rm -rf "$folder"' EXIT
 # feature, then a pattern for the functions that do it and nothing else
 features=$(cat <<'TEXT'
 fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_rate_lambda)[(]
-fluid neighbours|::(find_fluid_neighbours|list_fluid_neighbours)[(]
+fluid neighbours|::(find_fluid_neighbours|list_fluid_neighbours|find_by_vectors|interleave_by_vectors)[(]
 planes|::(find_plane_contacts|leave_planes|solve_planes|add_plane_pressure|push_from_planes)[(]
 contacts|::(find_contacts|solve_contacts)[(]
 springs|::solve_springs[(]
