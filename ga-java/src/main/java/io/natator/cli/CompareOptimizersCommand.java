@@ -6,16 +6,12 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
-import io.natator.config.SimulatorMode;
-import io.natator.evolution.EvolutionListener;
 import io.natator.run.EvolutionRun;
-import io.natator.simulator.Evaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.study.optimizer.Contestant;
 import io.natator.study.optimizer.OptimizerStudy;
 import java.io.PrintWriter;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.Arrays;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -36,8 +32,8 @@ import picocli.CommandLine.Spec;
             "The same command continues a study that was stopped."})
 final class CompareOptimizersCommand implements Callable<Integer> {
 
-    private static final int RUNS_AT_ONCE = 2;
-    private static final int RUNS_AT_ONCE_IN_BATCHES = 32;
+    private static final List<String> WITHOUT_OUTCOME =
+            List.of("--stop-after", "--simulator-path", "--workers", "--timeout", "--no-cache");
 
     @Spec
     private CommandSpec spec;
@@ -50,6 +46,9 @@ final class CompareOptimizersCommand implements Callable<Integer> {
 
     @Mixin
     private CacheOptions cacheOptions;
+
+    @Mixin
+    private QueueOptions queueOptions;
 
     @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where runs and results go.")
     private Path directory;
@@ -82,51 +81,21 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
     private FitnessKind fitness;
 
-    @Option(names = "--runs-at-once", paramLabel = "N", description = "Runs under way at the same time; their "
-            + "generations share a batch. Default: " + RUNS_AT_ONCE_IN_BATCHES + " with --simulator batch, else "
-            + RUNS_AT_ONCE + ".")
-    private Integer runsAtOnce;
-
-    @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
-    private Double stopAfter;
-
     @Override
     public Integer call() throws InterruptedException {
-        EvolveCommand.checkStopAfter(stopAfter);
+        queueOptions.stopAfter();
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
-        int atOnce = runsAtOnce != null ? runsAtOnce
-                : execution.mode() == SimulatorMode.BATCH ? RUNS_AT_ONCE_IN_BATCHES : RUNS_AT_ONCE;
-        if (atOnce < 1) {
-            throw new InvalidInputException("--runs-at-once is " + atOnce + "; expected a whole number from 1");
-        }
+        queueOptions.atOnce(execution);
         Map<String, EvolutionSettings> scenes = scenes(execution);
         OptimizerStudy study = new OptimizerStudy(scenes, contestants(), seeds, cmaEsPopulation, directory);
-        boolean all = run(study, withTimeLimit(execution, scenes), atOnce);
+        boolean all = queueOptions.carryOut(study::run, EvolutionRun.withTimeLimit(execution, scenes.values()),
+                study.size(), study.finished(), study.evaluations(), study.recorded(), spec.commandLine().getErr());
         PrintWriter out = spec.commandLine().getOut();
         if (!all) {
             out.printf("%d of %d runs finished; the same command continues%n", study.finished(), study.size());
         }
-        out.println(study.report(command()));
+        out.println(study.report(CommandText.of(spec, WITHOUT_OUTCOME)));
         return ExitCode.OK;
-    }
-
-    private boolean run(OptimizerStudy study, ExecutionSettings execution, int atOnce) throws InterruptedException {
-        PrintWriter err = spec.commandLine().getErr();
-        try (Evaluator evaluator = EvolutionRun.open(execution);
-                Stopper stopper = new Stopper(evaluator, stopAfter, () -> {
-                    err.println("interrupted; the same command continues");
-                    err.flush();
-                })) {
-            StudyProgress progress = new StudyProgress(study.size(), study.finished(), study.evaluations(),
-                    study.recorded(), err) {
-                @Override
-                public EvolutionListener forRun() {
-                    return execution.mode() == SimulatorMode.BATCH ? stopper.beforeLateGenerations()
-                            : new EvolutionListener() { };
-                }
-            };
-            return study.run(execution, evaluator, atOnce, progress);
-        }
     }
 
     private Map<String, EvolutionSettings> scenes(ExecutionSettings execution) throws InterruptedException {
@@ -145,17 +114,6 @@ final class CompareOptimizersCommand implements Callable<Integer> {
         return scenes;
     }
 
-    /** The longest of the limits that suit the scenes, unless one was given. */
-    private static ExecutionSettings withTimeLimit(ExecutionSettings execution,
-            Map<String, EvolutionSettings> scenes) throws InterruptedException {
-        Duration longest = Duration.ZERO;
-        for (EvolutionSettings settings : scenes.values()) {
-            Duration limit = EvolutionRun.withTimeLimit(execution, settings).timeout();
-            longest = longest.compareTo(limit) < 0 ? limit : longest;
-        }
-        return execution.withTimeout(longest);
-    }
-
     private List<Contestant> contestants() {
         List<String> known = Arrays.stream(Contestant.values()).map(Contestant::label).toList();
         return optimizers.stream().map(name -> {
@@ -166,17 +124,5 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             }
             return Contestant.values()[index];
         }).toList();
-    }
-
-    /** The command line, but for what does not change the outcome. */
-    private String command() {
-        StringBuilder command = new StringBuilder("java -jar ga-java/target/natator.jar compare-optimizers");
-        for (var option : spec.commandLine().getParseResult().matchedOptions()) {
-            if (!List.of("--stop-after", "--simulator-path", "--workers", "--timeout", "--no-cache").contains(option.longestName())) {
-                command.append(' ').append(option.longestName()).append(' ')
-                        .append(String.join(",", option.originalStringValues()));
-            }
-        }
-        return command.toString();
     }
 }

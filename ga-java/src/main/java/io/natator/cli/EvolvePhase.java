@@ -3,11 +3,8 @@ package io.natator.cli;
 import io.natator.checkpoint.CompactRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Scheme;
 import io.natator.config.SimulatorMode;
-import io.natator.evolution.EvolutionListener;
-import io.natator.run.EvolutionRun;
 import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import io.natator.study.thesis.EvolutionPlan;
@@ -20,8 +17,6 @@ import java.util.Locale;
 /** The evolutions of {@code reproduce}: carries them out, or says how long they will take. */
 final class EvolvePhase {
 
-    private static final int RUNS_AT_ONCE = 2;
-    private static final int RUNS_AT_ONCE_IN_BATCHES = 32;
     /** Evaluations of a generation as a share of the population (measured on JGAP: 1.49). */
     private static final double CHILDREN_PER_SELECTED = 1.5;
     private static final double THESIS_SECONDS = 4;
@@ -37,34 +32,17 @@ final class EvolvePhase {
     /**
      * Evolves what is not finished.
      *
-     * @param runsAtOnce evolutions under way at the same time, or null for what suits the execution
-     * @param compact    whether finished evolutions are made small
-     * @param stopAfter  seconds, or null
+     * @param queue   how many runs at once, and when to stop
+     * @param compact whether finished evolutions are made small
      * @return whether all are finished
      */
-    boolean run(Integer runsAtOnce, boolean compact, Double stopAfter, PrintWriter err) throws InterruptedException {
-        int atOnce = runsAtOnce != null ? runsAtOnce
-                : execution.mode() == SimulatorMode.BATCH ? RUNS_AT_ONCE_IN_BATCHES : RUNS_AT_ONCE;
-        if (atOnce < 1) {
-            throw new InvalidInputException("--runs-at-once is " + atOnce + "; expected a whole number from 1");
-        }
+    boolean run(QueueOptions queue, boolean compact, PrintWriter err) throws InterruptedException {
+        queue.atOnce(execution);  // refused before anything is made small
         long recorded = plan.runs().stream().filter(run -> !run.plan().isFinished())
                 .mapToLong(run -> run.plan().recorded()).sum();
-        try (Evaluator evaluator = EvolutionRun.open(execution);
-                Stopper stopper = new Stopper(evaluator, stopAfter, () -> {
-                    err.println("interrupted; the same command continues");
-                    err.flush();
-                })) {
-            StudyProgress progress = new StudyProgress(plan.runs().size(), plan.finished().size(),
-                    recorded + left(), recorded, err) {
-                @Override
-                public EvolutionListener forRun() {
-                    return execution.mode() == SimulatorMode.BATCH ? stopper.beforeLateGenerations()
-                            : new EvolutionListener() { };
-                }
-            };
-            return new RunQueue(plan.runs().stream().map(EvolvedRun::plan).toList())
-                    .run(execution, evaluator, atOnce, progress);
+        try {
+            return queue.carryOut(new RunQueue(plan.runs().stream().map(EvolvedRun::plan).toList())::run, execution,
+                    plan.runs().size(), plan.finished().size(), recorded + left(plan.runs()), recorded, err);
         } finally {
             if (compact) {
                 plan.finished().forEach(run -> CompactRun.compact(run.plan().directory()));
@@ -73,8 +51,8 @@ final class EvolvePhase {
     }
 
     /** Evaluations that are still to be done, as far as can be known. */
-    private long left() {
-        return plan.runs().stream().filter(run -> !run.plan().isFinished())
+    private static long left(List<EvolvedRun> runs) {
+        return runs.stream().filter(run -> !run.plan().isFinished())
                 .mapToLong(run -> Math.max(0, expected(run.plan().settings()) - run.plan().recorded())).sum();
     }
 
@@ -85,7 +63,7 @@ final class EvolvePhase {
     /** Says how many evaluations are left and how long they will take, judged by a few short ones. */
     void forecast(PrintWriter out) throws InterruptedException {
         out.printf("%d evolutions, %d of them finished; about %d evaluations left%n", plan.runs().size(),
-                plan.finished().size(), left());
+                plan.finished().size(), left(plan.runs()));
         int together = execution.mode() == SimulatorMode.BATCH ? plan.runs().get(0).plan().settings().population() : execution.workers();
         double seconds = 0;
         try (Evaluator evaluator = Evaluator.open(execution)) {
@@ -97,8 +75,7 @@ final class EvolvePhase {
                         continue;
                     }
                     Double duration = cell.get(0).plan().settings().duration();
-                    long evaluations = cell.stream().filter(run -> !run.plan().isFinished())
-                            .mapToLong(run -> Math.max(0, expected(run.plan().settings()) - run.plan().recorded())).sum();
+                    long evaluations = left(cell);
                     double each = new EvaluationTime(cell.get(0).plan().settings(), evaluator)
                             .of(together, duration == null ? THESIS_SECONDS : duration) / together;
                     out.printf(Locale.ROOT, "  creature %d, %-10s  %7d evaluations of %.3f s: %s%n", creature,

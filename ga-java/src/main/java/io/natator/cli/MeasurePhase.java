@@ -33,7 +33,7 @@ final class MeasurePhase {
         if (missing > 0) {
             err.printf("%d evaluations to measure%n", missing);
             try (Evaluator evaluator = Evaluator.open(execution);
-                    Stopper stopper = new Stopper(evaluator, stopAfter, () -> sayGoodbye(err))) {
+                    Stopper stopper = new Stopper(evaluator, stopAfter, () -> QueueOptions.sayGoodbye(err))) {
                 study.measure(evaluator, execution, counter(missing, err));
             } catch (InterruptedException e) {
                 return false;
@@ -44,17 +44,12 @@ final class MeasurePhase {
         int recordings = study.missingRecordings();
         err.printf("%d runs to record or time%n", recordings);
         err.flush();
-        try (Stopper stopper = new Stopper(recorder::interrupt, left, () -> sayGoodbye(err))) {
+        try (Stopper stopper = new Stopper(recorder::interrupt, left, () -> QueueOptions.sayGoodbye(err))) {
             study.record(execution, counter(recordings, err));
             return true;
         } catch (InterruptedException e) {
             return false;
         }
-    }
-
-    private static void sayGoodbye(PrintWriter err) {
-        err.println("interrupted; the same command continues");
-        err.flush();
     }
 
     /** Tells every few seconds how many are done. */

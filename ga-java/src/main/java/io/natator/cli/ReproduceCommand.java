@@ -5,18 +5,15 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.Scheme;
 import io.natator.run.EvolutionRun;
 import io.natator.study.thesis.EvolutionPlan;
-import io.natator.study.thesis.EvolvedRun;
 import io.natator.study.thesis.ThesisStudy;
 import java.io.PrintWriter;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
-import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
@@ -38,6 +35,9 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Mixin
     private ExecutionOptions executionOptions;
+
+    @Mixin
+    private QueueOptions queueOptions;
 
     @Option(names = "--creature", paramLabel = "N", split = ",", defaultValue = "1,2,3,4",
             description = "Creatures of the thesis, 1 to 4. Default: ${DEFAULT-VALUE}.")
@@ -76,27 +76,21 @@ final class ReproduceCommand implements Callable<Integer> {
                     + "Default: ${DEFAULT-VALUE}.")
     private int runs;
 
-    @Option(names = "--runs-at-once", paramLabel = "N", description = "Evolutions under way at the same time; their "
-            + "generations share a batch. Default: 32 with --simulator batch, else 2.")
-    private Integer runsAtOnce;
-
     @Option(names = "--compact", description = "Drop the single evaluations of finished evolutions, some ten megabytes "
             + "each, which the same seed gives again.")
     private boolean compact;
-
-    @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
-    private Double stopAfter;
 
     @Option(names = "--dry-run", description = "Say what would be done and how long it would take; do nothing.")
     private boolean dryRun;
 
     @Override
     public Integer call() throws InterruptedException {
-        EvolveCommand.checkStopAfter(stopAfter);
+        Double stopAfter = queueOptions.stopAfter();
         ExecutionSettings execution = executionOptions.execution(Backend.CPU);
         EvolutionPlan plan = new EvolutionPlan(creatures, schemes, seeds, population, generations, duration,
                 execution.backend(), execution.simulator(), directory);
-        execution = withTimeLimit(execution, plan);
+        execution = EvolutionRun.withTimeLimit(execution, plan.runs().stream().filter(run -> run.seed() == 1)
+                .map(run -> run.plan().settings()).toList());
         PrintWriter out = spec.commandLine().getOut();
         PrintWriter err = spec.commandLine().getErr();
         EvolvePhase evolution = new EvolvePhase(plan, execution);
@@ -110,7 +104,7 @@ final class ReproduceCommand implements Callable<Integer> {
         }
         long started = System.nanoTime();
         if (phase == Phase.EVOLVE || phase == Phase.ALL) {
-            if (!evolution.run(runsAtOnce, compact, stopAfter, err)) {
+            if (!evolution.run(queueOptions, compact, err)) {
                 out.printf("%d of %d evolutions finished; the same command continues%n", plan.finished().size(),
                         plan.runs().size());
                 return ExitCode.OK;
@@ -127,34 +121,9 @@ final class ReproduceCommand implements Callable<Integer> {
                 }
             }
             if (phase == Phase.REPORT || phase == Phase.ALL) {
-                out.println(study.report(plan, command()));
+                out.println(study.report(plan, CommandText.of(spec, WITHOUT_OUTCOME)));
             }
         }
         return ExitCode.OK;
-    }
-
-    /** The command line, but for what does not change the outcome. */
-    private String command() {
-        StringBuilder command = new StringBuilder("java -jar ga-java/target/natator.jar reproduce");
-        for (OptionSpec option : spec.commandLine().getParseResult().matchedOptions()) {
-            if (!WITHOUT_OUTCOME.contains(option.longestName())) {
-                command.append(' ').append(option.longestName()).append(' ')
-                        .append(String.join(",", option.originalStringValues()));
-            }
-        }
-        return command.toString();
-    }
-
-    /** The longest of the limits that suit the scenes, unless one was given. */
-    private static ExecutionSettings withTimeLimit(ExecutionSettings execution, EvolutionPlan plan)
-            throws InterruptedException {
-        Duration longest = Duration.ZERO;
-        for (EvolvedRun run : plan.runs()) {
-            if (run.seed() == 1) {
-                Duration limit = EvolutionRun.withTimeLimit(execution, run.plan().settings()).timeout();
-                longest = longest.compareTo(limit) < 0 ? limit : longest;
-            }
-        }
-        return execution.withTimeout(longest);
     }
 }

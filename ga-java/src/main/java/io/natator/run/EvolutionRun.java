@@ -19,7 +19,9 @@ import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.TimeLimit;
 import java.io.IOException;
+import java.time.Duration;
 import java.util.ArrayList;
+import java.util.Collection;
 import java.util.List;
 import java.util.function.LongSupplier;
 import org.slf4j.Logger;
@@ -58,6 +60,17 @@ public final class EvolutionRun {
             throws InterruptedException {
         return execution.timeout() != null ? execution : execution.withTimeout(TimeLimit.of(
                 SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()), settings.duration()));
+    }
+
+    /** The same with the longest of the limits that suit several settings. */
+    public static ExecutionSettings withTimeLimit(ExecutionSettings execution, Collection<EvolutionSettings> all)
+            throws InterruptedException {
+        Duration longest = Duration.ZERO;
+        for (EvolutionSettings settings : all) {
+            Duration limit = withTimeLimit(execution, settings).timeout();
+            longest = longest.compareTo(limit) < 0 ? limit : longest;
+        }
+        return execution.withTimeout(longest);
     }
 
     /**
