@@ -21,16 +21,6 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
 
 const auto all_cases = testing::Combine(testing::Values(1, 2, 3, 4), testing::Values(Scheme::flex, Scheme::conserving));
 
-template <class Real>
-double largest_distance(const State<Real>& a, const State<Real>& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.position.size(); ++i) {
-        const double distance = (a.position[i] - b.position[i]).norm();
-        if (!(distance <= largest)) largest = distance;  // also for NaN
-    }
-    return largest;
-}
-
 class GpuAgreement : public OnGpu<testing::TestWithParam<Case>> {
 protected:
     /// From the settled start on: all particles after one frame, the body's mean after 0.25 s.

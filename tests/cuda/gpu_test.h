@@ -5,6 +5,7 @@
 #include "natator/batch.h"
 #include "natator/gait.h"
 #include "natator/scene_json.h"
+#include "natator/state.h"
 
 /// What the checks of the CUDA backend share. They skip themselves where there is no GPU.
 namespace natator::test {
@@ -32,6 +33,17 @@ inline Gait wave(const Scene& scene, int number = 0) {
         gait.phase.push_back(std::fmod(0.3 * k + 0.02 * number, 1.0));
     }
     return gait;
+}
+
+/// Of a particle's two places.
+template <class Real>
+double largest_distance(const State<Real>& a, const State<Real>& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.position.size(); ++i) {
+        const double distance = (a.position[i] - b.position[i]).norm();
+        if (!(distance <= largest)) largest = distance;  // also for NaN
+    }
+    return largest;
 }
 
 inline std::string name_of(Scheme scheme) {

@@ -11,12 +11,6 @@ namespace {
 
 class GpuParticles : public OnGpu<> {};
 
-Model overlapping(Points positions, std::uint32_t phase) {
-    Model model = bare_model(Scheme::conserving, std::move(positions), phase);
-    model.parameters.maxAcceleration = 100;
-    return model;
-}
-
 /// More neighbours than lists hold, densities far above rest: see native/overlap_test.cpp.
 TEST_F(GpuParticles, ACompressedBlockExpandsSlowlyAndKeepsItsMomentum) {
     Points positions = lattice(9, 9, 9, 0.02);

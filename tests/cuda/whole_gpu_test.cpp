@@ -27,16 +27,6 @@ Scene tank(int scale, Scheme scheme) {
     return scene;
 }
 
-template <class Real>
-double largest_distance(const State<Real>& a, const State<Real>& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.position.size(); ++i) {
-        const double distance = (a.position[i] - b.position[i]).norm();
-        if (!(distance <= largest)) largest = distance;  // also for NaN
-    }
-    return largest;
-}
-
 /// One substep and one frame from a settled start.
 template <class Real>
 void expect_agreement(const Scene& scene, double substep_bound, double frame_bound) {

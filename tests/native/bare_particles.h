@@ -35,6 +35,13 @@ inline Model bare_model(Scheme scheme, Points positions, std::uint32_t phase) {
     return model;
 }
 
+/// The same in scheme `conserving`, with the limit on acceleration that overlaps are pushed apart at.
+inline Model overlapping(Points positions, std::uint32_t phase) {
+    Model model = bare_model(Scheme::conserving, std::move(positions), phase);
+    model.parameters.maxAcceleration = 100;
+    return model;
+}
+
 /// A lattice of nx * ny * nz points around `centre`.
 inline Points lattice(int nx, int ny, int nz, double spacing, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero()) {
     Points points;

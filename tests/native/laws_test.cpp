@@ -112,17 +112,7 @@ TEST(Hydrostatics, AColumnStandsAsItsClosedFormSays) {
 
 /// A chain that swings from its held end: energy is only lost.
 TEST(Energy, AHangingChainNeverGainsAny) {
-    Model model;
-    model.scheme = Scheme::conserving;
-    model.parameters.damping = 0;
-    model.parameters.numIterations = 64;  // so many that no energy hides in stretched links
-    for (int i = 0; i < 12; ++i) {
-        model.position.emplace_back(0.1 * i, 2, 0);
-        model.velocity.emplace_back(Eigen::Vector3d::Zero());
-        model.inverse_mass.push_back(i == 0 ? 0 : 1);
-        model.phase.push_back(1u);
-        if (i > 0) model.springs.push_back({i - 1, i, 0.1, 1});
-    }
+    const Model model = hanging_chain();
     Solver<double> solver(model);
     State<double> state = initial_state<double>(model);
     double last = total_energy(model, state);
@@ -137,10 +127,7 @@ TEST(Energy, AHangingChainNeverGainsAny) {
 
 /// A block of fluid that collapses in its tank: energy is only lost.
 TEST(Energy, ACollapsingBlockNeverGainsAny) {
-    Model model = fluid_column(8, 10, 4, 4);
-    for (Plane& plane : model.planes)
-        if (plane.normal.x() < 0) plane.offset += 1;  // one wall away
-    model.parameters.damping = 0;
+    const Model model = collapsing_block();
     Solver<float> solver(model);
     State<float> state = initial_state<float>(model);
     for (int k = 0; k < 100; ++k) {  // settling, as the thesis' scenes do
@@ -159,14 +146,7 @@ TEST(Energy, ACollapsingBlockNeverGainsAny) {
 
 /// A drop in free space keeps its momenta, whatever goes on inside it.
 TEST(Momentum, ADropWithUnequalMassesKeepsItsMomentum) {
-    Model model = fluid_column(6, 6, 4, 4);
-    model.planes.clear();
-    model.parameters.gravity.setZero();
-    model.parameters.damping = 0;
-    for (int i = 0; i < model.particles(); ++i) {
-        model.inverse_mass[i] = i % 3 == 0 ? 14 : 0.5;
-        model.velocity[i] = Eigen::Vector3d(0, 2 * (model.position[i].x() - 0.3), -(model.position[i].y() - 0.3));
-    }
+    const Model model = drop_of_unequal_masses();
     Solver<double> solver(model);
     State<double> state = initial_state<double>(model);
     Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero();

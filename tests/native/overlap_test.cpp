@@ -6,12 +6,6 @@
 namespace natator::test {
 namespace {
 
-Model overlapping(Points positions, std::uint32_t phase) {
-    Model model = bare_model(Scheme::conserving, std::move(positions), phase);
-    model.parameters.maxAcceleration = 100;
-    return model;
-}
-
 template <class Real>
 double fastest(const State<Real>& state) {
     double speed = 0;
