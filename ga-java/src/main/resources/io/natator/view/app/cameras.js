@@ -36,15 +36,15 @@ export class CameraRig {
   /** Called with the mode when the user changes it by dragging. */
   onMode = () => {};
 
-  constructor(canvas) {
-    this.#controls = new OrbitControls(this.camera, canvas);
+  constructor(host) {
+    this.#controls = new OrbitControls(this.camera, host);
     this.#controls.enabled = false;
     this.#controls.addEventListener('change', () => {
       this.hasMoved = true;
     });
-    canvas.addEventListener('pointerdown', event => this.#freeByDrag(event), {capture: true});
-    canvas.addEventListener('wheel', event => this.#wheel(event), {passive: false});
-    canvas.addEventListener('keydown', event => this.#key(event));
+    host.addEventListener('pointerdown', event => this.#freeByDrag(event), {capture: true});
+    host.addEventListener('wheel', event => this.#wheel(event), {passive: false});
+    host.addEventListener('keydown', event => this.#key(event));
     this.hasMoved = true;
   }
 

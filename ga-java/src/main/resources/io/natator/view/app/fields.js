@@ -23,11 +23,10 @@ export class FieldValues {
   /** Ends of the scale. */
   range = [0, 1];
 
-  /**
-   * Fills `out` with the values of `count` particles from `first` on.
-   *
-   * @returns {boolean} whether the ends of the scale changed
-   */
+  /** Called with the ends when they change. */
+  onRange = () => {};
+
+  /** Fills `out` with the values of `count` particles from `first` on. */
   read(field, scene, frame, first, count, out) {
     const {velocities, density} = frame;
     if (field === 'speed' && velocities !== null) {
@@ -46,13 +45,13 @@ export class FieldValues {
     } else {
       out.fill(0, 0, count);
     }
-    return this.#follow(field, scene, out, count);
+    this.#follow(field, scene, out, count);
   }
 
   #follow(field, scene, values, count) {
     const isNew = field !== this.#field || scene !== this.#scene;
     if (count === 0 || !isNew && ++this.#age < PERIOD) {
-      return false;
+      return;
     }
     this.#field = field;
     this.#scene = scene;
@@ -67,11 +66,10 @@ export class FieldValues {
     const wasWide = this.range[1] - this.range[0];
     const fits = !isNew && ends[0] >= this.range[0] && ends[1] <= this.range[1]
         && ends[1] - ends[0] > 0.4 * wasWide;
-    if (fits || ends[0] === this.range[0] && ends[1] === this.range[1]) {
-      return isNew;
+    if (!fits && (isNew || ends[0] !== this.range[0] || ends[1] !== this.range[1])) {
+      this.range = ends;
+      this.onRange(ends);
     }
-    this.range = ends;
-    return true;
   }
 
   /** Round numbers around most of a sorted sample. */

@@ -19,6 +19,7 @@ export class LookControls {
   #colour;
   #opacity;
   #quality;
+  #drawing;
   #switches = new Map();
 
   /** `onChange(look)` is called with each change; see `DEFAULT_LOOK` in stage.js. */
@@ -36,6 +37,9 @@ export class LookControls {
     fillSelect(this.#quality, [['auto', 'as fast as it keeps up'],
       ...LEVELS.map(level => [level, `${Math.round(100 * level)} % of the pixels' width`])]);
     this.#quality.addEventListener('change', () => this.set({quality: this.#quality.value}));
+    this.#drawing = make('select', {id: 'drawing', 'data-testid': 'drawing'});
+    fillSelect(this.#drawing, [['auto', 'what is faster here'], ['webgl', 'WebGL'], ['plain', 'the processor']]);
+    this.#drawing.addEventListener('change', () => this.set({drawing: this.#drawing.value}));
     const switches = SWITCHES.map(([name, text, key]) => {
       const input = make('input', {type: 'checkbox', 'data-testid': name});
       input.addEventListener('change', () => this.set({[name]: input.checked}));
@@ -43,7 +47,7 @@ export class LookControls {
       return make('label', {className: 'switch', title: `key ${key}`}, input, text);
     });
     byId('look').replaceChildren(row('Water', this.#water, null), row('Coloured by', this.#colour, 'colour'),
-        row('Opacity', this.#opacity, 'opacity'), row('Detail', this.#quality, 'quality'),
+        row('Opacity', this.#opacity, 'opacity'), row('Detail', this.#quality, 'quality'), row('Drawn by', this.#drawing, 'drawing'),
         make('div', {className: 'switches'}, ...switches));
     byId('legend-bar').style.background = cssGradient(SCALES.sequential);
     this.#show();
@@ -78,11 +82,12 @@ export class LookControls {
   }
 
   #show() {
-    const {water, colour, opacity, quality} = this.#look;
+    const {water, colour, opacity, quality, drawing} = this.#look;
     choose(this.#water, water);
     this.#colour.value = colour;
     this.#opacity.value = opacity;
     this.#quality.value = quality;
+    this.#drawing.value = drawing;
     for (const [name, input] of this.#switches) {
       input.checked = this.#look[name];
     }

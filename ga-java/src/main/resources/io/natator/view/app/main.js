@@ -85,7 +85,7 @@ class Page {
     const which = this.#views.length;
     const element = byId(`stage-${NAMES[which]}`);
     element.hidden = false;
-    const view = new View(element.querySelector('canvas'), setting, this.#setup.scenes, {
+    const view = new View(element.querySelector('.picture'), setting, this.#setup.scenes, {
       scene: () => this.#sceneChanged(which),
       status: (state, text) => this.#status(state, text),
       notice: (text, isBad) => this.#banner(text, isBad),
@@ -103,7 +103,7 @@ class Page {
   #removeSecond() {
     this.#views.pop().close();
     this.#figures.pop();
-    const old = byId('stage-b').querySelector('canvas');
+    const old = byId('stage-b').querySelector('.picture');
     old.replaceWith(old.cloneNode());
     byId('stage-b').querySelector('.overlay').hidden = false;
     byId('stage-b').hidden = true;
@@ -374,6 +374,7 @@ function figures(page) {
     fps: () => page.views[which]?.fps ?? 0,
     pace: () => page.views[which]?.pace ?? 0,
     dropped: () => page.views[which]?.dropped ?? 0,
+    drawing: () => page.views[which]?.stage.drawing ?? '',
     share: () => page.views[which]?.stage.share ?? 0,
     scene: () => page.views[which]?.scene ?? null,
     connected: () => page.views[which]?.isConnected ?? false,

@@ -1,42 +1,33 @@
-/** A canvas that shows frames of one scene: tank, water, body, muscles, trace, seen by a camera. */
+/** A picture of one scene: which frame, from where, how fine; drawn with WebGL or without. */
 
 import * as THREE from 'three';
-import {Body} from './body.js';
 import {CameraRig} from './cameras.js';
-import {Muscles} from './muscles.js';
+import {FieldValues} from './fields.js';
+import {GlPicture, hasGraphicsCard} from './gl-picture.js';
+import {PlainPicture} from './plain-picture.js';
 import {Quality} from './quality.js';
 import {centreOf, tankBounds} from './scene.js';
-import {Tank} from './tank.js';
 import {SpineTrace} from './trace.js';
-import {Water} from './water.js';
 
-THREE.ColorManagement.enabled = false;
-
-/** Screens with more pixels per length get no finer picture than this. */
-const MAX_PIXEL_RATIO = 2;
-
-/** What can be switched: water spheres, surface or none; colour speed, density or mass. */
+/** What can be chosen: water spheres, surface or none; colour speed, density or mass; drawing auto, webgl or plain. */
 export const DEFAULT_LOOK = {
   water: 'spheres', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
+  drawing: 'auto',
 };
 
-/** Draws when there is something new, and nothing else. */
+/** Draws into an element when there is something new, and else does nothing. */
 export class Stage {
-  #renderer;
-  #world = new THREE.Scene();
-  #water = new Water();
-  #body = new Body();
-  #muscles = new Muscles();
+  #host;
+  #picture = null;
+  #drawing = null;
   #trace = new SpineTrace();
-  #tank = new Tank();
-  #canvas;
+  #field = new FieldValues();
   #scene = null;
   #frame = null;
   #bounds = null;
   #look = {...DEFAULT_LOOK};
+  #colours = null;
   #quality = new Quality();
-  #background = new THREE.Color();
-  #sky = new THREE.Color();
   #forward = new THREE.Vector3();
   #centre = [0, 0, 0];
   #last = 0;
@@ -45,16 +36,12 @@ export class Stage {
   #width = 0;
   #height = 0;
 
-  constructor(canvas) {
-    this.#canvas = canvas;
-    this.#renderer = new THREE.WebGLRenderer({canvas, antialias: false, alpha: false, powerPreference: 'high-performance'});
-    this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
-    this.#renderer.autoClear = false;
-    this.rig = new CameraRig(canvas);
-    this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
-    this.#water.onRange = range => this.onRange(range);
-    new ResizeObserver(() => this.#resized()).observe(canvas);
-    this.#resized();
+  /** `host` is what the picture fills, and what takes drags and keys. */
+  constructor(host) {
+    this.#host = host;
+    this.rig = new CameraRig(host);
+    this.#field.onRange = range => this.onRange(range);
+    new ResizeObserver(() => this.#resized()).observe(host);
   }
 
   /** Called with the ends of the water's colour scale. */
@@ -65,16 +52,18 @@ export class Stage {
     return this.#share;
   }
 
+  /** What draws: WebGL, or the processor. */
+  get drawing() {
+    return this.#picture?.name ?? '';
+  }
+
   /** Takes over a scene (SCEN); the next frame is one of it. */
   setScene(scene) {
-    const isOther = this.#scene === null || scene.restarted;
+    this.#bounds = this.#scene === null || scene.restarted ? null : this.#bounds;
     this.#scene = scene;
-    this.#water.setScene(scene);
-    this.#body.setScene(scene);
-    this.#muscles.setScene(scene);
+    this.#frame = scene.restarted ? null : this.#frame;
     this.#trace.setScene(scene);
-    this.#bounds = isOther ? null : this.#bounds;
-    this.#frame = null;
+    this.#picture?.setScene(scene);
   }
 
   /** Shows this frame from the next drawing on. */
@@ -82,7 +71,7 @@ export class Stage {
     this.#frame = frame;
     if (this.#bounds === null) {
       this.#bounds = tankBounds(this.#scene, frame.position);
-      this.#tank.setBounds(this.#bounds);
+      this.#picture?.setBounds(this.#bounds);
       this.rig.setBounds(this.#bounds);
     }
     this.#trace.update(frame);
@@ -92,19 +81,17 @@ export class Stage {
   /** What is shown; see `DEFAULT_LOOK`. */
   setLook(look) {
     this.#look = {...look};
-    this.#muscles.object.visible = look.muscles;
-    this.#trace.object.visible = look.trace;
-    this.#isNew = true;
+    this.#choosePicture();
+    this.#picture.setLook(this.#look);
     this.#quality.rest();
     this.#resized();
+    this.#isNew = true;
   }
 
-  /** Colours as CSS: background, floor, marks, edges, ink. */
+  /** Colours as CSS: background, sky, floor, marks, edges, ink. */
   setTheme(colours) {
-    this.#background.setStyle(colours.background);
-    this.#sky.setStyle(colours.sky);
-    this.#tank.setColours(colours.floor, colours.marks, colours.edges);
-    this.#trace.setInk(new THREE.Color(colours.ink));
+    this.#colours = colours;
+    this.#picture?.setTheme(colours);
     this.#isNew = true;
   }
 
@@ -120,8 +107,8 @@ export class Stage {
     if (this.#frame === null || this.#width === 0) {
       return false;
     }
-    this.rig.setBody(this.#scene.body.length > 0
-        ? centreOf(this.#scene.body, this.#frame.position, this.#centre) : null);
+    const {body} = this.#scene;
+    this.rig.setBody(body.length > 0 ? centreOf(body, this.#frame.position, this.#centre) : null);
     this.rig.update(seconds, this.#width / this.#height);
     if (!this.#isNew && !this.rig.hasMoved) {
       this.#quality.rest();
@@ -129,47 +116,58 @@ export class Stage {
     }
     this.#isNew = false;
     this.rig.hasMoved = false;
-    this.#render();
+    const {camera} = this.rig;
+    camera.updateMatrixWorld();
+    const from = this.#look.cut ? this.rig.depthOfBody(camera.getWorldDirection(this.#forward)) : -Infinity;
+    this.#picture.draw(this.#frame, camera, from);
     if (this.#look.quality === 'auto' && this.#quality.drawn(now / 1000)) {
       this.#resized();
     }
     return true;
   }
 
-  #render() {
-    const camera = this.rig.camera;
-    camera.updateMatrixWorld();
-    camera.getWorldDirection(this.#forward);
-    const from = this.#look.cut ? this.rig.depthOfBody(this.#forward) : -Infinity;
-    this.#body.update(this.#frame);
-    this.#muscles.update(this.#frame);
-    this.#water.update(this.#frame, camera, this.#look, from);
-    this.#renderer.setRenderTarget(null);
-    this.#renderer.setClearColor(this.#background, 1);
-    this.#renderer.clear();
-    this.#renderer.render(this.#world, camera);
-    this.#water.drawSurface(this.#renderer, camera, this.#look, this.#body.points, this.#sky);
+  #choosePicture() {
+    const wanted = this.#look.drawing === 'auto' ? hasGraphicsCard() ? 'webgl' : 'plain' : this.#look.drawing;
+    if (this.#picture !== null && wanted === this.#drawing) {
+      return;
+    }
+    this.#picture?.dispose();
+    const canvas = document.createElement('canvas');
+    this.#host.replaceChildren(canvas);
+    this.#drawing = wanted;
+    try {
+      this.#picture = new (wanted === 'webgl' ? GlPicture : PlainPicture)(canvas, this.#trace, this.#field);
+    } catch (error) {
+      console.warn(`without WebGL: ${error.message}`);
+      this.#host.replaceChildren(canvas.cloneNode());
+      this.#picture = new PlainPicture(this.#host.firstChild, this.#trace, this.#field);
+    }
+    this.#share = 0;
+    this.#picture.setLook(this.#look);
+    if (this.#colours !== null) {
+      this.#picture.setTheme(this.#colours);
+    }
+    if (this.#scene !== null) {
+      this.#picture.setScene(this.#scene);
+    }
+    if (this.#bounds !== null) {
+      this.#picture.setBounds(this.#bounds);
+    }
   }
 
   #resized() {
-    const width = this.#canvas.clientWidth;
-    const height = this.#canvas.clientHeight;
+    const width = this.#host.clientWidth;
+    const height = this.#host.clientHeight;
     const share = this.#look.quality === 'auto' ? this.#quality.share : Number(this.#look.quality);
-    if (width === 0 || height === 0) {
+    const isSame = width === this.#width && height === this.#height && share === this.#share;
+    if (width === 0 || height === 0 || this.#picture === null) {
       this.#width = 0;
-      return;
+    } else if (!isSame) {
+      this.#width = width;
+      this.#height = height;
+      this.#share = share;
+      this.#picture.setSize(width, height, share, this.rig.camera.fov);
+      this.#isNew = true;
     }
-    if (width === this.#width && height === this.#height && share === this.#share) {
-      return;
-    }
-    this.#width = width;
-    this.#height = height;
-    this.#share = share;
-    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, MAX_PIXEL_RATIO) * share);
-    this.#renderer.setSize(width, height, false);
-    const pixels = this.#canvas.height / 2 / Math.tan(this.rig.camera.fov * Math.PI / 360);
-    this.#water.setPixels(pixels, this.#canvas.width, this.#canvas.height);
-    this.#body.setPixels(pixels);
-    this.#isNew = true;
   }
 }

@@ -32,15 +32,15 @@ export class View {
   history = new History();
 
   /**
-   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLElement} host what the picture fills
    * @param {object} setting scene, overrides, gait, rate, paused: how to begin
    * @param {string[]} known names of scenes
    */
-  constructor(canvas, setting, known, handlers) {
+  constructor(host, setting, known, handlers) {
     this.#setting = {overrides: null, gait: null, rate: 1, paused: false, ...setting};
     this.#known = known;
     this.#handlers = handlers;
-    this.stage = new Stage(canvas);
+    this.stage = new Stage(host);
     this.stage.onRange = range => handlers.range(range);
     const url = new URL('stream', document.baseURI);
     url.protocol = url.protocol.replace('http', 'ws');

@@ -2,35 +2,34 @@
 
 import * as THREE from 'three';
 import {SCALES, scaleBytes} from './colours.js';
-import {FieldValues} from './fields.js';
+import {WATER_RADIUS} from './scene.js';
 import {NearestFirst} from './sort.js';
-import {PlaceBuffer, scaleTexture, sphereMaterial} from './spheres.js';
-import {WaterSurface} from './surface.js';
-
-/** Radius of a drawn sphere in rest distances of the fluid. */
-const RELATIVE_RADIUS = 0.58;
+import {PlaceBuffer, scaleTexture, sphereMaterial} from './gl-spheres.js';
+import {GlSurface} from './gl-surface.js';
 
 /**
  * Drawn nearest first with depth written, so of spheres behind each other only the first is seen: one layer, through
  * which the body shows.
  */
-export class Water {
+export class GlWater {
   #scene = null;
   #places = null;
   #points = null;
   #values = null;
   #order = new NearestFirst();
-  #field = new FieldValues();
+  #field;
   #scale = scaleTexture(scaleBytes(SCALES.sequential));
   #material = sphereMaterial(this.#scale, 1, 0.5);
-  #surface = new WaterSurface(this.#scale);
+  #surface = new GlSurface(this.#scale);
   #forward = new THREE.Vector3();
 
   /** What to add to a scene of three.js. */
   object = new THREE.Group();
 
-  /** Called with the ends of the colour scale when they change. */
-  onRange = () => {};
+  /** `field` gives values and their scale; see `FieldValues`. */
+  constructor(field) {
+    this.#field = field;
+  }
 
   /** Takes over what is known of a scene (SCEN). */
   setScene(scene) {
@@ -44,7 +43,7 @@ export class Water {
     this.#points.frustumCulled = false;
     this.#points.renderOrder = 10;
     this.object.add(this.#points);
-    this.#material.uniforms.radius.value = RELATIVE_RADIUS * scene.fluidRestDistance;
+    this.#material.uniforms.radius.value = WATER_RADIUS * scene.fluidRestDistance;
     this.#surface.setScene(scene, this.#places.geometry);
   }
 
@@ -61,10 +60,8 @@ export class Water {
     if (!isShown) {
       return;
     }
-    if (this.#field.read(look.colour, this.#scene, frame, first, count, this.#values)) {
-      this.#material.uniforms.range.value.fromArray(this.#field.range);
-      this.onRange(this.#field.range);
-    }
+    this.#field.read(look.colour, this.#scene, frame, first, count, this.#values);
+    this.#material.uniforms.range.value.fromArray(this.#field.range);
     camera.getWorldDirection(this.#forward);
     const seen = this.#order.sort(frame.position, first, count, camera.position, this.#forward, from);
     this.#write(frame.position, first, seen);

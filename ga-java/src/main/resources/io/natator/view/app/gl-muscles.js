@@ -2,10 +2,8 @@
 
 import * as THREE from 'three';
 import {SCALES, scaleBytes} from './colours.js';
-import {scaleTexture} from './spheres.js';
-
-/** Half the width of a ribbon in rest distances of solids. */
-const RELATIVE_WIDTH = 0.085;
+import {MUSCLE_WIDTH, distinctMuscles, muscleChange} from './scene.js';
+import {scaleTexture} from './gl-spheres.js';
 
 const VERTEX = `
   attribute vec3 start;
@@ -35,7 +33,7 @@ const FRAGMENT = `
   }`;
 
 /** One ribbon for each pair of particles that muscles join, seen through the body. */
-export class Muscles {
+export class GlMuscles {
   #muscles = [];
   #start;
   #end;
@@ -49,10 +47,9 @@ export class Muscles {
   /** What to add to a scene of three.js. */
   object = new THREE.Group();
 
-  /** Takes over what is known of a scene (SCEN). Several muscles between the same particles are one ribbon. */
+  /** Takes over what is known of a scene (SCEN). */
   setScene(scene) {
-    const pairs = new Map(scene.muscles.map(muscle => [`${muscle.a} ${muscle.b}`, muscle]));
-    this.#muscles = [...pairs.values()];
+    this.#muscles = distinctMuscles(scene);
     this.#mesh?.geometry.dispose();
     this.object.clear();
     const geometry = new THREE.InstancedBufferGeometry();
@@ -66,7 +63,7 @@ export class Muscles {
     this.#mesh.frustumCulled = false;
     this.#mesh.renderOrder = 5;
     this.object.add(this.#mesh);
-    this.#material.uniforms.width.value = RELATIVE_WIDTH * scene.solidRestDistance;
+    this.#material.uniforms.width.value = 0.5 * MUSCLE_WIDTH * scene.solidRestDistance;
   }
 
   /** Moves and colours the ribbons; a muscle at rest is grey. */
@@ -76,7 +73,7 @@ export class Muscles {
         this.#start.array[3 * i + axis] = frame.position[3 * muscle.a + axis];
         this.#end.array[3 * i + axis] = frame.position[3 * muscle.b + axis];
       }
-      this.#change.array[i] = Math.max(-1, Math.min(1, muscle.lateral * frame.activation[muscle.actuator]));
+      this.#change.array[i] = muscleChange(muscle, frame);
     });
     this.#start.needsUpdate = true;
     this.#end.needsUpdate = true;

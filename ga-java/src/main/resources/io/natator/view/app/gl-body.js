@@ -2,10 +2,7 @@
 
 import * as THREE from 'three';
 import {clusterColours} from './colours.js';
-import {clusterOfBody, jointOfBody} from './scene.js';
-
-/** Radius of a drawn sphere in rest distances of solids; neighbours in a body are half of one apart. */
-const RELATIVE_RADIUS = 0.3;
+import {BODY_RADIUS, clusterOfBody, jointOfBody} from './scene.js';
 
 const VERTEX = `
   attribute vec3 tint;
@@ -35,7 +32,7 @@ const FRAGMENT = `
   }`;
 
 /** One point per body particle. */
-export class Body {
+export class GlBody {
   #scene = null;
   #position = null;
   #material = new THREE.ShaderMaterial({
@@ -68,7 +65,7 @@ export class Body {
         .setAttribute('tint', new THREE.Float32BufferAttribute(tint, 3))
         .setAttribute('joint', new THREE.Float32BufferAttribute(joint, 1));
     this.points.visible = scene.body.length > 0;
-    this.#material.uniforms.radius.value = RELATIVE_RADIUS * scene.solidRestDistance;
+    this.#material.uniforms.radius.value = BODY_RADIUS * scene.solidRestDistance;
   }
 
   /** Moves the particles to where they are in a frame. */
@@ -82,7 +79,7 @@ export class Body {
     this.#position.needsUpdate = true;
   }
 
-  /** See `Water.setPixels`. */
+  /** See `GlWater.setPixels`. */
   setPixels(pixelsPerUnit) {
     this.#material.uniforms.pixelsPerUnit.value = pixelsPerUnit;
   }

@@ -4,12 +4,10 @@
  */
 
 import * as THREE from 'three';
+import {SURFACE_RADIUS} from './scene.js';
 
 /** Pixels of the surface for each of the picture. */
 const SHARE = 0.5;
-/** Radius of a sphere in rest distances of the fluid; larger than drawn ones, to close gaps. */
-const RELATIVE_RADIUS = 0.85;
-
 const DEPTH_VERTEX = `
   attribute float value;
   uniform float radius;
@@ -103,7 +101,7 @@ const SHADE_FRAGMENT = `
   }`;
 
 /** Three passes at half the size of the picture, and one over it. */
-export class WaterSurface {
+export class GlSurface {
   #scene = new THREE.Scene();
   #points = null;
   #depth;
@@ -142,13 +140,13 @@ export class WaterSurface {
     this.#points = new THREE.Points(geometry, this.#depth);
     this.#points.frustumCulled = false;
     this.#scene.add(this.#points);
-    const radius = RELATIVE_RADIUS * scene.fluidRestDistance;
+    const radius = SURFACE_RADIUS * scene.fluidRestDistance;
     this.#depth.uniforms.radius.value = radius;
     this.#smooth.uniforms.edge.value = 1.5 * radius;
     this.#shade.uniforms.edge.value = 1.5 * radius;
   }
 
-  /** The size of the picture in pixels; see `Water.setPixels`. */
+  /** The size of the picture in pixels; see `GlWater.setPixels`. */
   setSize(pixelsPerUnit, width, height) {
     this.#width = Math.max(1, Math.round(SHARE * width));
     this.#height = Math.max(1, Math.round(SHARE * height));
