@@ -61,8 +61,9 @@ void LineQueue::read() {
         const char* const end = at + count;
         while (open && at != end) {
             const char* const stop = std::find(at, end, '\n');
+            const auto more = static_cast<std::size_t>(stop - at);
             if (line.size() <= limits_.bytes)
-                line.append(at, std::min<std::size_t>(stop - at, limits_.bytes - line.size() + 1));
+                line.append(at, more > limits_.bytes - line.size() ? limits_.bytes - line.size() + 1 : more);
             at = stop;
             if (at == end) break;
             ++at;

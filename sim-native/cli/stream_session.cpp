@@ -44,7 +44,7 @@ void StreamSession<Real>::run(LineQueue& commands) {
 /// What a command causes comes before its answer.
 template <class Real>
 void StreamSession<Real>::carry_out(const std::string& line) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) return;
+    if (line.size() <= stream::longest_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
     ordered_json answer{{"id", nullptr}};
     try {
         const json value = parse_command(line);
