@@ -40,6 +40,9 @@ export class Figures {
 
   #write(name, text, isBad = false) {
     const cell = this.#cells[name];
+    if (cell === null) {
+      return;
+    }
     if (cell.textContent !== text) {
       cell.textContent = text;
     }

@@ -1,7 +1,7 @@
 /** The charts beneath the picture, drawn in turns. */
 
 import {EnvelopeChart, TimeChart, chartColours} from './charts.js';
-import {byId} from './element.js';
+import {byId, make} from './element.js';
 
 /** Frames of the screen between two drawings of charts. */
 const TURN = 4;
@@ -23,6 +23,9 @@ export class LiveCharts {
       ['momentum', new TimeChart(byId('chart-momentum'), ['momentum', 'angularMomentum'])],
       ['density', new TimeChart(byId('chart-density'), ['densityMean', 'densityMax'])],
     ];
+    byId('envelope-key').replaceChildren(...modes.flatMap(({name}, i) => [
+      make('i', {className: `key s${i + 2} dash`}), `${name} `,
+    ]));
     this.#outputs = new Map([...document.querySelectorAll('[data-chart]')].map(one => [one.dataset.chart, one]));
   }
 
@@ -56,7 +59,7 @@ export class LiveCharts {
   #text(name, {history, analysis}) {
     if (name === 'envelope') {
       const least = analysis?.modes.reduce((best, mode) => best === null || mode.e < best.e ? mode : best, null);
-      return least ? `like ${least.name}, e ${least.e.toFixed(2)}` : '';
+      return least ? `${least.name.slice(0, 4)}., e ${least.e.toFixed(2)}` : '';
     }
     const column = {distance: 'distance', speed: 'beatSpeed', momentum: 'momentum', density: 'densityMean'}[name];
     const value = history.last(column);

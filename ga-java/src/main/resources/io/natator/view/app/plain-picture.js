@@ -1,18 +1,22 @@
 /** Draws without WebGL: spheres by the processor into pixels, lines with the 2-d canvas. */
 
-import {SCALES, clusterColours, colourAt} from './colours.js';
+import {Color} from 'three';
+import {SCALES, clusterColours, colourAt, scaleBytes} from './colours.js';
 import {Discs, LIGHTS} from './discs.js';
 import {addArea, addLine, addLines} from './plain-lines.js';
 import {SphereLayer, shades} from './plain-spheres.js';
+import {SurfaceLayer} from './plain-surface.js';
 import {Projector} from './projector.js';
-import {BODY_RADIUS, MUSCLE_WIDTH, WATER_RADIUS, clusterOfBody, distinctMuscles, jointOfBody, muscleChange, tankLines}
-  from './scene.js';
+import {BODY_RADIUS, MUSCLE_WIDTH, SURFACE_RADIUS, WATER_RADIUS, clusterOfBody, distinctMuscles, jointOfBody, muscleChange,
+  tankLines} from './scene.js';
 import {NearestFirst} from './sort.js';
 import {SPINES} from './trace.js';
 
 /** Colours of water. */
 const COLOURS = 256;
 const CHANGES = 33;
+/** Pixels of the surface for each of the spheres' layer, along each side. */
+const SURFACE_SHARE = 0.5;
 
 /** One canvas; the same methods as `GlPicture`. */
 export class PlainPicture {
@@ -21,6 +25,11 @@ export class PlainPicture {
   #layerCanvas = document.createElement('canvas');
   #layerContext;
   #layer = new SphereLayer();
+  #surfaceCanvas = document.createElement('canvas');
+  #surfaceContext;
+  #surface = new SurfaceLayer();
+  #surfaceProjector = new Projector();
+  #surfaceColours = scaleBytes(SCALES.sequential);
   #discs = new Discs();
   #order = new NearestFirst();
   #projector = new Projector();
@@ -35,6 +44,7 @@ export class PlainPicture {
   #lines = null;
   #look = null;
   #colours = null;
+  #sky = [255, 255, 255];
   #waterShades = null;
   #bodyShades = null;
   #changeColours = Array.from({length: CHANGES}, (_, i) => css(colourAt(SCALES.diverging, i / (CHANGES - 1))));
@@ -44,6 +54,7 @@ export class PlainPicture {
     this.#canvas = canvas;
     this.#context = canvas.getContext('2d', {alpha: false});
     this.#layerContext = this.#layerCanvas.getContext('2d');
+    this.#surfaceContext = this.#surfaceCanvas.getContext('2d');
     this.#trace = trace;
     this.#field = field;
   }
@@ -80,6 +91,7 @@ export class PlainPicture {
 
   setTheme(colours) {
     this.#colours = colours;
+    this.#sky = new Color(colours.sky).toArray().map(value => 255 * value);
   }
 
   /** The size in CSS pixels, and the share of them that spheres are drawn with along each side. */
@@ -90,6 +102,9 @@ export class PlainPicture {
     this.#layerCanvas.width = Math.round(width * ratio * share);
     this.#layerCanvas.height = Math.round(height * ratio * share);
     this.#layer.setSize(this.#layerCanvas.width, this.#layerCanvas.height);
+    this.#surfaceCanvas.width = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.width));
+    this.#surfaceCanvas.height = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.height));
+    this.#surface.setSize(this.#surfaceCanvas.width, this.#surfaceCanvas.height);
   }
 
   /** Draws a frame; water nearer than `from` is left out. */
@@ -97,8 +112,12 @@ export class PlainPicture {
     this.#lineProjector.set(camera, this.#canvas.width, this.#canvas.height);
     this.#drawTank();
     this.#projector.set(camera, this.#layerCanvas.width, this.#layerCanvas.height);
-    this.#drawSpheres(frame, from);
+    this.#surfaceProjector.set(camera, this.#surfaceCanvas.width, this.#surfaceCanvas.height);
+    this.#drawParticles(frame, from);
     this.#context.drawImage(this.#layerCanvas, 0, 0, this.#canvas.width, this.#canvas.height);
+    if (this.#look.water === 'surface') {
+      this.#drawSurface();
+    }
     if (this.#look.muscles) {
       this.#drawMuscles(frame);
     }
@@ -135,10 +154,11 @@ export class PlainPicture {
     }
   }
 
-  #drawSpheres(frame, from) {
-    const {particles, fluid, fluidRestDistance, solidRestDistance} = this.#scene;
+  #drawParticles(frame, from) {
+    const {particles, fluid} = this.#scene;
     const projector = this.#projector;
     const isWater = this.#look.water !== 'none' && fluid[1] > 0;
+    const isSurface = this.#look.water === 'surface';
     if (isWater) {
       this.#field.read(this.#look.colour, this.#scene, frame, fluid[0], fluid[1], this.#values);
     }
@@ -146,6 +166,7 @@ export class PlainPicture {
     const perValue = (COLOURS - 1) / (high - low);
     const count = this.#order.sort(frame.position, 0, particles, projector.eye, projector.forward, 0.05);
     this.#layer.clear();
+    this.#surface.clear();
     for (let i = 0; i < count; i++) {
       const particle = this.#order.order[i];
       const kind = this.#kinds[particle];
@@ -153,31 +174,59 @@ export class PlainPicture {
           this.#place, 0);
       const [x, y, depth] = this.#place;
       if (kind >= 0) {
-        this.#sphere(x, y, BODY_RADIUS * solidRestDistance / depth, this.#bodyShades, kind * LIGHTS, particle);
+        this.#bodySphere(x, y, depth, kind, particle, isSurface);
       } else if (isWater && depth >= from) {
         const value = Math.round((this.#values[particle - fluid[0]] - low) * perValue);
         const colour = value < 0 ? 0 : value < COLOURS ? value : COLOURS - 1;
-        this.#sphere(x, y, WATER_RADIUS * fluidRestDistance / depth, this.#waterShades, colour * LIGHTS, -1);
+        if (isSurface) {
+          this.#surfaceSphere(x, y, depth, colour);
+        } else {
+          this.#waterSphere(x, y, depth, colour);
+        }
       }
     }
     this.#layerContext.putImageData(this.#layer.image, 0, 0);
   }
 
-  /** `radius` is that at depth 1; `particle` is -1 for water. */
-  #sphere(x, y, radius, table, base, particle) {
-    const pixels = radius * this.#projector.pixels;
-    const left = Math.floor(x);
-    const top = Math.floor(y);
-    if (left + pixels < 0 || top + pixels < 0 || left - pixels > this.#layerCanvas.width
-        || top - pixels > this.#layerCanvas.height) {
+  #waterSphere(x, y, depth, colour) {
+    const radius = WATER_RADIUS * this.#scene.fluidRestDistance / depth * this.#projector.pixels;
+    if (isOn(this.#layerCanvas, x, y, radius)) {
+      const disc = this.#discs.of(radius, x - Math.floor(x), y - Math.floor(y));
+      this.#layer.water(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#waterShades, colour * LIGHTS);
+    }
+  }
+
+  #bodySphere(x, y, depth, cluster, particle, blocks) {
+    const radius = BODY_RADIUS * this.#scene.solidRestDistance / depth * this.#projector.pixels;
+    if (!isOn(this.#layerCanvas, x, y, radius)) {
       return;
     }
-    const disc = this.#discs.of(pixels, x - left, y - top);
-    if (particle < 0) {
-      this.#layer.water(disc, left - disc.half, top - disc.half, table, base);
-    } else {
-      this.#layer.body(disc, left - disc.half, top - disc.half, table, base, this.#joints[particle] === 1);
+    const disc = this.#discs.of(radius, x - Math.floor(x), y - Math.floor(y));
+    this.#layer.body(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#bodyShades, cluster * LIGHTS,
+        this.#joints[particle] === 1);
+    if (blocks) {
+      const small = this.#discs.of(SURFACE_SHARE * radius, 0.5, 0.5);
+      this.#surface.block(small, Math.floor(SURFACE_SHARE * x) - small.half, Math.floor(SURFACE_SHARE * y) - small.half);
     }
+  }
+
+  #surfaceSphere(x, y, depth, colour) {
+    const size = SURFACE_RADIUS * this.#scene.fluidRestDistance;
+    const radius = size / depth * this.#surfaceProjector.pixels;
+    const column = SURFACE_SHARE * x;
+    const row = SURFACE_SHARE * y;
+    if (isOn(this.#surfaceCanvas, column, row, radius)) {
+      const disc = this.#discs.of(radius, column - Math.floor(column), row - Math.floor(row));
+      this.#surface.water(disc, Math.floor(column) - disc.half, Math.floor(row) - disc.half, depth, size, colour);
+    }
+  }
+
+  #drawSurface() {
+    const edge = 1.5 * SURFACE_RADIUS * this.#scene.fluidRestDistance;
+    this.#surface.smooth(edge);
+    this.#surface.shade(this.#surfaceProjector, this.#surfaceColours, this.#look.opacity, this.#sky, edge);
+    this.#surfaceContext.putImageData(this.#surface.image, 0, 0);
+    this.#context.drawImage(this.#surfaceCanvas, 0, 0, this.#canvas.width, this.#canvas.height);
   }
 
   #drawMuscles(frame) {
@@ -221,6 +270,11 @@ export class PlainPicture {
     }
     context.stroke();
   }
+}
+
+/** Whether any of a disc is within a canvas. */
+function isOn(canvas, x, y, radius) {
+  return x + radius > 0 && y + radius > 0 && x - radius < canvas.width && y - radius < canvas.height;
 }
 
 function css(colour) {
