@@ -12,14 +12,10 @@ import io.natator.stream.StreamException;
  */
 final class Course {
 
-    /** As many frames as a simulator lets a reader have in hand. */
-    private static final int MOST_CREDIT = 1000;
-
     /** As it was when the scene began. */
     private StreamOptions options;
     private boolean paused;
     private JsonNode rate;
-    private int credit;
 
     /** The course of a simulator that is started with a command. */
     Course(ClientCommand start) {
@@ -39,7 +35,6 @@ final class Course {
             case "run" -> paused = false;
             case "pause", "step" -> paused = true;
             case "rate" -> rate = command.content();
-            case "credit" -> credit = Math.min(MOST_CREDIT, credit + Math.max(0, command.content().path("frames").asInt()));
             default -> {
                 // What changes the scene is told by the simulator, if it accepts it.
             }
@@ -52,18 +47,10 @@ final class Course {
                 .with(null, scene.precision());
     }
 
-    /** Notes that the page got a frame. */
-    void frameSent() {
-        credit = Math.max(0, credit - 1);
-    }
-
-    /** Tells a fresh simulator what is not in its options, so that the page need not know that it is another one. */
+    /** Tells a fresh simulator what is not in its options. Credit is the page's to grant anew. */
     void takeUp(StreamProcess process) throws StreamException {
         if (rate != null) {
             process.send(rate);
-        }
-        if (credit > 0) {
-            process.grant(credit);
         }
     }
 }

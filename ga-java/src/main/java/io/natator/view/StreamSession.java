@@ -156,24 +156,29 @@ final class StreamSession implements AutoCloseable {
         }
     }
 
+    /** Replaces the simulator, then tells the page: what it sends after that is for the new one. */
     private boolean restart(String reason) throws SocketGoneException {
+        String why = reason;
+        boolean again = false;
+        try {
+            again = isRestartDue() && startProcess();
+        } catch (InvalidInputException | StreamException e) {
+            why += "; " + e.getMessage();
+        }
+        if (!again) {
+            forget();
+        }
+        lost(why, again);
+        return again;
+    }
+
+    private boolean isRestartDue() {
         long now = System.nanoTime();
         deaths.add(now);
         while (now - deaths.getFirst() > WITHIN_NANOSECONDS) {
             deaths.removeFirst();
         }
-        boolean again = deaths.size() <= MOST_RESTARTS;
-        if (!again) {
-            forget();
-        }
-        lost(reason, again);
-        try {
-            return again && startProcess();
-        } catch (InvalidInputException | StreamException e) {
-            forget();
-            lost(e.getMessage(), false);
-            return false;
-        }
+        return deaths.size() <= MOST_RESTARTS;
     }
 
     /** From here on the page may start another simulation. */
@@ -193,9 +198,6 @@ final class StreamSession implements AutoCloseable {
         } else if (message instanceof StreamMessage.Frame frame) {
             motion.add(frame.decode());
             send(done -> socket.sendBinary(frame.body(), done));
-            synchronized (this) {
-                course.frameSent();
-            }
             analyse();
         } else if (message instanceof StreamMessage.Answer answer) {
             send("ANSW", answer.json());

@@ -164,7 +164,7 @@ class StreamSocketTest {
         StreamClient page = openStarted(false);
         page.send("{'do':'overrides','overrides':{'solver':{'gravity':[0,-0.5,0]}},'id':1}");
         assertThat(page.await("SCEN").get("overrides").toString()).contains("-0.5");
-        page.send("{'do':'credit','frames':1000}");
+        page.send("{'do':'rate','value':0.5}").send("{'do':'credit','frames':1000}");
         ByteBuffer frame = page.awaitFrame();
         while (number(frame) < 20) {
             frame = page.awaitFrame();
@@ -179,10 +179,12 @@ class StreamSocketTest {
         JsonNode scene = page.await("SCEN");
         assertThat(scene.get("overrides").toString()).contains("-0.5");
         assertThat(scene.get("gait").get("frequency").asDouble()).isEqualTo(1.5);
+        page.send("{'do':'credit','frames':2}");
         while (number(frame) >= 20) {
             frame = page.awaitFrame();
         }
-        assertThat(number(page.awaitFrame())).as("it goes on, since the credit still holds").isGreaterThan(number(frame));
+        assertThat(number(page.awaitFrame())).as("it goes on").isGreaterThan(number(frame));
+        assertThat(page.waitingFrames()).as("the credit of before is gone").isZero();
         assertThat(ViewFixture.simulator().pid()).isNotEqualTo(first.pid());
     }
 
@@ -212,7 +214,7 @@ class StreamSocketTest {
         page.await("LOST");
         page.await("SCEN");
 
-        page.send("{'do':'step','frames':1,'id':2}");
+        page.send("{'do':'credit','frames':2}").send("{'do':'step','frames':1,'id':2}");
         ByteBuffer frame = page.awaitFrame();
         while (number(frame) != 1) {
             frame = page.awaitFrame();
