@@ -39,9 +39,9 @@ class Player {
     this.#look = new LookControls({...DEFAULT_LOOK}, look => this.#stage.setLook(look));
     this.#stage.onRange = range => this.#look.showRange(range);
     this.#charts = [
-      new TimeChart(byId('chart-distance'), ['distance']),
-      new TimeChart(byId('chart-speed'), ['beatSpeed', 'speed']),
-      new TimeChart(byId('chart-momentum'), ['momentum', 'angularMomentum']),
+      new TimeChart(byId('chart-distance'), ['distance'], 0.01),
+      new TimeChart(byId('chart-speed'), ['beatSpeed', 'speed'], 0.02),
+      new TimeChart(byId('chart-momentum'), ['momentum', 'angularMomentum'], 0.01),
     ];
     this.#theme = new Theme('auto', () => this.#themeChanged());
     this.#stage.setTheme(this.#theme.colours);

@@ -146,13 +146,13 @@ export class Chart {
 /** Columns of histories over the last seconds. */
 export class TimeChart extends Chart {
   #columns;
-  #fromZero;
+  #least;
 
-  /** `columns` are names of `History`; `fromZero` keeps 0 in sight. */
-  constructor(canvas, columns, {fromZero = true} = {}) {
+  /** `columns` are names of `History`; the axis goes at least from 0 to `least`. */
+  constructor(canvas, columns, least) {
     super(canvas);
     this.#columns = columns;
-    this.#fromZero = fromZero;
+    this.#least = least;
   }
 
   /** Draws up to two histories; `until` ends the axis of time, by default where the longest ends. */
@@ -182,8 +182,8 @@ export class TimeChart extends Chart {
   }
 
   #extent(histories, start) {
-    let low = this.#fromZero ? 0 : Infinity;
-    let high = this.#fromZero ? 0 : -Infinity;
+    let low = 0;
+    let high = this.#least;
     for (const history of histories) {
       for (let i = firstAfter(history, start); i < history.length; i += 2) {
         for (const column of this.#columns) {
@@ -193,7 +193,7 @@ export class TimeChart extends Chart {
         }
       }
     }
-    return low <= high ? [low, high] : [0, 1];
+    return [low, high];
   }
 }
 

@@ -15,6 +15,11 @@ export function waveGait(actuators) {
   };
 }
 
+/** Whether a scene (SCEN) has muscles, and a gait that does not move them. */
+export function isAtRest({actuators, gait}) {
+  return actuators > 0 && (gait === null || gait.amplitude.every(one => one === 0));
+}
+
 /** Any gait within the ranges. */
 export function randomGait(actuators) {
   const any = (low, high) => Math.round(1000 * (low + Math.random() * (high - low))) / 1000;
@@ -42,7 +47,8 @@ export function parseGait(text) {
   if (!Number.isFinite(gait?.frequency) || !isNumbers(gait.amplitude) || !isNumbers(gait.phase)) {
     throw new Error('no gait: expected {"frequency": …, "amplitude": […], "phase": […]}');
   }
-  return {frequency: gait.frequency, amplitude: gait.amplitude, phase: gait.phase};
+  const {frequency, amplitude, phase, power} = gait;
+  return {frequency, amplitude, phase, ...(power === undefined ? {} : {power})};
 }
 
 /** Fits itself to the number of actuators of the scene. */

@@ -61,6 +61,11 @@ export class GlPicture {
     return 'WebGL';
   }
 
+  /** Whether the time that `draw` takes is that of drawing. */
+  get isDoneAtOnce() {
+    return false;
+  }
+
   setScene(scene) {
     this.#water.setScene(scene);
     this.#body.setScene(scene);

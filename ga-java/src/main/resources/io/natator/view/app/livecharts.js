@@ -17,11 +17,11 @@ export class LiveCharts {
   constructor(modes) {
     this.#modes = modes;
     this.#charts = [
-      ['distance', new TimeChart(byId('chart-distance'), ['distance'])],
-      ['speed', new TimeChart(byId('chart-speed'), ['beatSpeed', 'speed'])],
+      ['distance', new TimeChart(byId('chart-distance'), ['distance'], 0.01)],
+      ['speed', new TimeChart(byId('chart-speed'), ['beatSpeed', 'speed'], 0.02)],
       ['envelope', new EnvelopeChart(byId('chart-envelope'))],
-      ['momentum', new TimeChart(byId('chart-momentum'), ['momentum', 'angularMomentum'])],
-      ['density', new TimeChart(byId('chart-density'), ['densityMean', 'densityMax'])],
+      ['momentum', new TimeChart(byId('chart-momentum'), ['momentum', 'angularMomentum'], 0.01)],
+      ['density', new TimeChart(byId('chart-density'), ['densityMean', 'densityMax'], 0.5)],
     ];
     byId('envelope-key').replaceChildren(...modes.flatMap(({name}, i) => [
       make('i', {className: `key s${i + 2} dash`}), `${name} `,

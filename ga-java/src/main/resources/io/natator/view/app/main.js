@@ -3,14 +3,14 @@
 import {CAMERAS} from './cameras.js';
 import {byId, choose, fillSegments, fillSelect} from './element.js';
 import {Figures} from './figures.js';
-import {GaitControls, parseGait, randomGait, waveGait} from './gait.js';
+import {GaitControls, isAtRest, parseGait, randomGait, waveGait} from './gait.js';
 import {listen} from './keys.js';
 import {LiveCharts} from './livecharts.js';
 import {LookControls} from './look.js';
 import {remembered, rememberSoon} from './memory.js';
 import {RunBrowser} from './runs.js';
 import {download, fileName, gaitText, sceneText} from './save.js';
-import {OWN_SETTINGS, SolverControls} from './solver.js';
+import {SolverControls, withoutSettings} from './solver.js';
 import {DEFAULT_LOOK} from './stage.js';
 import {Theme} from './theme.js';
 import {View} from './view.js';
@@ -245,7 +245,7 @@ class Page {
     if (this.#views.length === 2 && !wasPaused) {
       await Promise.all(this.#views.map(view => view.pause()));
       await this.#all(view => view.reset(), 'transport-error');
-      await Promise.all(this.#views.map(view => view.run()));
+      await this.#all(view => view.run(), 'transport-error');
       return;
     }
     await this.#all(view => view.reset(), 'transport-error');
@@ -267,8 +267,8 @@ class Page {
     const overrides = scheme === undefined ? null : {scheme};
     const error = await this.#view.setScene(name, overrides, null);
     byId('scene-error').textContent = error ?? '';
-    if (error === null && this.#view.scene.actuators > 0 && this.#view.scene.gait === null) {
-      this.#view.setGait(waveGait(this.#view.scene.actuators));
+    if (error === null && isAtRest(this.#view.scene)) {
+      this.#view.setGait(this.#setup.gaits?.[name] ?? waveGait(this.#view.scene.actuators));
     }
   }
 
@@ -328,7 +328,8 @@ class Page {
       byId('gait-error').textContent = await this.#view.setGait(randomGait(this.#view.scene.actuators)) ?? '';
     });
     click('solver-default', async () => {
-      byId('solver-error').textContent = await this.#view.setOverrides('own', OWN_SETTINGS) ?? '';
+      const {scene, overrides, gait} = this.#view.scene;
+      byId('solver-error').textContent = await this.#view.setScene(scene, withoutSettings(overrides), gait) ?? '';
     });
     change('gait-file', input => {
       if (input.files.length > 0) {

@@ -64,6 +64,11 @@ export class PlainPicture {
     return 'processor';
   }
 
+  /** Whether the time that `draw` takes is that of drawing. */
+  get isDoneAtOnce() {
+    return true;
+  }
+
   setScene(scene) {
     this.#scene = scene;
     this.#values = new Float32Array(scene.fluid[1]);

@@ -18,8 +18,12 @@ const SETTINGS = [
   {id: 'gravity', label: 'Gravity', title: 'downwards, length/s²', min: 0, max: 20, step: 0.1},
 ];
 
-/** What takes the scene's own settings back, as a merge patch. */
-export const OWN_SETTINGS = {solver: Object.fromEntries(SETTINGS.map(({id}) => [id, null]))};
+/** Overrides without those that are set here, so that the scene's own hold. */
+export function withoutSettings(overrides) {
+  const {solver, ...others} = overrides ?? {};
+  const kept = Object.entries(solver ?? {}).filter(([key]) => SETTINGS.every(({id}) => id !== key));
+  return kept.length > 0 ? {...others, solver: Object.fromEntries(kept)} : others;
+}
 
 /** One slider for each setting. */
 export class SolverControls {

@@ -119,8 +119,10 @@ export class Stage {
     const {camera} = this.rig;
     camera.updateMatrixWorld();
     const from = this.#look.cut ? this.rig.depthOfBody(camera.getWorldDirection(this.#forward)) : -Infinity;
+    const began = performance.now();
     this.#picture.draw(this.#frame, camera, from);
-    if (this.#look.quality === 'auto' && this.#quality.drawn(now / 1000)) {
+    const milliseconds = this.#picture.isDoneAtOnce ? performance.now() - began : Infinity;
+    if (this.#look.quality === 'auto' && this.#quality.drawn(now / 1000, milliseconds)) {
       this.#resized();
     }
     return true;
