@@ -11,13 +11,14 @@ from pathlib import Path
 
 import numpy as np
 import pyvista
+from PIL import Image
 
-SIZE = (1200, 540)
+SIZE = (1200, 480)
 SPEEDS = ["#d0e6f6", "#a9d0ec", "#7fbbe0", "#4a9bcf", "#2579b5", "#145a94", "#0a3d6e", "#06254a"]
 CLUSTERS = ["#e4822d", "#d6474d", "#bd4a92", "#735fb9", "#fbbc4b"]
 
-BAR = {"title": "speed of the water [length/s]", "color": "#333333", "n_labels": 3, "fmt": "%.1f", "title_font_size": 15,
-       "label_font_size": 13, "width": 0.25, "height": 0.07, "position_x": 0.72, "position_y": 0.03}
+BAR = {"title": "speed of the water [length/s]", "color": "#333333", "n_labels": 2, "fmt": "%.2f", "title_font_size": 15,
+       "label_font_size": 13, "width": 0.25, "height": 0.07, "position_x": 0.72, "position_y": 0.88}
 
 
 def spheres(points, radius, detail):
@@ -71,15 +72,16 @@ def main(folder, time, picture):
     if box is not None:
         plotter.add_mesh(box, color="#8a99a8", line_width=1.5)
     frame = box if box is not None else body
-    plotter.camera.focal_point = frame.center
-    plotter.camera.position = np.array(frame.center) + frame.length * np.array([0.1, 0.62, 1.0])
+    focus = 0.8 * np.array(frame.center) + 0.2 * np.array(body.center)
+    plotter.camera.focal_point = focus
+    plotter.camera.position = focus + frame.length * np.array([0.1, 0.62, 1.0])
     plotter.camera.up = (0, 1, 0)
-    plotter.camera.zoom(1.1)
+    plotter.camera.zoom(1.27)
     plotter.enable_depth_peeling(12)
     plotter.enable_anti_aliasing("ssaa")
     plotter.screenshot(picture)
-    from PIL import Image  # comes with pyvista; a palette makes the file a third as large
-    Image.open(picture).convert("RGB").quantize(192, dither=Image.Dither.FLOYDSTEINBERG).save(picture, optimize=True)
+    # A palette makes the file a third as large.
+    Image.open(picture).convert("RGB").quantize(256, dither=Image.Dither.FLOYDSTEINBERG).save(picture, optimize=True)
 
 
 if __name__ == "__main__":
