@@ -6,12 +6,10 @@ root=$here/../..
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 
-for creature in 1 2 3 4; do
-    case $creature in
-        1 | 2) swim=("$root/results/quick-evolution/creature-$creature") ;;
-        *) swim=("thesis/creature-$creature" --gait "$here/creature-$creature.json") ;;
-    esac
-    java -jar "$root/ga-java/target/natator.jar" export "${swim[@]}" --format vtp --duration 3 --every 180 \
-        --output-dir "$work/$creature"
+# The gaits that results/thesis/README.md names as best evolved in scheme conserving.
+for run in 1/conserving/seed-1 2/conserving/seed-3 3/conserving/seed-2 4/conserving/seed-1; do
+    creature=${run%%/*}
+    java -jar "$root/ga-java/target/natator.jar" export "$root/results/thesis/runs/creature-$run" \
+        --format vtp --duration 3 --every 180 --output-dir "$work/$creature"
     "$root/.readers/bin/python" "$here/render.py" "$work/$creature" 3 "$here/paraview-creature-$creature.png"
 done
