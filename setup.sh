@@ -4,18 +4,21 @@ set -euo pipefail
 
 usage() {
     cat <<'TEXT'
-usage: ./setup.sh [--check] [--cuda]
+usage: ./setup.sh [--check] [--cuda] [--readers]
   --check   only report what is missing (exit 1 if anything is), install nothing
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
+  --readers also what the tests read exports back with: pyvista, plyfile, USD and numpy, from PyPI into .readers (1 GB)
 TEXT
 }
 
 check_only=false
 with_cuda=false
+with_readers=false
 for argument in "$@"; do
     case $argument in
         --check) check_only=true ;;
         --cuda) with_cuda=true ;;
+        --readers) with_readers=true ;;
         -h|--help) usage; exit 0 ;;
         *) printf 'setup.sh: unknown option %s\n' "$argument" >&2; usage >&2; exit 2 ;;
     esac
@@ -72,6 +75,26 @@ install_nvcc() {
         ln --symbolic --force --no-dereference "$toolkit" "$cuda_folder/toolkit"
 }
 
+readonly readers_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/.readers
+readonly readers_list=$(dirname "$readers_folder")/tests/readers/requirements.txt
+
+# Whether every package is there in the version that the list names.
+readers_work() {
+    "$readers_folder/bin/python" - "$readers_list" 2>/dev/null <<'PYTHON'
+import sys
+from importlib.metadata import version
+for line in open(sys.argv[1]):
+    name, wanted = line.strip().split("==")
+    if version(name) != wanted:
+        sys.exit(1)
+PYTHON
+}
+
+install_readers() {
+    python3 -m venv "$readers_folder" &&
+        "$readers_folder/bin/pip" --quiet --disable-pip-version-check install --requirement "$readers_list"
+}
+
 installed() {
     [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
 }
@@ -91,6 +114,12 @@ find_missing() {
     nvcc_missing=false
     if $with_cuda && ! nvcc_works; then
         nvcc_missing=true
+    fi
+    readers_missing=false
+    if $with_readers && ! readers_work; then
+        readers_missing=true
+    fi
+    if $nvcc_missing || $readers_missing; then
         python3 -c 'import ensurepip' 2>/dev/null || missing+=(python3-venv)
     fi
 }
@@ -116,13 +145,18 @@ finish() {
         printf 'setup: installing nvcc %s into %s\n' "$cuda_version" "$cuda_folder"
         install_nvcc && nvcc_works || fail "could not install nvcc from PyPI into $cuda_folder"
     fi
+    if $readers_missing; then
+        printf 'setup: installing the packages of %s into %s\n' "$readers_list" "$readers_folder"
+        install_readers && readers_work || fail "could not install $readers_list from PyPI into $readers_folder"
+    fi
     echo "$1"
     exit 0
 }
 
 find_missing
-if $check_only && { (( ${#missing[@]} > 0 )) || $nvcc_missing; }; then
+if $check_only && { (( ${#missing[@]} > 0 )) || $nvcc_missing || $readers_missing; }; then
     $nvcc_missing && missing+=('nvcc 13')
+    $readers_missing && missing+=('.readers')
     printf 'setup: missing: %s\n' "${missing[*]}"
     exit 1
 fi

@@ -6,6 +6,7 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
+import io.natator.simulator.SimulationResult;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -114,6 +115,18 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         } catch (IOException e) {
             throw new InvalidInputException("cannot read " + AtomicFile.reason(file, e), e);
         }
+    }
+
+    /** The best evaluation of all generations up to this one, the earliest of equals; null if none is recorded. */
+    public EvaluationRecord bestUntil(int generation) {
+        EvaluationRecord found = null;
+        for (EvaluationRecord one : evaluations) {
+            if (one.generation() <= generation && one.result().status() == SimulationResult.Status.OK
+                    && (found == null || one.result().score() > found.result().score())) {
+                found = one;
+            }
+        }
+        return found;
     }
 
     /** Best fitness after each evaluation. */

@@ -1,7 +1,5 @@
 package io.natator.cli;
 
-import com.fasterxml.jackson.core.JsonProcessingException;
-import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.ExecutionSettings;
@@ -68,7 +66,7 @@ final class EvaluateCommand implements Callable<Integer> {
 
     private Gait gait(int actuators) {
         if (gait.size() == 1 && (gait.get(0).endsWith(".json") || Files.exists(Path.of(gait.get(0))))) {
-            return gaitOf(Path.of(gait.get(0)));
+            return GaitFile.read(Path.of(gait.get(0)));
         }
         List<Double> genes = numbers();
         // Of two actuators both encodings are the same.
@@ -77,15 +75,6 @@ final class EvaluateCommand implements Callable<Integer> {
             return (dense ? EncodingKind.DENSE : EncodingKind.SPARSE).forActuators(actuators).decode(genes);
         } catch (IllegalArgumentException e) {
             throw new InvalidInputException("--gait: " + e.getMessage(), e);
-        }
-    }
-
-    private static Gait gaitOf(Path file) {
-        JsonNode content = Json.read(file, JsonNode.class, "--gait");
-        try {
-            return Json.parse((content.has("gait") ? content.get("gait") : content).toString(), Gait.class);
-        } catch (JsonProcessingException e) {
-            throw new InvalidInputException("--gait " + file + ": " + Json.reason(e), e);
         }
     }
 

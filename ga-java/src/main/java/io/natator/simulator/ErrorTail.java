@@ -6,15 +6,19 @@ import java.io.InputStream;
 import java.nio.charset.StandardCharsets;
 
 /** The end of what a program writes to standard error. */
-final class ErrorTail {
+public final class ErrorTail {
 
     private static final int KEPT_BYTES = 4096;
 
     private ErrorTail() {
     }
 
-    /** Reads to the end of the stream, which is then closed; the last few kilobytes as one line. */
-    static String read(InputStream stderr) throws IOException {
+    /**
+     * Reads to the end of the stream, which is then closed; the last few kilobytes as one line.
+     *
+     * @throws IOException if the stream cannot be read
+     */
+    public static String read(InputStream stderr) throws IOException {
         try (stderr) {
             ByteArrayOutputStream kept = new ByteArrayOutputStream();
             byte[] buffer = new byte[KEPT_BYTES];

@@ -6,8 +6,8 @@ import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.TimeUnit;
 
-/** The native processes of one simulator. None of them, nor any descendant, outlives it or this virtual machine. */
-final class ProcessGroup implements AutoCloseable {
+/** The native processes of one owner. None of them, nor any descendant, outlives it or this virtual machine. */
+public final class ProcessGroup implements AutoCloseable {
 
     /** A killed process is gone at once unless the system is in trouble. */
     private static final long KILL_GRACE_SECONDS = 5;
@@ -16,7 +16,8 @@ final class ProcessGroup implements AutoCloseable {
     private final Thread stopAtExit = new Thread(this::stop, "stop-simulators");
     private volatile boolean stopped;
 
-    ProcessGroup() {
+    /** An empty group. */
+    public ProcessGroup() {
         Runtime.getRuntime().addShutdownHook(stopAtExit);
     }
 
@@ -26,7 +27,7 @@ final class ProcessGroup implements AutoCloseable {
      * @throws SimulatorFailure     if it does not start
      * @throws InterruptedException if this group was stopped
      */
-    Process start(List<String> command) throws SimulatorFailure, InterruptedException {
+    public Process start(List<String> command) throws SimulatorFailure, InterruptedException {
         failIfStopped();
         Process process;
         try {
@@ -50,7 +51,7 @@ final class ProcessGroup implements AutoCloseable {
     }
 
     /** Kills a process, should it still run, with all its descendants, and waits until it is gone. */
-    void end(Process process) {
+    public void end(Process process) {
         kill(process);
         running.remove(process);
         boolean interrupted = Thread.interrupted();

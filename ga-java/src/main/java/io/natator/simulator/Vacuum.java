@@ -3,6 +3,7 @@ package io.natator.simulator;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.MergePatch;
 
 /**
  * Takes fluid, gravity and planes out of any scene, as the thesis' check does (2.7): a gait that advances there is no
@@ -24,23 +25,12 @@ public final class Vacuum {
     }
 
     /** The merge patch that does first what the given one does, or nothing for null, and then removes the water. */
-    private static ObjectNode patch(JsonNode first) {
+    private static JsonNode patch(JsonNode first) {
         JsonNodeFactory nodes = JsonNodeFactory.instance;
         ObjectNode removal = nodes.objectNode();
         removal.putNull("fluid").putArray("planes");
         removal.putObject("solver").putArray("gravity").add(0).add(0).add(0);
         removal.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
-        return first instanceof ObjectNode object ? merged(object, removal) : removal;
-    }
-
-    /** One merge patch (RFC 7386) that does what both do one after the other. */
-    private static ObjectNode merged(ObjectNode first, ObjectNode second) {
-        ObjectNode both = first.deepCopy();
-        second.properties().forEach(entry -> {
-            JsonNode before = both.get(entry.getKey());
-            both.set(entry.getKey(), before instanceof ObjectNode object && entry.getValue() instanceof ObjectNode change
-                    ? merged(object, change) : entry.getValue());
-        });
-        return both;
+        return MergePatch.both(first, removal);
     }
 }

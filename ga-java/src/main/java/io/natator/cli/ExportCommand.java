@@ -1,0 +1,121 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.config.MergePatch;
+import io.natator.config.Scheme;
+import io.natator.encoding.Gait;
+import io.natator.export.Export;
+import io.natator.export.ExportFormat;
+import io.natator.simulator.SceneInfo;
+import io.natator.simulator.SimulatorLocator;
+import io.natator.stream.StreamField;
+import io.natator.stream.StreamOptions;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.TreeSet;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator export}: a swim in the formats of other programs. */
+@Command(name = "export", mixinStandardHelpOptions = true,
+        description = {"Simulates a swim and writes it, frame by frame, for another program.",
+            "vtp: ParaView; ply: Blender, a file for each frame; usd: USD; csv: one table; npz: numpy. The folder appears "
+                + "when it is whole; metadata.json in it says what was simulated."})
+final class ExportCommand implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SceneOptions sceneOptions;
+
+    @Parameters(paramLabel = "RUN|SCENE", description = "A run folder of evolve (its best gait), or a scene: a name as "
+            + "thesis/creature-1, or a file.")
+    private String source;
+
+    @Option(names = "--format", required = true, paramLabel = "FORMAT", description = "vtp, ply, usd, csv or npz.")
+    private ExportFormat format;
+
+    @Option(names = "--gait", paramLabel = "FILE",
+            description = "A JSON file with a gait, or a run's best.json. A scene without one is at rest.")
+    private Path gait;
+
+    @Option(names = "--generation", paramLabel = "N",
+            description = "Of a run: the best gait of the generations up to N instead of all.")
+    private Integer generation;
+
+    @Option(names = "--output-dir", paramLabel = "DIR",
+            description = "Default: RUN/export-FORMAT, or the scene's name and the format.")
+    private Path outputDir;
+
+    @Option(names = "--force", description = "Replace an earlier export in the output folder.")
+    private boolean force;
+
+    @Option(names = "--every", paramLabel = "N", defaultValue = "1",
+            description = "Only every Nth frame, of 60 in a second for the thesis scenes. Default: ${DEFAULT-VALUE}.")
+    private int every;
+
+    @Option(names = "--fields", paramLabel = "FIELD", split = ",", defaultValue = "position,velocity,density",
+            description = "What to write beside positions: velocity, density. Default: ${DEFAULT-VALUE}.")
+    private List<StreamField> fields;
+
+    @Option(names = "--no-water", description = "Only the body.")
+    private boolean noWater;
+
+    @Option(names = "--precision", paramLabel = "PRECISION",
+            description = "What the simulator computes in: float (default) or double. Files hold floats.")
+    private String precision;
+
+    @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
+            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else build/release/bin/natator-sim.")
+    private Path simulatorPath;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        if (every < 1) {
+            throw new InvalidInputException("--every is " + every + "; expected a whole number from 1");
+        }
+        Path simulator = SimulatorLocator.locate(simulatorPath);
+        Swimmer swimmer = Swimmer.of(source, generation, gait);
+        JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
+        Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme();
+        TreeSet<StreamField> wanted = new TreeSet<>(fields);
+        wanted.add(StreamField.POSITION);
+        StreamOptions options = StreamOptions
+                .recording(swimmer.scene(), overrides, json(swimmer.gait()), duration(swimmer, overrides, simulator))
+                .with(scheme, precision).withFields(List.copyOf(wanted)).withEvery(every);
+        Path folder = outputDir != null ? outputDir : swimmer.run() != null
+                ? swimmer.run().resolve("export-" + format.text()) : Path.of(swimmer.name() + "-" + format.text());
+        Export.Written written = new Export(format, folder, force, !noWater)
+                .write(simulator, options, swimmer.described());
+        spec.commandLine().getOut().printf("%s: %d frames of %d particles of water and %d others%n", folder,
+                written.frames(), written.water(), written.solids());
+        return ExitCode.OK;
+    }
+
+    private double duration(Swimmer swimmer, JsonNode overrides, Path simulator) throws InterruptedException {
+        Double given = sceneOptions.duration() != null ? sceneOptions.duration() : swimmer.duration();
+        double seconds = given != null ? given : SceneInfo.of(swimmer.scene(), overrides, simulator).duration();
+        if (!(seconds > 0) || Double.isInfinite(seconds)) {
+            throw new InvalidInputException("--duration is " + seconds + "; expected a number of seconds above 0");
+        }
+        return seconds;
+    }
+
+    private static JsonNode json(Gait gait) {
+        try {
+            return gait == null ? null : Json.parse(Json.line(gait), JsonNode.class);
+        } catch (JsonProcessingException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+}

@@ -1,0 +1,91 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Scheme;
+import io.natator.encoding.Gait;
+import io.natator.evolution.EvaluationRecord;
+import java.nio.file.Path;
+
+/**
+ * Who swims where: a run's best gait in its scene, or a scene with or without a gait.
+ *
+ * @param run        its folder, or null
+ * @param generation up to which it is the best, or null for all
+ * @param scene      name or path
+ * @param overrides  JSON Merge Patch on the scene, or null
+ * @param gait       or null for a body at rest
+ * @param scheme     or null for the scene's own
+ * @param duration   of an evaluation in seconds, or null for the scene's own
+ */
+record Swimmer(Path run, Integer generation, String scene, JsonNode overrides, Gait gait, Scheme scheme,
+        Double duration) {
+
+    /**
+     * Whom the user named.
+     *
+     * @param source     a run folder, else a scene
+     * @param generation of a run, or null
+     * @param gait       a file, or null for a run's best
+     * @throws InvalidInputException if the run has no such gait
+     */
+    static Swimmer of(String source, Integer generation, Path gait) {
+        Gait given = gait == null ? null : GaitFile.read(gait);
+        if (generation != null && given != null) {
+            throw new InvalidInputException("--generation and --gait: expected one of them");
+        }
+        Path folder = Path.of(source);
+        if (StoredRun.exists(folder)) {
+            StoredRun run = StoredRun.in(folder);
+            EvolutionSettings settings = run.settings();
+            return new Swimmer(folder, generation, SceneOptions.scene(settings.scene()), settings.overrides(),
+                    given != null ? given : best(run, generation), settings.scheme(), settings.duration());
+        }
+        if (generation != null) {
+            throw new InvalidInputException("--generation: " + source + " is not a run folder");
+        }
+        return new Swimmer(null, null, SceneOptions.scene(source), null, given, null, null);
+    }
+
+    private static Gait best(StoredRun run, Integer generation) {
+        if (generation == null) {
+            if (run.best() == null) {
+                throw new InvalidInputException(run.directory()
+                        + " has no best gait yet; finish it by natator resume, or give one by --gait");
+            }
+            return run.best().gait();
+        }
+        int last = run.state() == null ? -1 : run.state().generation();
+        if (generation < 0 || generation > last) {
+            throw new InvalidInputException("--generation is " + generation + "; expected one that " + run.directory()
+                    + " has finished, 0 to " + last);
+        }
+        EvaluationRecord found = run.bestUntil(generation);
+        if (found == null) {
+            throw new InvalidInputException(run.directory() + " no longer knows the gaits of generation " + generation
+                    + ", only the best of all; leave out --generation");
+        }
+        return found.gait();
+    }
+
+    /** What metadata say of it. */
+    ObjectNode described() {
+        ObjectNode text = JsonNodeFactory.instance.objectNode();
+        if (run != null) {
+            text.put("run", run.toAbsolutePath().normalize().getFileName().toString());
+        }
+        if (generation != null) {
+            text.put("generation", generation);
+        }
+        return text;
+    }
+
+    /** A name for files: the scene's last part. */
+    String name() {
+        return Path.of(scene).getFileName().toString().replaceFirst("\\.json$", "");
+    }
+}

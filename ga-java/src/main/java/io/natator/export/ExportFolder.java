@@ -1,0 +1,136 @@
+package io.natator.export;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.config.InvalidInputException;
+import java.io.Closeable;
+import java.io.IOException;
+import java.nio.channels.FileChannel;
+import java.nio.channels.OverlappingFileLockException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.nio.file.StandardOpenOption;
+import java.util.Comparator;
+import java.util.List;
+import java.util.stream.Stream;
+
+/**
+ * A folder that appears only when all in it is written: until then it is called {@code NAME.partial}. What a killed
+ * export left under that name goes with the next export to the same place.
+ */
+final class ExportFolder implements Closeable {
+
+    /** In every export. */
+    static final String METADATA = "metadata.json";
+    private static final String LOCK = "export.lock";
+
+    private final Path target;
+    private final Path partial;
+    private final FileChannel lock;
+    private boolean committed;
+
+    private ExportFolder(Path target, Path partial, FileChannel lock) {
+        this.target = target;
+        this.partial = partial;
+        this.lock = lock;
+    }
+
+    /**
+     * Makes the folder under its temporary name.
+     *
+     * @param replace whether an earlier export may be there
+     * @throws InvalidInputException if something else is there, or another export is being written
+     * @throws IOException           if it cannot be made
+     */
+    static ExportFolder begin(Path folder, boolean replace) throws IOException {
+        Path target = folder.toAbsolutePath().normalize();
+        if (target.getFileName() == null) {
+            throw new InvalidInputException("output folder is " + folder + "; expected a folder of its own");
+        }
+        if (RunFolder.isOccupied(target)) {
+            failUnlessReplaceable(folder, target, replace);
+        }
+        Path partial = target.resolveSibling(target.getFileName() + ".partial");
+        if (RunFolder.isOccupied(partial) && !Files.exists(partial.resolve(LOCK))) {
+            throw new InvalidInputException(partial + " is in the way; remove it");
+        }
+        Files.createDirectories(partial);
+        FileChannel lock = FileChannel.open(partial.resolve(LOCK), StandardOpenOption.CREATE, StandardOpenOption.WRITE);
+        try {
+            if (lock.tryLock() == null) {
+                throw new OverlappingFileLockException();
+            }
+        } catch (OverlappingFileLockException e) {
+            lock.close();
+            throw new InvalidInputException("another export to " + folder + " is being written", e);
+        }
+        ExportFolder fresh = new ExportFolder(target, partial, lock);
+        for (Path old : contents(partial)) {
+            if (!old.equals(partial.resolve(LOCK))) {
+                delete(old);
+            }
+        }
+        return fresh;
+    }
+
+    private static void failUnlessReplaceable(Path folder, Path target, boolean replace) {
+        if (!replace) {
+            throw new InvalidInputException("output folder " + folder + " is not empty; choose another by --output-dir, "
+                    + "or replace the export in it by --force");
+        }
+        if (!Files.isRegularFile(target.resolve(METADATA))) {
+            throw new InvalidInputException("output folder " + folder + " holds no export: it has no " + METADATA
+                    + "; choose another by --output-dir");
+        }
+    }
+
+    /** Where the files go. */
+    Path path() {
+        return partial;
+    }
+
+    /** Gives the folder its name; an earlier export goes. */
+    void commit() throws IOException {
+        Path replaced = target.resolveSibling(target.getFileName() + ".replaced");
+        Files.delete(partial.resolve(LOCK));
+        boolean occupied = RunFolder.isOccupied(target);
+        if (occupied) {
+            delete(replaced);
+            Files.move(target, replaced, StandardCopyOption.ATOMIC_MOVE);
+        }
+        Files.move(partial, target, StandardCopyOption.ATOMIC_MOVE);
+        committed = true;
+        if (occupied) {
+            delete(replaced);
+        }
+    }
+
+    /** Removes the folder unless it was committed. */
+    @Override
+    public void close() throws IOException {
+        try (lock) {
+            if (!committed) {
+                delete(partial);
+            }
+        }
+    }
+
+    private static List<Path> contents(Path folder) throws IOException {
+        try (Stream<Path> files = Files.list(folder)) {
+            return files.toList();
+        }
+    }
+
+    private static void delete(Path path) throws IOException {
+        if (!Files.exists(path)) {
+            return;
+        }
+        List<Path> inwards;
+        try (Stream<Path> all = Files.walk(path)) {
+            inwards = all.sorted(Comparator.reverseOrder()).toList();
+        }
+        for (Path one : inwards) {
+            Files.delete(one);
+        }
+    }
+}

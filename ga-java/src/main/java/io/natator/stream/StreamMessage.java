@@ -1,0 +1,61 @@
+package io.natator.stream;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import java.nio.ByteBuffer;
+
+/** What the simulator says. */
+public sealed interface StreamMessage {
+
+    /**
+     * {@code SCEN}: what the frames after it are about.
+     *
+     * @param scene its content
+     * @param json  the same as the simulator wrote it, one line
+     */
+    record Scene(StreamScene scene, String json) implements StreamMessage {
+    }
+
+    /**
+     * {@code FRAM}: one frame.
+     *
+     * @param scene the scene that it belongs to
+     * @param body  as the simulator wrote it, from {@code number} on, little-endian; read-only
+     */
+    record Frame(StreamScene scene, ByteBuffer body) implements StreamMessage {
+
+        /** The numbers of this frame. */
+        public StreamFrame decode() {
+            return StreamFrame.decode(scene, body);
+        }
+    }
+
+    /**
+     * {@code ANSW}: the answer to one command.
+     *
+     * @param id    the command's; a null node without one
+     * @param error why it was refused, one line; null if it was carried out
+     * @param json  the whole answer as the simulator wrote it, one line
+     */
+    record Answer(JsonNode id, String error, String json) implements StreamMessage {
+
+        /** Whether the command was carried out. */
+        public boolean ok() {
+            return error == null;
+        }
+    }
+
+    /**
+     * {@code STOP}: the simulation has stopped by itself.
+     *
+     * @param reason {@code until} or {@code unstable}
+     * @param detail the whole message, with particle, stage and time of what became unstable
+     * @param json   the same as the simulator wrote it, one line
+     */
+    record Stop(String reason, JsonNode detail, String json) implements StreamMessage {
+
+        /** Whether the wanted time is over; the program ends. */
+        public boolean isEnd() {
+            return reason.equals("until");
+        }
+    }
+}

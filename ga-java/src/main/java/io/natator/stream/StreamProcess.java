@@ -1,0 +1,196 @@
+package io.natator.stream;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.InvalidInputException;
+import io.natator.simulator.ErrorTail;
+import io.natator.simulator.ProcessGroup;
+import io.natator.simulator.SimulatorFailure;
+import java.io.BufferedInputStream;
+import java.io.IOException;
+import java.io.InterruptedIOException;
+import java.io.OutputStream;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.ArrayBlockingQueue;
+import java.util.concurrent.BlockingQueue;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+/**
+ * A running {@code natator-sim stream}. One thread takes its messages; any thread may send commands or close it. Neither
+ * it nor any descendant of it outlives {@link #close} or this virtual machine.
+ */
+public final class StreamProcess implements AutoCloseable {
+
+    /** Commands that wait to be written; a program that takes none any more must not cost memory. */
+    static final int QUEUED_COMMANDS = 1024;
+    private static final int EXIT_BAD_INPUT = 2;
+    private static final int BUFFER_BYTES = 1 << 16;
+    private static final long GRACE_MILLISECONDS = 1000;
+
+    private final ProcessGroup group = new ProcessGroup();
+    private final Process process;
+    private final StreamReader reader;
+    private final BlockingQueue<byte[]> commands = new ArrayBlockingQueue<>(QUEUED_COMMANDS);
+    private final CompletableFuture<String> errors = new CompletableFuture<>();
+    private final List<Thread> threads;
+    private volatile boolean closed;
+    private boolean begun;
+
+    /**
+     * Starts the program.
+     *
+     * @param simulator the native program
+     * @throws InvalidInputException if it does not start
+     * @throws InterruptedException  if this virtual machine is shutting down
+     */
+    public StreamProcess(Path simulator, StreamOptions options) throws InterruptedException {
+        List<String> command = new ArrayList<>(List.of(simulator.toString()));
+        command.addAll(options.arguments());
+        try {
+            process = group.start(command);
+        } catch (SimulatorFailure e) {
+            group.close();
+            throw new InvalidInputException(e.getMessage(), e);
+        }
+        reader = new StreamReader(new BufferedInputStream(process.getInputStream(), BUFFER_BYTES));
+        threads = List.of(new Thread(this::write, "stream-input"), new Thread(this::readErrors, "stream-errors"));
+        for (Thread thread : threads) {
+            thread.setDaemon(true);
+            thread.start();
+        }
+    }
+
+    /** Sends a command; see {@link #send(String)}. */
+    public void send(JsonNode command) throws StreamException {
+        send(command.toString());
+    }
+
+    /**
+     * Sends a command without waiting.
+     *
+     * @param command one JSON object, on one line
+     * @throws StreamException          if the program has left too many commands unread
+     * @throws IllegalArgumentException if the command holds a line feed
+     */
+    public void send(String command) throws StreamException {
+        if (command.indexOf('\n') >= 0) {
+            throw new IllegalArgumentException("a command is one line");
+        }
+        if (!commands.offer((command + "\n").getBytes(StandardCharsets.UTF_8)) && !closed) {
+            throw new StreamException("simulator has left " + QUEUED_COMMANDS + " commands unread");
+        }
+    }
+
+    /** Grants so many frames more; see {@link #send(String)}. */
+    public void grant(int frames) throws StreamException {
+        send("{\"do\":\"credit\",\"frames\":" + frames + "}");
+    }
+
+    /**
+     * Waits for the next message.
+     *
+     * @return the message, or null if the program has ended with exit status 0, or {@link #close} was called
+     * @throws InvalidInputException if the program refused what it was started with: one line says why
+     * @throws StreamException       if it ended in any other way, or broke the protocol
+     * @throws IOException           if its output cannot be read
+     */
+    public StreamMessage next() throws IOException {
+        StreamMessage message;
+        try {
+            message = reader.next();
+        } catch (IOException e) {
+            if (closed) {
+                return null;
+            }
+            throw e instanceof StreamException && !process.isAlive()
+                    ? new StreamException(e.getMessage() + end(), e) : e;
+        }
+        if (message == null && !closed) {
+            failUnlessDone();
+        }
+        begun |= message != null;
+        return message;
+    }
+
+    private void failUnlessDone() throws IOException {
+        String how = end();
+        if (process.isAlive()) {
+            throw new StreamException("simulator closed its output" + how);
+        }
+        int status = process.exitValue();
+        if (status == EXIT_BAD_INPUT && !begun && !said().isEmpty()) {
+            throw new InvalidInputException(said());
+        }
+        if (status != 0 && !closed) {
+            throw new StreamException("simulator ended" + how);
+        }
+    }
+
+    /** How the program ended, or that it runs on though its output is at an end. */
+    private String end() throws IOException {
+        try {
+            if (!process.waitFor(GRACE_MILLISECONDS, TimeUnit.MILLISECONDS)) {
+                return ", but runs on";
+            }
+        } catch (InterruptedException e) {
+            throw interrupted();
+        }
+        String said = said();
+        return "; exit status " + process.exitValue() + (said.isEmpty() ? "" : ", errors \"" + said + '"');
+    }
+
+    private String said() throws IOException {
+        try {
+            return errors.get(GRACE_MILLISECONDS, TimeUnit.MILLISECONDS);
+        } catch (ExecutionException | TimeoutException e) {
+            return "";
+        } catch (InterruptedException e) {
+            throw interrupted();
+        }
+    }
+
+    private static InterruptedIOException interrupted() {
+        Thread.currentThread().interrupt();
+        return new InterruptedIOException("interrupted");
+    }
+
+    /** Process id of the program, for those who watch it. */
+    public long pid() {
+        return process.pid();
+    }
+
+    private void write() {
+        try (OutputStream stdin = process.getOutputStream()) {
+            while (true) {
+                stdin.write(commands.take());
+                stdin.flush();
+            }
+        } catch (IOException e) {
+            // The program has closed its input or has ended: what it says, or does not, tells.
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
+    private void readErrors() {
+        try {
+            errors.complete(ErrorTail.read(process.getErrorStream()));
+        } catch (IOException e) {
+            errors.completeExceptionally(e);
+        }
+    }
+
+    /** Kills the program with all its descendants; a thread that waits for a message then gets null. */
+    @Override
+    public void close() {
+        closed = true;
+        group.end(process);
+        group.close();
+        threads.forEach(Thread::interrupt);
+    }
+}

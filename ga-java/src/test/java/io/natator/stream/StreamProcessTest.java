@@ -1,0 +1,161 @@
+package io.natator.stream;
+
+import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import io.natator.config.InvalidInputException;
+import io.natator.config.Scheme;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+
+/** The life of the program; what it says is a file. */
+@Timeout(value = 60, unit = TimeUnit.SECONDS)
+class StreamProcessTest {
+
+    private static final StreamOptions OPTIONS = StreamOptions.live("test/pool", null, null, false);
+
+    @TempDir
+    private Path folder;
+
+    @AfterEach
+    void nothingRunsOn() throws InterruptedException {
+        assertThatNoChildIsLeft();
+    }
+
+    /** A program that says these bytes and then does what the lines of shell say. */
+    private Path program(StreamBytes stream, String then) throws IOException {
+        Files.write(folder.resolve("said"), stream.toBytes());
+        Path script = Files.writeString(folder.resolve("program.sh"), "#!/bin/sh\ncd '" + folder
+                + "'\necho \"$@\" > arguments\ncat said\n" + then + "\n");
+        assertThat(script.toFile().setExecutable(true)).isTrue();
+        return script;
+    }
+
+    private static StreamBytes scene() {
+        return new StreamBytes().json("SCEN", StreamBytes.scene());
+    }
+
+    @Test
+    void messagesComeInOrderAndTheEndIsNull() throws IOException, InterruptedException {
+        StreamBytes stream = scene().frame(1, 0).frame(1, 1).json("STOP", "{\"reason\":\"until\"}");
+        try (StreamProcess process = new StreamProcess(program(stream, "exit 0"), OPTIONS)) {
+            assertThat(process.next()).isInstanceOf(StreamMessage.Scene.class);
+            assertThat(((StreamMessage.Frame) process.next()).decode().frame()).isZero();
+            assertThat(((StreamMessage.Frame) process.next()).decode().frame()).isOne();
+            assertThat(((StreamMessage.Stop) process.next()).isEnd()).isTrue();
+            assertThat(process.next()).isNull();
+        }
+    }
+
+    @Test
+    void commandsArriveOneALine() throws IOException, InterruptedException {
+        Path script = program(scene(), "read first; read second; echo \"$first\" \"$second\" >heard; printf 'ANSW\\023\\0\\0\\0'"
+                + "; printf '{\"id\":1,\"ok\":true} '; sleep 60");
+        try (StreamProcess process = new StreamProcess(script, OPTIONS)) {
+            process.next();
+            process.grant(2);
+            process.send("{\"do\":\"run\"}");
+
+            assertThatThrownBy(process::next).hasMessageStartingWith("ANSW of 19 bytes");
+            assertThat(folder.resolve("heard")).hasContent("{\"do\":\"credit\",\"frames\":2} {\"do\":\"run\"}");
+            assertThatThrownBy(() -> process.send("{}\n{}")).isInstanceOf(IllegalArgumentException.class);
+        }
+    }
+
+    @Test
+    void optionsBecomeArguments() throws IOException, InterruptedException {
+        StreamOptions options = StreamOptions.recording("a b", StreamBytes.scene().get("definition"),
+                StreamBytes.scene().get("gait"), 0.5).with(Scheme.CONSERVING, "double").withEvery(4)
+                .withFields(List.of(StreamField.DENSITY, StreamField.POSITION));
+        try (StreamProcess process = new StreamProcess(program(scene(), "exit 0"), options)) {
+            process.next();
+        }
+        assertThat(folder.resolve("arguments")).hasContent("stream a b --overrides {\"name\":\"pool\"} --gait "
+                + "{\"frequency\":1,\"amplitude\":[0.5],\"phase\":[0]} --scheme conserving --precision double "
+                + "--fields position,density --every 4 --rate 0.0 --until 0.5 --lossless");
+    }
+
+    @Test
+    void aRefusalIsBadInputInTheProgramsWords() throws IOException, InterruptedException {
+        Path script = program(new StreamBytes(), "echo 'scene x: not known' >&2; exit 2");
+        try (StreamProcess process = new StreamProcess(script, OPTIONS)) {
+            assertThatThrownBy(process::next).isInstanceOf(InvalidInputException.class)
+                    .hasMessage("scene x: not known");
+        }
+    }
+
+    @Test
+    void aProgramThatDiesIsToldOfWithItsLastWords() throws IOException, InterruptedException {
+        try (StreamProcess process = new StreamProcess(program(scene(), "echo out of luck >&2; exit 1"), OPTIONS)) {
+            process.next();
+            assertThatThrownBy(process::next).isInstanceOf(StreamException.class)
+                    .hasMessage("simulator ended; exit status 1, errors \"out of luck\"");
+        }
+    }
+
+    @Test
+    void aProgramKilledWithinAMessageIsToldOf() throws IOException, InterruptedException {
+        try (StreamProcess process = new StreamProcess(program(scene().raw((byte) 'F'), "kill -9 $$"), OPTIONS)) {
+            process.next();
+            assertThatThrownBy(process::next).isInstanceOf(StreamException.class)
+                    .hasMessageStartingWith("stream ended 1 bytes into the 8-byte head of a message; exit status 137");
+        }
+    }
+
+    @Test
+    void aProgramThatClosesItsOutputIsToldOf() throws IOException, InterruptedException {
+        try (StreamProcess process = new StreamProcess(program(scene(), "exec >&-; sleep 60"), OPTIONS)) {
+            process.next();
+            assertThatThrownBy(process::next).isInstanceOf(StreamException.class)
+                    .hasMessage("simulator closed its output, but runs on");
+        }
+    }
+
+    @Test
+    void closingEndsAWaitAndAllDescendants() throws IOException, InterruptedException, ExecutionException,
+            TimeoutException {
+        StreamProcess process = new StreamProcess(program(scene(), "sleep 60 & sleep 60"), OPTIONS);
+        process.next();
+        CompletableFuture<StreamMessage> next = CompletableFuture.supplyAsync(() -> {
+            try {
+                return process.next();
+            } catch (IOException e) {
+                throw new IllegalStateException(e);
+            }
+        });
+        Thread.sleep(100);
+        process.close();
+
+        assertThat(next.get(10, TimeUnit.SECONDS)).isNull();
+    }
+
+    @Test
+    void aProgramThatReadsNoCommandsCostsNoMemory() throws IOException, InterruptedException {
+        String command = "{\"do\":\"" + "x".repeat(1000) + "\"}";
+        try (StreamProcess process = new StreamProcess(program(scene(), "sleep 60"), OPTIONS)) {
+            process.next();
+            assertThatThrownBy(() -> {
+                for (int i = 0; i < 10 * StreamProcess.QUEUED_COMMANDS; i++) {
+                    process.send(command);
+                }
+            }).isInstanceOf(StreamException.class).hasMessage("simulator has left 1024 commands unread");
+        }
+    }
+
+    @Test
+    void aProgramThatCannotStartIsBadInput() {
+        assertThatThrownBy(() -> new StreamProcess(folder.resolve("none"), OPTIONS))
+                .isInstanceOf(InvalidInputException.class).hasMessageStartingWith("cannot start ");
+    }
+}
