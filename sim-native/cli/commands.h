@@ -14,6 +14,7 @@ enum Exit { ok = 0, failure = 1, bad_input = 2, unstable = 3, no_device = 4 };
 void add_evaluate(CLI::App& app, int& status);
 void add_serve(CLI::App& app, int& status);
 void add_run(CLI::App& app, int& status);
+void add_stream(CLI::App& app, int& status);
 void add_info(CLI::App& app, int& status);
 void add_particles(CLI::App& app, int& status);
 void add_bench(CLI::App& app, int& status);

@@ -1,23 +1,90 @@
 #include "line_queue.h"
 
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+
 namespace natator::cli {
+namespace {
 
-LineQueue::LineQueue(std::istream& input) : reader_([this, &input] { read(input); }) {}
-
-LineQueue::~LineQueue() {
-    reader_.join();
+int make_event() {
+    const int event = ::eventfd(0, EFD_CLOEXEC);
+    if (event < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+    return event;
 }
 
-void LineQueue::read(std::istream& input) {
-    std::string line;
-    while (std::getline(input, line)) {
-        const std::lock_guard lock(mutex_);
-        lines_.push_back(std::move(line));
-        changed_.notify_one();
+/// Waits until there is something to read, and reads it. 0 at the end of the stream, and when `wake` is readable.
+std::size_t read_some(int input, int wake, char* buffer, std::size_t size) {
+    for (;;) {
+        std::array<pollfd, 2> files{{{input, POLLIN, 0}, {wake, POLLIN, 0}}};
+        if (::poll(files.data(), files.size(), -1) < 0) {
+            if (errno == EINTR) continue;
+            return 0;
+        }
+        if (files[1].revents != 0) return 0;
+        const ssize_t count = ::read(input, buffer, size);
+        if (count >= 0) return static_cast<std::size_t>(count);
+        if (errno != EINTR && errno != EAGAIN) return 0;
     }
+}
+
+}  // namespace
+
+LineQueue::LineQueue(int input, Limits limits)
+    : input_(input), limits_(limits), wake_(make_event()), reader_([this] { read(); }) {}
+
+LineQueue::~LineQueue() {
+    {
+        const std::lock_guard lock(mutex_);
+        closing_ = true;
+    }
+    room_.notify_one();
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const ssize_t written = ::write(wake_, &one, sizeof one);
+    reader_.join();
+    ::close(wake_);
+}
+
+void LineQueue::read() {
+    std::array<char, 65536> buffer;
+    std::string line;
+    bool open = true;
+    while (open) {
+        const std::size_t count = read_some(input_, wake_, buffer.data(), buffer.size());
+        if (count == 0) break;
+        const char* at = buffer.data();
+        const char* const end = at + count;
+        while (open && at != end) {
+            const char* const stop = std::find(at, end, '\n');
+            const auto more = static_cast<std::size_t>(stop - at);
+            if (line.size() <= limits_.bytes)
+                line.append(at, more > limits_.bytes - line.size() ? limits_.bytes - line.size() + 1 : more);
+            at = stop;
+            if (at == end) break;
+            ++at;
+            open = add_line(std::move(line));
+            line.clear();
+        }
+    }
+    if (open && !line.empty()) add_line(std::move(line));
     const std::lock_guard lock(mutex_);
     ended_ = true;
     changed_.notify_one();
+}
+
+/// False when the queue is being destroyed.
+bool LineQueue::add_line(std::string line) {
+    std::unique_lock lock(mutex_);
+    room_.wait(lock, [this] { return closing_ || lines_.size() < limits_.lines; });
+    if (closing_) return false;
+    lines_.push_back(std::move(line));
+    changed_.notify_one();
+    return true;
 }
 
 std::vector<std::string> LineQueue::take(std::size_t most, std::chrono::milliseconds lull) {
@@ -28,11 +95,36 @@ std::vector<std::string> LineQueue::take(std::size_t most, std::chrono::millisec
         seen = lines_.size();
         changed_.wait_for(lock, lull, [&] { return ended_ || lines_.size() > seen; });
     }
+    return take_locked(most);
+}
+
+std::vector<std::string> LineQueue::take_waiting() {
+    const std::lock_guard lock(mutex_);
+    return take_locked(lines_.size());
+}
+
+void LineQueue::wait_until(Clock::time_point time) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_until(lock, time, [this] { return ended_ || !lines_.empty(); });
+}
+
+void LineQueue::wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return ended_ || !lines_.empty(); });
+}
+
+bool LineQueue::exhausted() {
+    const std::lock_guard lock(mutex_);
+    return ended_ && lines_.empty();
+}
+
+std::vector<std::string> LineQueue::take_locked(std::size_t most) {
     std::vector<std::string> taken;
     while (!lines_.empty() && taken.size() < most) {
         taken.push_back(std::move(lines_.front()));
         lines_.pop_front();
     }
+    room_.notify_one();
     return taken;
 }
 

@@ -2,8 +2,8 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
-#include <istream>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -11,23 +11,49 @@
 
 namespace natator::cli {
 
-/// Lines of a stream as they come in, read by a thread of its own. Must not outlive the stream; ends with it.
+/// Lines of a stream as they come in, read by a thread of its own, which ends with the stream or with the queue.
 class LineQueue {
 public:
-    explicit LineQueue(std::istream& input);
+    using Clock = std::chrono::steady_clock;
+
+    struct Limits {
+        std::size_t lines = SIZE_MAX;  ///< that wait; no more is read while they do
+        std::size_t bytes = SIZE_MAX;  ///< of a line; a longer one is cut to one byte more
+    };
+
+    /// Reads the file descriptor `input`. Throws std::system_error when there is no thread to be had.
+    explicit LineQueue(int input, Limits limits);
+    explicit LineQueue(int input) : LineQueue(input, Limits{}) {}
     ~LineQueue();
+    LineQueue(const LineQueue&) = delete;
+    LineQueue& operator=(const LineQueue&) = delete;
 
     /// Waits for a line, then takes all that have come, at most `most`, as soon as none comes for `lull`. Empty only at
     /// the end of the stream.
     std::vector<std::string> take(std::size_t most, std::chrono::milliseconds lull);
 
+    /// Takes what has come, without waiting.
+    std::vector<std::string> take_waiting();
+    /// Waits for a line or the end of the stream, at most until `time`.
+    void wait_until(Clock::time_point time);
+    void wait();
+    /// True if the stream has ended and all its lines are taken.
+    bool exhausted();
+
 private:
-    void read(std::istream& input);
+    void read();
+    bool add_line(std::string line);
+    std::vector<std::string> take_locked(std::size_t most);
+
+    const int input_;
+    const Limits limits_;
+    const int wake_;  ///< readable when the queue is being destroyed
 
     std::mutex mutex_;
-    std::condition_variable changed_;
+    std::condition_variable changed_, room_;
     std::deque<std::string> lines_;
     bool ended_ = false;
+    bool closing_ = false;
     std::thread reader_;
 };
 

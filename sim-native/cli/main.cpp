@@ -29,6 +29,7 @@ int run_command(int argc, char** argv) {
     add_evaluate(app, status);
     add_serve(app, status);
     add_run(app, status);
+    add_stream(app, status);
     add_info(app, status);
     add_particles(app, status);
     add_bench(app, status);

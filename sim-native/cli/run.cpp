@@ -5,12 +5,12 @@
 
 #include "commands.h"
 #include "job.h"
+#include "json_argument.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/protocol.h"
 #include "natator/scene_json.h"
 #include "natator/snapshot.h"
-#include "natator/strict_json.h"
 #include "natator/trajectory.h"
 
 namespace natator::cli {
@@ -36,16 +36,9 @@ bool run_on_gpu(const Options& options, const Scene& scene) {
     return false;
 }
 
-/// JSON given on the command line, or in a file if it does not begin with '{'.
-json read_argument(const std::string& argument, const std::string& name) {
-    const auto first = argument.find_first_not_of(" \t\r\n");
-    const bool text = first != std::string::npos && argument[first] == '{';
-    return text ? parse_json(argument, name) : read_json_file(argument);
-}
-
 Scene load(const Options& options) {
     json overrides = json::object();
-    if (!options.overrides.empty()) overrides = read_argument(options.overrides, "--overrides");
+    if (!options.overrides.empty()) overrides = read_json_argument(options.overrides, "--overrides");
     if (options.duration) overrides["duration"] = *options.duration;
     if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
     return load_scene(options.scene, overrides);
@@ -53,11 +46,8 @@ Scene load(const Options& options) {
 
 /// The gait asked for; without one the muscles rest.
 Gait load_gait(const Options& options, int actuators) {
-    if (!options.gait.empty()) return parse_gait(read_argument(options.gait, "--gait"), "--gait");
-    Gait rest;
-    rest.amplitude.assign(static_cast<std::size_t>(actuators), 0);
-    rest.phase = rest.amplitude;
-    return rest;
+    if (!options.gait.empty()) return parse_gait(read_json_argument(options.gait, "--gait"), "--gait");
+    return resting_gait(actuators);
 }
 
 std::string summary(const Options& options, const Scene& scene, const Evaluation& result, double wall_seconds) {

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <iostream>
 #include <map>
 #include <memory>
@@ -113,7 +115,7 @@ void serve_batch(const std::vector<std::string>& lines, Options& options, Tally&
 int serve(Options& options) {
     if (options.backend.name == "cuda") on_gpu(options.backend, {});  // ends the program if there is none
     constexpr std::chrono::milliseconds lull(5);
-    LineQueue queue(std::cin);
+    LineQueue queue(STDIN_FILENO);
     Tally tally;
     for (;;) {
         const std::vector<std::string> lines = queue.take(options.most, lull);

@@ -1,6 +1,7 @@
 // The activation (thesis 2.6 and 4.2) and the muscle lengths it gives (2.7, 2.8), against numbers worked out by hand.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "natator/actuate.h"
@@ -53,6 +54,20 @@ TEST(GaitTest, RightMusclesStretchWhenTheActivationIsPositive) {
     for (const Muscle& muscle : model.muscles) {
         const double expected = muscle.actuator == 1 ? 0.3 : muscle.lateral > 0 ? 0.36 : 0.24;
         EXPECT_NEAR(state.spring_rest_length[muscle.spring], expected, 1e-12);
+    }
+}
+
+/// Scheme conserving starts its muscles softly: smoothstep of t / 0.25 s, 1/2 at half of that.
+TEST(GaitTest, DriveIsAmplitudeTimesActivation) {
+    Model model = build_model(load_scene("thesis/creature-1"));
+    const Gait gait{1, {0.4, 0.5}, {0.25, 0.125}, 1};  // at 0.125 s: sin 135 and sin 90 degrees
+    for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
+        model.scheme = scheme;
+        const double ramp = scheme == Scheme::conserving ? 0.5 : 1;
+        const std::vector<double> driven = drive(model, gait, 0.125);
+        ASSERT_EQ(driven.size(), 2u);
+        EXPECT_NEAR(driven[0], ramp * 0.4 * std::sqrt(0.5), 1e-15);
+        EXPECT_NEAR(driven[1], ramp * 0.5, 1e-15);
     }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "natator/measure.h"
+#include "natator/momentum.h"
 
 namespace natator {
 namespace {
@@ -58,6 +59,16 @@ TEST(MeasureTest, ABodyTouchesAPlaneAtTheCollisionDistance) {
     EXPECT_TRUE(touches_plane(model, state));
     state.position[1] = {4.459f, 1.0f, 0.0f};
     EXPECT_FALSE(touches_plane(model, state));
+}
+
+/// Masses 1 and 3: (1 (4, 0, 0) + 3 (0, 4, 0)) / 4; the particle that is held in place has no part in it.
+TEST(MeasureTest, VelocityOfTheCentreOfMass) {
+    Model model;
+    model.inverse_mass = {1, 1.0 / 3, 0};
+    State<float> state;
+    state.velocity = {{4, 0, 0}, {0, 4, 0}, {9, 9, 9}};
+    EXPECT_TRUE(centre_velocity(model, state, {0, 1, 2}).isApprox(Eigen::Vector3d(1, 3, 0)));
+    EXPECT_EQ(centre_velocity(model, state, {2}), Eigen::Vector3d::Zero());
 }
 
 }  // namespace

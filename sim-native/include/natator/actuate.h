@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "natator/gait.h"
 #include "natator/model.h"
 #include "natator/state.h"
@@ -9,6 +11,10 @@ namespace natator {
 /// Throws InputError unless the gait has one amplitude and one phase per actuator and its values are within
 /// frequency (0, 60] 1/s, amplitude [0, 2], phase [0, 1] turns, power [0.5, 4].
 void check_gait(const Gait& gait, int actuators);
+
+/// What drives each actuator's muscles at `time` (s): a u, amplitude times activation, in scheme `conserving` times the
+/// start ramp. The gait must fit the model (check_gait).
+std::vector<double> drive(const Model& model, const Gait& gait, double time);
 
 /// Sets the rest length of every muscle for `time` (s): l = l_rest (1 + 1/2 z_m a u), thesis (2.7) and (2.8).
 /// The gait must fit the model (check_gait).

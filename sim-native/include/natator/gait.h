@@ -12,6 +12,9 @@ struct Gait {
     double power = 1.0;             ///< p of the potentiated activation of thesis 4.2; 1 = plain sine, (2.6)
 };
 
+/// The gait that leaves the muscles of so many actuators at rest.
+Gait resting_gait(int actuators);
+
 /// Activation u in [-1, 1] of one actuator at time t (s): sin(2 pi (f t + phi)), thesis (2.6);
 /// with power p != 1: ((sin + 1) / 2)^p * 2 - 1, thesis 4.2.
 double activation(const Gait& gait, int actuator, double time);

@@ -19,6 +19,10 @@ struct Momentum {
 template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state, const std::vector<int>& particles);
 
+/// Velocity of the centre of mass of the movable ones of the given particles, length/s; 0 without any.
+template <class Real>
+Eigen::Vector3d centre_velocity(const Model& model, const State<Real>& state, const std::vector<int>& particles);
+
 /// Of all particles.
 template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state);

@@ -8,7 +8,7 @@
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "perturb.h"
-#include "settle.h"
+#include "settled_start.h"
 
 namespace natator {
 namespace {
@@ -35,19 +35,6 @@ Snapshot snapshot_of(const State<Real>& state, const std::vector<Real>& densitie
     for (const auto& velocity : state.velocity) snapshot.velocity.push_back(velocity.template cast<double>());
     snapshot.density.assign(densities.begin(), densities.end());
     return snapshot;
-}
-
-/// The start of the scene at rest: from the cache if it is there, else settled and kept there.
-template <class Real>
-State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver, const StartCache* starts,
-                          std::optional<Instability>& instability) {
-    if (settling.updates == 0) starts = nullptr;
-    if (starts)
-        if (auto found = starts->find<Real>(model, settling)) return *found;
-    State<Real> state = initial_state<Real>(model);
-    instability = settle(settling, solver, state);
-    if (starts && !instability) starts->keep(model, settling, state);
-    return state;
 }
 
 /// Runs frame by frame to the duration or an early stop.

@@ -17,15 +17,19 @@ double start_ramp(double time) {
 
 }  // namespace
 
+std::vector<double> drive(const Model& model, const Gait& gait, double time) {
+    std::vector<double> driven(static_cast<std::size_t>(model.actuators));
+    const double ramp = model.scheme == Scheme::conserving ? start_ramp(time) : 1.0;
+    for (int i = 0; i < model.actuators; ++i) driven[i] = ramp * gait.amplitude[i] * activation(gait, i, time);
+    return driven;
+}
+
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state) {
-    std::vector<double> drive(static_cast<std::size_t>(model.actuators));  // a u per actuator
-    const double ramp = model.scheme == Scheme::conserving ? start_ramp(time) : 1.0;
-    for (int i = 0; i < model.actuators; ++i) drive[i] = ramp * gait.amplitude[i] * activation(gait, i, time);
-
+    const std::vector<double> driven = drive(model, gait, time);
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;
-        const double length = rest * (1 + epsilon * muscle.lateral * drive[muscle.actuator]);
+        const double length = rest * (1 + epsilon * muscle.lateral * driven[muscle.actuator]);
         state.spring_rest_length[muscle.spring] = static_cast<Real>(length);
     }
 }

@@ -32,6 +32,18 @@ Momentum measure_momentum(const Model& model, const State<Real>& state, const st
 }
 
 template <class Real>
+Eigen::Vector3d centre_velocity(const Model& model, const State<Real>& state, const std::vector<int>& particles) {
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+    double mass = 0;
+    for (const int i : particles) {
+        if (model.inverse_mass[i] == 0) continue;
+        momentum += state.velocity[i].template cast<double>() / model.inverse_mass[i];
+        mass += 1 / model.inverse_mass[i];
+    }
+    return mass > 0 ? Eigen::Vector3d(momentum / mass) : momentum;
+}
+
+template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state) {
     std::vector<int> all(model.particles());
     std::iota(all.begin(), all.end(), 0);
@@ -42,5 +54,7 @@ template Momentum measure_momentum(const Model&, const State<float>&);
 template Momentum measure_momentum(const Model&, const State<double>&);
 template Momentum measure_momentum(const Model&, const State<float>&, const std::vector<int>&);
 template Momentum measure_momentum(const Model&, const State<double>&, const std::vector<int>&);
+template Eigen::Vector3d centre_velocity(const Model&, const State<float>&, const std::vector<int>&);
+template Eigen::Vector3d centre_velocity(const Model&, const State<double>&, const std::vector<int>&);
 
 }  // namespace natator

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace natator::cli {
+
+/// JSON given on the command line, or in a file if it does not begin with '{'. `name` is the option's, for messages.
+/// Throws InputError.
+nlohmann::json read_json_argument(const std::string& argument, const std::string& name);
+
+}  // namespace natator::cli

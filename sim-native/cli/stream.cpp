@@ -1,0 +1,95 @@
+#include <unistd.h>
+
+#include <memory>
+#include <vector>
+
+#include "commands.h"
+#include "job.h"
+#include "json_argument.h"
+#include "natator/error.h"
+#include "stream_session.h"
+
+namespace natator::cli {
+namespace {
+
+struct Options {
+    std::string scene, gait, overrides, scheme;
+    std::string precision = "float";
+    std::vector<std::string> fields{"position"};
+    StreamSettings settings;
+    ExecutionOptions execution;
+};
+
+constexpr std::size_t most_waiting = 64;  // commands
+
+LiveSetup read_setup(const Options& options) {
+    LiveSetup setup;
+    setup.scene = options.scene;
+    if (!options.overrides.empty()) setup.overrides = read_json_argument(options.overrides, "--overrides");
+    if (!options.scheme.empty()) setup.overrides["scheme"] = options.scheme;
+    if (!options.gait.empty()) setup.gait = parse_gait(read_json_argument(options.gait, "--gait"), "--gait");
+    return setup;
+}
+
+stream::Fields read_fields(const std::vector<std::string>& names) {
+    stream::Fields fields{.position = false};
+    for (const std::string& name : names) {
+        fields.position |= name == "position";
+        fields.velocity |= name == "velocity";
+        fields.density |= name == "density";
+    }
+    return fields;
+}
+
+template <class Real>
+void run_stream(Options& options) {
+    StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings);
+    LineQueue commands(STDIN_FILENO, {.lines = most_waiting, .bytes = stream::longest_command});
+    session.run(commands);
+}
+
+int stream_scene(Options& options) {
+    if (!stream::is_rate(options.settings.rate))
+        throw InputError("--rate " + nlohmann::json(options.settings.rate).dump() +
+                         ": must be 0 or a number in [0.001, 1000]");
+    options.settings.fields = read_fields(options.fields);
+    options.precision == "double" ? run_stream<double>(options) : run_stream<float>(options);
+    return ok;
+}
+
+}  // namespace
+
+void add_stream(CLI::App& app, int& status) {
+    CLI::App* command =
+        app.add_subcommand("stream",
+                           "Run a scene that is watched and changed meanwhile: JSON commands on standard input, one a "
+                           "line; binary frames on standard output (sim-native/protocol/stream.md). Ends with the "
+                           "input.");
+    const auto options = std::make_shared<Options>();
+    StreamSettings& settings = options->settings;
+    command->add_option("scene", options->scene, "Name or path of the scene.")->required();
+    command->add_option("--gait", options->gait, "File or JSON text. Default: muscles at rest.");
+    command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
+    command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
+    command->add_option("--precision", options->precision, "float or double.")
+        ->check(CLI::IsMember({"float", "double"}))
+        ->capture_default_str();
+    command->add_option("--fields", options->fields, "What frames hold: position, velocity, density.")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"position", "velocity", "density"}))
+        ->capture_default_str();
+    command->add_option("--every", settings.every, "Offer every Nth frame only.")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    command
+        ->add_option("--rate", settings.rate,
+                     "Simulated seconds per second of wall time, at most; 0: as fast as possible.")
+        ->capture_default_str();
+    command->add_option("--until", settings.until, "End at this time, s.")->check(CLI::NonNegativeNumber);
+    command->add_flag("--lossless", settings.lossless, "Wait for credit instead of dropping frames.");
+    command->add_flag("--paused", settings.paused, "Begin paused.");
+    add_execution_options(command, options->execution);
+    command->callback([options, &status] { status = stream_scene(*options); });
+}
+
+}  // namespace natator::cli

@@ -1,0 +1,185 @@
+#include "stream_session.h"
+
+#include "commands.h"
+#include "natator/error.h"
+#include "natator/protocol.h"
+#include "natator/strict_json.h"
+
+namespace natator::cli {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+json parse_command(const std::string& line) {
+    if (line.size() > stream::longest_command) throw InputError("command: longer than 1 MiB");
+    return parse_json(line, "command");
+}
+
+}  // namespace
+
+template <class Real>
+StreamSession<Real>::StreamSession(const LiveSetup& setup, const Execution& execution, const StreamSettings& settings)
+    : settings_(settings), simulation_(setup, execution), pace_(settings.rate), running_(!settings.paused) {}
+
+template <class Real>
+void StreamSession<Real>::run(LineQueue& commands) {
+    scene_changed(true);
+    for (;;) {
+        for (const std::string& line : commands.take_waiting()) carry_out(line);
+        offer_frame();
+        if (at_end() && !due_) return print(stream_message("STOP", stream_stop()));
+        if (commands.exhausted()) return;
+        if (!running() || due_) {
+            commands.wait();
+        } else if (LineQueue::Clock::now() < pace_.next()) {
+            commands.wait_until(pace_.next());
+        } else {
+            pace_.begin_frame(simulation_.scene().time_step);
+            if (simulate()) due_ = simulation_.frames() % settings_.every == 0;
+        }
+    }
+}
+
+/// What a command causes comes before its answer.
+template <class Real>
+void StreamSession<Real>::carry_out(const std::string& line) {
+    if (line.size() <= stream::longest_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
+    ordered_json answer{{"id", nullptr}};
+    try {
+        const json value = parse_command(line);
+        answer["id"] = request_id(value);
+        std::visit([this](const auto& command) { apply(command); }, parse_stream_command(value));
+        answer["ok"] = true;
+    } catch (const InputError& error) {
+        answer["error"] = error.what();
+    }
+    print(stream_message("ANSW", answer));
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Credit& credit) {
+    credit_ = std::min(credit_ + credit.frames, stream::most_credit);
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Run&) {
+    refuse_if_unstable();
+    running_ = true;
+    pace_.restart();
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Pause&) {
+    running_ = false;
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Step& step) {
+    refuse_if_unstable();
+    offer_frame();
+    if (due_ && settings_.lossless) throw InputError("command: do = \"step\": the last frame still waits for credit");
+    if (due_) drop_frame();
+    running_ = false;
+    for (int i = 0; i < step.frames && !at_end(); ++i)
+        if (!simulate()) return;
+    due_ = true;
+    offer_frame();
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Rate& rate) {
+    pace_.set_rate(rate.value);
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Reset&) {
+    simulation_.reset();
+    scene_changed(true);
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::NewGait& gait) {
+    simulation_.set_gait(gait.gait);
+    scene_changed(false);
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Overrides& overrides) {
+    scene_changed(simulation_.merge_overrides(overrides.patch));
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::NewScene& scene) {
+    simulation_.load(scene.setup);
+    scene_changed(true);
+}
+
+template <class Real>
+void StreamSession<Real>::scene_changed(bool restarted) {
+    const stream::SceneHead head{.number = ++scene_, .restarted = restarted, .fields = settings_.fields};
+    print(stream_message("SCEN", stream_scene(simulation_, head)));
+    if (!restarted) return;
+    due_ = !simulation_.instability();
+    dropped_ = 0;
+    wall_seconds_ = 0;
+    wall_frames_ = 0;
+    pace_.restart();
+    if (simulation_.instability()) print(stream_message("STOP", stream_stop(*simulation_.instability())));
+}
+
+/// One frame; false if the simulation became unstable.
+template <class Real>
+bool StreamSession<Real>::simulate() {
+    const auto begin = Pace::Clock::now();
+    const bool stable = simulation_.frame();
+    wall_seconds_ += std::chrono::duration<double>(Pace::Clock::now() - begin).count();
+    ++wall_frames_;
+    if (!stable) print(stream_message("STOP", stream_stop(*simulation_.instability())));
+    return stable;
+}
+
+/// Sends the present frame if there is credit; else drops it, or keeps it for later: every frame of a lossless stream,
+/// and the settled start while nothing moves.
+template <class Real>
+void StreamSession<Real>::offer_frame() {
+    if (!due_) return;
+    if (credit_ == 0) {
+        if (!settings_.lossless && (running_ || simulation_.frames() > 0)) drop_frame();
+        return;
+    }
+    const stream::FrameHead head{.scene = scene_,
+                                 .dropped = dropped_,
+                                 .running = running(),
+                                 .wall_seconds = wall_frames_ > 0 ? wall_seconds_ / wall_frames_ : 0,
+                                 .fields = settings_.fields};
+    print(stream_frame(simulation_, head));
+    --credit_;
+    due_ = false;
+    wall_seconds_ = 0;
+    wall_frames_ = 0;
+}
+
+template <class Real>
+void StreamSession<Real>::drop_frame() {
+    ++dropped_;
+    due_ = false;
+}
+
+template <class Real>
+void StreamSession<Real>::refuse_if_unstable() const {
+    if (simulation_.instability())
+        throw InputError("the simulation is unstable since " + json(simulation_.instability()->time).dump() +
+                         " s: needs reset, other overrides or another scene");
+}
+
+template <class Real>
+bool StreamSession<Real>::at_end() const {
+    const double step = simulation_.scene().time_step;
+    return settings_.until && simulation_.state().time > *settings_.until - step / 1000;
+}
+
+template class StreamSession<float>;
+template class StreamSession<double>;
+
+}  // namespace natator::cli

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "line_queue.h"
+#include "natator/live.h"
+#include "natator/stream.h"
+#include "pace.h"
+
+namespace natator::cli {
+
+/// How a scene is streamed.
+struct StreamSettings {
+    stream::Fields fields;
+    int every = 1;                ///< frames of which one is offered
+    double rate = 1;              ///< simulated seconds per second of wall time, at most; 0 = as fast as possible
+    std::optional<double> until;  ///< s
+    bool lossless = false;        ///< waits for credit instead of dropping frames
+    bool paused = false;          ///< at first
+};
+
+/// Runs a scene, carries out commands and writes messages on standard output (sim-native/protocol/stream.md).
+template <class Real>
+class StreamSession {
+public:
+    /// Settles the scene. Throws InputError.
+    StreamSession(const LiveSetup& setup, const Execution& execution, const StreamSettings& settings);
+
+    /// Returns at the end of the commands, or when the time asked for is reached. Throws std::runtime_error when
+    /// standard output can't be written.
+    void run(LineQueue& commands);
+
+private:
+    void carry_out(const std::string& line);
+    void apply(const stream::Credit& credit);
+    void apply(const stream::Run&);
+    void apply(const stream::Pause&);
+    void apply(const stream::Step& step);
+    void apply(const stream::Rate& rate);
+    void apply(const stream::Reset&);
+    void apply(const stream::NewGait& gait);
+    void apply(const stream::Overrides& overrides);
+    void apply(const stream::NewScene& scene);
+
+    void scene_changed(bool restarted);
+    bool simulate();
+    void offer_frame();
+    void drop_frame();
+    void refuse_if_unstable() const;
+    bool running() const { return running_ && !simulation_.instability(); }
+    bool at_end() const;
+
+    StreamSettings settings_;
+    LiveSimulation<Real> simulation_;
+    Pace pace_;
+    bool running_;
+    int credit_ = 0;             ///< frames that may be sent
+    bool due_ = false;           ///< the present frame is still to be offered
+    std::uint32_t scene_ = 0;    ///< number of the last SCEN
+    std::uint32_t dropped_ = 0;  ///< frames since the start
+    double wall_seconds_ = 0;    ///< of the frames since the last one sent
+    int wall_frames_ = 0;
+};
+
+extern template class StreamSession<float>;
+extern template class StreamSession<double>;
+
+}  // namespace natator::cli

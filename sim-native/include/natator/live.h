@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "natator/execution.h"
+#include "natator/gait.h"
+#include "natator/model.h"
+#include "natator/scene.h"
+#include "natator/solver.h"
+#include "natator/state.h"
+
+namespace natator {
+
+/// What a live simulation runs.
+struct LiveSetup {
+    std::string scene;                                    ///< name or path of the scene
+    nlohmann::json overrides = nlohmann::json::object();  ///< merged into it (RFC 7386)
+    std::optional<Gait> gait;                             ///< none: muscles at rest
+};
+
+/// A scene that runs frame by frame and can be changed in between. Until a change each frame is, bit by bit, that of
+/// `evaluate`; it goes on past the scene's duration and past what would stop an evaluation early, but for instability.
+/// Where a member throws InputError nothing has changed.
+template <class Real>
+class LiveSimulation {
+public:
+    /// Settles the scene. Throws InputError when the setup can't be used. What `execution` points to must live as long
+    /// as this.
+    explicit LiveSimulation(const LiveSetup& setup, const Execution& execution = {});
+    ~LiveSimulation();
+
+    /// Starts another scene. Throws InputError.
+    void load(const LiveSetup& setup);
+    /// Drives the muscles by another gait from the next frame on. Throws InputError when it does not fit.
+    void set_gait(const Gait& gait);
+    /// Merges a patch over the overrides in force. Goes on from the present state if particles and constraints stay the
+    /// same, with other settings, masses, stiffnesses or planes; else, and after an instability, starts anew. True if
+    /// it did. Throws InputError.
+    bool merge_overrides(const nlohmann::json& patch);
+    /// Goes back to the settled start.
+    void reset();
+    /// Advances by one time step of the scene. False if it became unstable; then there are no more frames until it
+    /// starts anew.
+    bool frame();
+
+    /// What runs now; its gait is always there.
+    const LiveSetup& setup() const { return setup_; }
+    const Gait& gait() const { return *setup_.gait; }
+    const Scene& scene() const;
+    const Model& model() const;
+    const State<Real>& state() const { return state_; }
+    /// Frames since the start, which was frame 0.
+    int frames() const { return frames_; }
+    /// Change of the body's mean x since the start, length.
+    double distance() const;
+    /// Density of each particle in the present state, in units of rest density; 0 for solids.
+    std::vector<Real> densities();
+    const std::optional<Instability>& instability() const { return instability_; }
+
+private:
+    struct Run;
+
+    std::unique_ptr<Run> make_run(const LiveSetup& setup) const;
+    void start(std::unique_ptr<Run> run);
+
+    Execution execution_;
+    LiveSetup setup_;
+    std::unique_ptr<Run> run_;
+    State<Real> state_;
+    bool updated_ = false;  ///< whether the state is what run_'s solver has left
+    int frames_ = 0;
+    int base_frame_ = 0;    ///< since when the time step is what it is
+    double base_time_ = 0;  ///< s, of base_frame_
+    double start_x_ = 0;
+    std::optional<Instability> instability_;
+};
+
+extern template class LiveSimulation<float>;
+extern template class LiveSimulation<double>;
+
+}  // namespace natator

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "natator/live.h"
+
+/// The protocol of `natator-sim stream`: commands in, messages out (sim-native/protocol/stream.md).
+namespace natator {
+
+namespace stream {
+
+/// The commands. Those that need no more than their name are empty.
+struct Credit {
+    int frames = 1;
+};
+struct Run {};
+struct Pause {};
+struct Step {
+    int frames = 1;
+};
+struct Rate {
+    double value = 1;  ///< simulated seconds per second of wall time; 0 = as fast as possible
+};
+struct Reset {};
+struct NewGait {
+    Gait gait;
+};
+struct Overrides {
+    nlohmann::json patch;
+};
+struct NewScene {
+    LiveSetup setup;
+};
+
+inline constexpr int most_credit = 1000;                 ///< frames
+inline constexpr int longest_step = 1000;                ///< frames
+inline constexpr std::size_t longest_command = 1 << 20;  ///< bytes
+
+/// Whether simulated seconds per second of wall time may be limited to this: 0 (no limit) or in [0.001, 1000].
+bool is_rate(double value);
+
+/// What a frame holds of each particle, in the order of these members.
+struct Fields {
+    bool position = true, velocity = false, density = false;
+};
+
+/// What a SCEN says beyond the simulation.
+struct SceneHead {
+    std::uint32_t number = 1;  ///< of SCEN messages
+    bool restarted = true;
+    Fields fields;
+};
+
+/// What a FRAM says beyond the simulation.
+struct FrameHead {
+    std::uint32_t scene = 1;    ///< number of its SCEN
+    std::uint32_t dropped = 0;  ///< frames since the start
+    bool running = false;
+    double wall_seconds = 0;  ///< for one frame
+    Fields fields;
+};
+
+}  // namespace stream
+
+using StreamCommand = std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate,
+                                   stream::Reset, stream::NewGait, stream::Overrides, stream::NewScene>;
+
+/// Reads a command. Throws InputError naming the field, its value and what is allowed. Whether a gait or a scene can be
+/// used is for the simulation to see.
+StreamCommand parse_stream_command(const nlohmann::json& value);
+
+/// A message with JSON in it, as bytes. `letters` are its four letters.
+std::string stream_message(std::string_view letters, const nlohmann::ordered_json& body);
+
+/// The body of SCEN.
+template <class Real>
+nlohmann::ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::SceneHead& head);
+
+/// The FRAM of the present state, as bytes.
+template <class Real>
+std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHead& head);
+
+/// The bodies of STOP: the time asked for is reached; the simulation has become unstable.
+nlohmann::ordered_json stream_stop();
+nlohmann::ordered_json stream_stop(const Instability& instability);
+
+extern template nlohmann::ordered_json stream_scene(const LiveSimulation<float>&, const stream::SceneHead&);
+extern template nlohmann::ordered_json stream_scene(const LiveSimulation<double>&, const stream::SceneHead&);
+extern template std::string stream_frame(LiveSimulation<float>&, const stream::FrameHead&);
+extern template std::string stream_frame(LiveSimulation<double>&, const stream::FrameHead&);
+
+}  // namespace natator

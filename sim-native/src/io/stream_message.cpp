@@ -1,0 +1,207 @@
+#include <bit>
+#include <cstring>
+#include <stdexcept>
+
+#include "evaluate/law_figures.h"
+#include "natator/actuate.h"
+#include "natator/instruction_set.h"
+#include "natator/measure.h"
+#include "natator/momentum.h"
+#include "natator/protocol.h"
+#include "natator/scene_json.h"
+#include "natator/stream.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "messages are written as numbers are in memory");
+
+constexpr std::uint32_t flag_running = 1, flag_touches_plane = 2;
+
+/// A message that grows: letters, a length that is set at the end, a body.
+class MessageWriter {
+public:
+    explicit MessageWriter(std::string_view letters) : bytes_(letters) { add<std::uint32_t>(0); }
+
+    template <class T>
+    void add(T value) {
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    void add_text(const std::string& text) { bytes_ += text; }
+    template <class Vectors>
+    void add_vectors(const Vectors& vectors) {
+        for (const auto& vector : vectors)
+            for (const auto component : vector) add(static_cast<float>(component));
+    }
+    template <class Numbers>
+    void add_numbers(const Numbers& numbers) {
+        for (const auto number : numbers) add(static_cast<float>(number));
+    }
+    void reserve(std::size_t size) { bytes_.reserve(size); }
+
+    /// The bytes, filled up with spaces to a multiple of 4.
+    std::string finish() {
+        while (bytes_.size() % 4 != 0) bytes_ += ' ';
+        const std::size_t length = bytes_.size() - head;
+        if (length > UINT32_MAX) throw std::runtime_error("a message of the stream is larger than 4 GiB");
+        const auto stored = static_cast<std::uint32_t>(length);
+        std::memcpy(bytes_.data() + 4, &stored, sizeof stored);
+        return std::move(bytes_);
+    }
+
+private:
+    static constexpr std::size_t head = 8;
+    std::string bytes_;
+};
+
+ordered_json gait_json(const Gait& gait) {
+    return {{"frequency", gait.frequency}, {"amplitude", gait.amplitude}, {"phase", gait.phase}, {"power", gait.power}};
+}
+
+ordered_json planes_json(const Model& model) {
+    ordered_json planes = ordered_json::array();
+    for (const Plane& plane : model.planes)
+        planes.push_back({plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset});
+    return planes;
+}
+
+ordered_json fields_json(const stream::Fields& fields) {
+    ordered_json names = ordered_json::array();
+    if (fields.position) names.push_back("position");
+    if (fields.velocity) names.push_back("velocity");
+    if (fields.density) names.push_back("density");
+    return names;
+}
+
+ordered_json masses_json(const Model& model) {
+    ordered_json masses = ordered_json::array();
+    for (const double w : model.inverse_mass) masses.push_back(w > 0 ? ordered_json(1 / w) : ordered_json());
+    return masses;
+}
+
+/// First fluid particle and their number; model_builder lays them out one after another.
+ordered_json fluid_json(const Model& model) {
+    int first = 0, count = 0;
+    for (int i = 0; i < model.particles(); ++i)
+        if (model.is_fluid(i) && count++ == 0) first = i;
+    return {first, count};
+}
+
+ordered_json clusters_json(const Model& model) {
+    ordered_json clusters = ordered_json::array();
+    for (const Cluster& cluster : model.clusters) clusters.push_back(cluster.particles);
+    return clusters;
+}
+
+ordered_json muscles_json(const Model& model) {
+    ordered_json muscles = ordered_json::array();
+    for (const Muscle& muscle : model.muscles) {
+        const Spring& spring = model.springs[muscle.spring];
+        muscles.push_back({{"a", spring.a},
+                           {"b", spring.b},
+                           {"actuator", muscle.actuator},
+                           {"lateral", muscle.lateral},
+                           {"restLength", spring.rest_length}});
+    }
+    return muscles;
+}
+
+template <class Real>
+constexpr Precision precision_of = sizeof(Real) == sizeof(double) ? Precision::double_precision
+                                                                  : Precision::single_precision;
+
+}  // namespace
+
+std::string stream_message(std::string_view letters, const ordered_json& body) {
+    MessageWriter message(letters);
+    message.add_text(body.dump(-1, ' ', false, json::error_handler_t::replace));
+    return message.finish();
+}
+
+template <class Real>
+ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::SceneHead& head) {
+    const LiveSetup& setup = simulation.setup();
+    const Scene& scene = simulation.scene();
+    const Model& model = simulation.model();
+    const SolverParameters& solver = model.parameters;
+    ordered_json body;
+    body["protocol"] = 1;
+    body["program"] = {{"version", NATATOR_VERSION}, {"instructionSet", to_string(instruction_set())}};
+    body["number"] = head.number;
+    body["restarted"] = head.restarted;
+    body["scene"] = setup.scene;
+    body["overrides"] = setup.overrides;
+    body["gait"] = gait_json(simulation.gait());
+    body["scheme"] = to_string(model.scheme);
+    body["precision"] = to_string(precision_of<Real>);
+    body["definition"] = scene_definition(setup.scene, setup.overrides);
+    body["timeStep"] = model.time_step;
+    body["duration"] = scene.duration;
+    body["radius"] = solver.radius;
+    body["solidRestDistance"] = solver.solidRestDistance;
+    body["fluidRestDistance"] = solver.fluidRestDistance;
+    body["planes"] = planes_json(model);
+    body["fields"] = fields_json(head.fields);
+    body["particles"] = model.particles();
+    body["mass"] = masses_json(model);
+    body["fluid"] = fluid_json(model);
+    body["body"] = model.body.particles;
+    body["slices"] = model.body.slices;
+    body["bodyLength"] = model.body.length;
+    body["clusters"] = clusters_json(model);
+    body["joints"] = scene.creature ? scene.creature->joints : std::vector<int>{};
+    body["actuators"] = model.actuators;
+    body["muscles"] = muscles_json(model);
+    return body;
+}
+
+template <class Real>
+std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHead& head) {
+    const Model& model = simulation.model();
+    const State<Real>& state = simulation.state();
+    const std::vector<Real> densities = simulation.densities();
+    const LawFigures laws = law_figures(model, state, densities);
+    const Eigen::Vector3d velocity = centre_velocity(model, state, model.body.particles);
+    const std::uint32_t running = head.running ? flag_running : 0;
+    const std::uint32_t touches = touches_plane(model, state) ? flag_touches_plane : 0;
+
+    MessageWriter message("FRAM");
+    message.reserve(128 + 4 * model.actuators + std::size_t{28} * model.particles());
+    message.add(head.scene);
+    message.add(static_cast<std::uint32_t>(simulation.frames()));
+    message.add(head.dropped);
+    message.add(running | touches);
+    message.add(state.time);
+    message.add(head.wall_seconds);
+    message.add(simulation.distance());
+    message.add_numbers(velocity);
+    message.add_numbers(std::initializer_list<double>{laws.linear_momentum, laws.angular_momentum,
+                                                      laws.density_error_mean, laws.density_error_max});
+    message.add(std::uint32_t{0});
+    message.add_numbers(drive(model, simulation.gait(), state.time));
+    if (head.fields.position) message.add_vectors(state.position);
+    if (head.fields.velocity) message.add_vectors(state.velocity);
+    if (head.fields.density) message.add_numbers(densities);
+    return message.finish();
+}
+
+ordered_json stream_stop() {
+    return {{"reason", "until"}};
+}
+
+ordered_json stream_stop(const Instability& instability) {
+    return {{"reason", "unstable"},
+            {"particle", instability.particle},
+            {"stage", instability.stage},
+            {"time", instability.time}};
+}
+
+template ordered_json stream_scene(const LiveSimulation<float>&, const stream::SceneHead&);
+template ordered_json stream_scene(const LiveSimulation<double>&, const stream::SceneHead&);
+template std::string stream_frame(LiveSimulation<float>&, const stream::FrameHead&);
+template std::string stream_frame(LiveSimulation<double>&, const stream::FrameHead&);
+
+}  // namespace natator

@@ -1,0 +1,137 @@
+#include "evaluate/settled_start.h"
+#include "merge_patches.h"
+#include "natator/actuate.h"
+#include "natator/live.h"
+#include "natator/measure.h"
+#include "natator/model_builder.h"
+#include "natator/scene_json.h"
+#include "same_layout.h"
+
+namespace natator {
+namespace {
+
+/// Densities of a state that no update has led to: those of an update that moves nothing.
+template <class Real>
+std::vector<Real> densities_at_rest(Model model, State<Real> state) {
+    model.parameters.gravity.setZero();
+    model.parameters.numIterations = 0;
+    std::fill(state.velocity.begin(), state.velocity.end(), Vector3<Real>::Zero());
+    Solver<Real> solver(model);
+    solver.update(state, model.time_step, 1);
+    return solver.densities();
+}
+
+}  // namespace
+
+/// A scene with all that is made of it. Stays where it is, for the solver refers to the model.
+template <class Real>
+struct LiveSimulation<Real>::Run {
+    Run(Scene of, const Execution& execution)
+        : scene(std::move(of)), model(build_model(scene)), solver(model, execution) {}
+
+    Scene scene;
+    Model model;
+    Solver<Real> solver;
+};
+
+template <class Real>
+LiveSimulation<Real>::LiveSimulation(const LiveSetup& setup, const Execution& execution) : execution_(execution) {
+    load(setup);
+}
+
+template <class Real>
+LiveSimulation<Real>::~LiveSimulation() = default;
+
+template <class Real>
+void LiveSimulation<Real>::load(const LiveSetup& setup) {
+    LiveSetup next = setup;
+    std::unique_ptr<Run> run = make_run(next);
+    if (!next.gait) next.gait = resting_gait(run->model.actuators);
+    check_gait(*next.gait, run->model.actuators);
+    start(std::move(run));
+    setup_ = std::move(next);
+}
+
+template <class Real>
+void LiveSimulation<Real>::set_gait(const Gait& gait) {
+    check_gait(gait, model().actuators);
+    setup_.gait = gait;
+}
+
+template <class Real>
+bool LiveSimulation<Real>::merge_overrides(const nlohmann::json& patch) {
+    LiveSetup next = setup_;
+    next.overrides = merge_patches(std::move(next.overrides), patch);
+    std::unique_ptr<Run> run = make_run(next);
+    check_gait(*next.gait, run->model.actuators);
+    const bool goes_on = !instability_ && same_layout(model(), run->model);
+    if (goes_on) {
+        if (run->scene.time_step != scene().time_step) {
+            base_frame_ = frames_;
+            base_time_ = state_.time;
+        }
+        run_ = std::move(run);
+        updated_ = false;
+    } else {
+        start(std::move(run));
+    }
+    setup_ = std::move(next);
+    return !goes_on;
+}
+
+template <class Real>
+void LiveSimulation<Real>::reset() {
+    start(std::move(run_));
+}
+
+template <class Real>
+bool LiveSimulation<Real>::frame() {
+    if (instability_) return false;
+    instability_ = run_->solver.frame(state_, gait());
+    updated_ = true;
+    if (instability_) return false;
+    ++frames_;
+    state_.time = base_time_ + (frames_ - base_frame_) * scene().time_step;  // free of summed rounding
+    return true;
+}
+
+template <class Real>
+const Scene& LiveSimulation<Real>::scene() const {
+    return run_->scene;
+}
+
+template <class Real>
+const Model& LiveSimulation<Real>::model() const {
+    return run_->model;
+}
+
+template <class Real>
+double LiveSimulation<Real>::distance() const {
+    return mean_x(model().body, state_) - start_x_;
+}
+
+template <class Real>
+std::vector<Real> LiveSimulation<Real>::densities() {
+    return updated_ ? run_->solver.densities() : densities_at_rest(model(), state_);
+}
+
+template <class Real>
+std::unique_ptr<typename LiveSimulation<Real>::Run> LiveSimulation<Real>::make_run(const LiveSetup& setup) const {
+    return std::make_unique<Run>(load_scene(setup.scene, setup.overrides), execution_);
+}
+
+template <class Real>
+void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
+    run_ = std::move(run);
+    instability_.reset();
+    state_ = settled_start(model(), scene().settling, run_->solver, execution_.starts, instability_);
+    updated_ = false;
+    frames_ = base_frame_ = 0;
+    base_time_ = 0;
+    start_x_ = mean_x(model().body, state_);
+}
+
+template class LiveSimulation<float>;
+template class LiveSimulation<double>;
+
+}  // namespace natator

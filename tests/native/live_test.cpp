@@ -1,0 +1,245 @@
+// Scenes that are changed while they run.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "evaluate/settle.h"
+#include "natator/error.h"
+#include "natator/evaluate.h"
+#include "natator/live.h"
+#include "natator/measure.h"
+#include "natator/model_builder.h"
+#include "natator/scene_json.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+
+const Gait swimming{1.861, {0.973, 0.690}, {0, 0.648}, 1};
+const std::string in_water = "thesis/creature-1", in_vacuum = "thesis/creature-1-vacuum";
+
+template <class Real>
+std::uint64_t hash_after(LiveSimulation<Real>& simulation, int frames) {
+    while (simulation.frames() < frames) EXPECT_TRUE(simulation.frame());
+    return state_hash(simulation.state());
+}
+
+LiveSimulation<float> swimmer(const std::string& scene, const json& overrides = json::object()) {
+    return LiveSimulation<float>({scene, overrides, swimming});
+}
+
+/// What `evaluate` gives for so many frames, early stops aside.
+Evaluation evaluated(const std::string& scene, int frames, const json& overrides = json::object(),
+                     Precision precision = Precision::single_precision) {
+    Scene whole = load_scene(scene, overrides);
+    whole.duration = frames * whole.time_step;
+    whole.stopping = {false, 0};
+    return evaluate(whole, swimming, precision);
+}
+
+TEST(LiveTest, BeginsWithTheSettledStart) {
+    LiveSimulation<float> simulation = swimmer(in_water);
+    const Scene scene = load_scene(in_water);
+    const Model model = build_model(scene);
+    Solver<float> solver(model);
+    State<float> settled = initial_state<float>(model);
+    ASSERT_FALSE(settle(scene.settling, solver, settled));
+    EXPECT_EQ(state_hash(simulation.state()), state_hash(settled));
+    EXPECT_EQ(simulation.frames(), 0);
+    EXPECT_EQ(simulation.state().time, 0);
+    EXPECT_EQ(simulation.distance(), 0);
+}
+
+TEST(LiveTest, FramesAreThoseOfAnEvaluationBitByBit) {
+    for (const char* scheme : {"flex", "conserving"}) {
+        const json overrides{{"scheme", scheme}};
+        LiveSimulation<float> simulation = swimmer(in_water, overrides);
+        for (const int frames : {1, 2, 9}) {
+            const Evaluation expected = evaluated(in_water, frames, overrides);
+            EXPECT_EQ(hash_after(simulation, frames), expected.hash) << scheme << ", frame " << frames;
+            EXPECT_EQ(simulation.distance(), expected.distance);
+            EXPECT_EQ(simulation.state().time, expected.simulated);
+        }
+    }
+    LiveSimulation<double> in_double({in_vacuum, json::object(), swimming});
+    EXPECT_EQ(hash_after(in_double, 5), evaluated(in_vacuum, 5, json::object(), Precision::double_precision).hash);
+}
+
+TEST(LiveTest, WithoutAGaitTheMusclesRest) {
+    LiveSimulation<float> simulation({in_vacuum, json::object(), std::nullopt});
+    EXPECT_EQ(simulation.gait().amplitude, (std::vector<double>{0, 0}));
+    const State<float> start = simulation.state();
+    EXPECT_NE(hash_after(simulation, 3), evaluated(in_vacuum, 3).hash);
+    EXPECT_EQ(simulation.state().spring_rest_length, start.spring_rest_length);
+}
+
+TEST(LiveTest, AGaitActsFromTheNextFrameOn) {
+    LiveSimulation<float> simulation = swimmer(in_vacuum), unchanged = swimmer(in_vacuum);
+    const std::uint64_t before = hash_after(simulation, 4);
+    Gait slower = swimming;
+    slower.frequency = 0.7;
+    simulation.set_gait(slower);
+    EXPECT_EQ(state_hash(simulation.state()), before);
+    EXPECT_EQ(simulation.gait().frequency, 0.7);
+    EXPECT_NE(hash_after(simulation, 5), hash_after(unchanged, 5));
+    EXPECT_EQ(simulation.frames(), 5);
+}
+
+TEST(LiveTest, OverridesThatChangeNothingChangeNoBit) {
+    LiveSimulation<float> simulation = swimmer(in_water);
+    const double viscosity = simulation.scene().solver.viscosity;
+    for (int frames = 0; frames < 6; frames += 2) {
+        hash_after(simulation, frames);
+        EXPECT_FALSE(simulation.merge_overrides({{"solver", {{"viscosity", viscosity}}}, {"duration", 9}}));
+        EXPECT_EQ(simulation.frames(), frames);
+    }
+    EXPECT_EQ(hash_after(simulation, 6), evaluated(in_water, 6).hash);
+    EXPECT_EQ(simulation.scene().duration, 9);
+}
+
+TEST(LiveTest, SettingsMassesAndPlanesGoOnFromThePresentState) {
+    const json masses{{"creature", {{"particleMass", 3}}}, {"fluid", {{"mass", {{"bottom", 5}}}}}};
+    const std::vector<json> patches{{{"solver", {{"viscosity", 9}}}},
+                                    {{"solver", {{"substeps", 2}, {"numIterations", 6}}}},
+                                    {{"solver", {{"gravity", {0, -3, 0}}, {"radius", 0.16}}}},
+                                    {{"scheme", "conserving"}},
+                                    {{"planes", json::array({{0, 1, 0, 0}})}},
+                                    {{"creature", {{"clusterStiffness", 0.3}}}},
+                                    masses};
+    LiveSimulation<float> unchanged = swimmer(in_water);
+    const std::uint64_t before = hash_after(unchanged, 3), after = hash_after(unchanged, 4);
+    for (const json& patch : patches) {
+        LiveSimulation<float> simulation = swimmer(in_water);
+        hash_after(simulation, 3);
+        EXPECT_FALSE(simulation.merge_overrides(patch)) << patch;
+        EXPECT_EQ(state_hash(simulation.state()), before) << patch;
+        EXPECT_NE(hash_after(simulation, 4), after) << patch;
+        EXPECT_NEAR(simulation.state().time, 4.0 / 60, 1e-12);
+    }
+}
+
+TEST(LiveTest, OtherParticlesOrConstraintsStartAnew) {
+    const std::vector<json> patches{{{"fluid", {{"count", {50, 6, 17}}}}},
+                                    {{"fluid", {{"origin", {0.051, 0.05, 0.05}}}}},
+                                    {{"fluid", nullptr}},
+                                    {{"creature", {{"spacing", 0.07}}}},
+                                    {{"creature", {{"rearCentre", {0.5, 0.6, 0.6}}}}},
+                                    {{"creature", {{"springsPerParticle", 3}}}}};
+    for (const json& patch : patches) {
+        LiveSimulation<float> simulation = swimmer(in_water);
+        hash_after(simulation, 2);
+        EXPECT_TRUE(simulation.merge_overrides(patch)) << patch;
+        EXPECT_EQ(simulation.frames(), 0);
+        EXPECT_EQ(hash_after(simulation, 3), evaluated(in_water, 3, patch).hash) << patch;
+    }
+}
+
+TEST(LiveTest, TimeGoesOnUnderAnotherTimeStep) {
+    LiveSimulation<float> simulation = swimmer(in_vacuum);
+    hash_after(simulation, 6);
+    EXPECT_FALSE(simulation.merge_overrides({{"timeStep", 0.01}}));
+    hash_after(simulation, 9);
+    EXPECT_NEAR(simulation.state().time, 0.1 + 0.03, 1e-12);
+    EXPECT_FALSE(simulation.merge_overrides({{"timeStep", 0.02}}));
+    hash_after(simulation, 10);
+    EXPECT_NEAR(simulation.state().time, 0.1 + 0.03 + 0.02, 1e-12);
+    simulation.reset();
+    hash_after(simulation, 2);
+    EXPECT_EQ(simulation.state().time, 0.04);
+}
+
+TEST(LiveTest, ResetGivesTheSameBitsAgain) {
+    LiveSimulation<float> simulation = swimmer(in_water);
+    const std::uint64_t start = state_hash(simulation.state()), later = hash_after(simulation, 5);
+    simulation.reset();
+    EXPECT_EQ(simulation.frames(), 0);
+    EXPECT_EQ(simulation.distance(), 0);
+    EXPECT_EQ(state_hash(simulation.state()), start);
+    EXPECT_EQ(hash_after(simulation, 5), later);
+}
+
+TEST(LiveTest, AnotherSceneStartsWithItsOwnSettings) {
+    LiveSimulation<float> simulation = swimmer(in_water, {{"solver", {{"viscosity", 9}}}});
+    hash_after(simulation, 2);
+    simulation.load({in_vacuum, json::object(), swimming});
+    EXPECT_EQ(simulation.setup().scene, in_vacuum);
+    EXPECT_EQ(simulation.setup().overrides, json::object());
+    EXPECT_EQ(hash_after(simulation, 4), evaluated(in_vacuum, 4).hash);
+}
+
+TEST(LiveTest, MergedOverridesLoadAgain) {
+    LiveSimulation<float> simulation = swimmer(in_water, {{"solver", {{"viscosity", 9}}}});
+    EXPECT_TRUE(simulation.merge_overrides({{"fluid", nullptr}}));
+    EXPECT_FALSE(simulation.merge_overrides({{"solver", {{"damping", 2}}}}));
+    const json expected{{"fluid", nullptr}, {"solver", {{"viscosity", 9}, {"damping", 2}}}};
+    EXPECT_EQ(simulation.setup().overrides, expected);
+    EXPECT_EQ(simulation.model().particles(), 255);
+    LiveSimulation<float> again(simulation.setup());
+    EXPECT_EQ(hash_after(again, 2), evaluated(in_water, 2, expected).hash);
+}
+
+TEST(LiveTest, WhatIsRefusedChangesNothing) {
+    LiveSimulation<float> simulation = swimmer(in_vacuum);
+    hash_after(simulation, 3);
+    const LiveSetup setup = simulation.setup();
+    Gait wrong = swimming;
+    wrong.amplitude.push_back(0.5);
+    EXPECT_THROW(simulation.set_gait(wrong), InputError);
+    EXPECT_THROW(simulation.merge_overrides({{"solver", {{"substeps", 0}}}}), InputError);
+    EXPECT_THROW(simulation.merge_overrides({{"fluids", 1}}), InputError);
+    EXPECT_THROW(simulation.merge_overrides({{"planes", json::array({{0, 1, 0, -5}})}}), InputError);  // body beyond it
+    EXPECT_THROW(simulation.merge_overrides({{"creature", {{"name", "creature-2"}}}}), InputError);    // 8 actuators
+    EXPECT_THROW(simulation.load({"thesis/nothing", json::object(), std::nullopt}), InputError);
+    EXPECT_THROW(simulation.load({"thesis/creature-2", json::object(), swimming}), InputError);
+    EXPECT_EQ(simulation.frames(), 3);
+    EXPECT_EQ(simulation.setup().scene, setup.scene);
+    EXPECT_EQ(simulation.setup().overrides, setup.overrides);
+    EXPECT_EQ(hash_after(simulation, 5), evaluated(in_vacuum, 5).hash);
+    EXPECT_THROW(LiveSimulation<float>({"thesis/creature-2", json::object(), swimming}), InputError);
+}
+
+/// Undivided global relaxation explodes at once in the thesis scene.
+TEST(LiveTest, AnUnstableSimulationStandsStillUntilItStartsAnew) {
+    const json unstable{{"solver", {{"relaxationMode", "global"}}}}, stable{{"solver", {{"relaxationMode", "local"}}}};
+    LiveSimulation<float> simulation = swimmer(in_water);
+    hash_after(simulation, 2);
+    EXPECT_FALSE(simulation.merge_overrides(unstable));
+    while (simulation.frame()) ASSERT_LT(simulation.frames(), 100);
+    ASSERT_TRUE(simulation.instability());
+    EXPECT_FALSE(simulation.instability()->stage.empty());
+    const std::uint64_t broken = state_hash(simulation.state());
+    EXPECT_FALSE(simulation.frame());
+    EXPECT_EQ(state_hash(simulation.state()), broken);
+    simulation.reset();
+    EXPECT_TRUE(simulation.instability());  // while settling
+    EXPECT_FALSE(simulation.frame());
+    EXPECT_TRUE(simulation.merge_overrides(stable));
+    EXPECT_FALSE(simulation.instability());
+    EXPECT_EQ(hash_after(simulation, 2), evaluated(in_water, 2).hash);
+}
+
+/// The densities of a state are the same whether or not an update has just led to it, but for pairs that come to less
+/// than the radius within a substep: they weigh (1 - r/R)^2, next to nothing.
+TEST(LiveTest, DensitiesOfAStateNeedNoUpdate) {
+    for (const char* scheme : {"flex", "conserving"}) {
+        LiveSimulation<float> simulation = swimmer(in_water, {{"scheme", scheme}});
+        hash_after(simulation, 5);
+        const std::vector<float> updated = simulation.densities();
+        ASSERT_FALSE(simulation.merge_overrides(json::object()));
+        const std::uint64_t before = state_hash(simulation.state());
+        const std::vector<float> fresh = simulation.densities();
+        EXPECT_EQ(state_hash(simulation.state()), before);
+        ASSERT_EQ(fresh.size(), updated.size());
+        double largest = 0, sum = 0;
+        for (std::size_t i = 0; i < fresh.size(); ++i) {
+            largest = std::max(largest, std::abs(static_cast<double>(fresh[i]) - updated[i]));
+            sum += fresh[i];
+        }
+        EXPECT_LT(largest, 1e-2) << scheme;
+        EXPECT_GT(sum / 5660, 0.5) << scheme;
+    }
+}
+
+}  // namespace
+}  // namespace natator
