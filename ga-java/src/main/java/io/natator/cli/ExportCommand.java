@@ -1,16 +1,11 @@
 package io.natator.cli;
 
-import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.InvalidInputException;
-import io.natator.config.Json;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
-import io.natator.encoding.Gait;
 import io.natator.export.Export;
 import io.natator.export.ExportFormat;
-import io.natator.simulator.SceneInfo;
-import io.natator.simulator.SimulatorLocator;
 import io.natator.stream.StreamField;
 import io.natator.stream.StreamOptions;
 import java.nio.file.Path;
@@ -75,23 +70,23 @@ final class ExportCommand implements Callable<Integer> {
             description = "What the simulator computes in: float (default) or double. Files hold floats.")
     private String precision;
 
-    @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
-            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else build/release/bin/natator-sim.")
-    private Path simulatorPath;
+    @Mixin
+    private SimulatorOption simulatorOption;
 
     @Override
     public Integer call() throws InterruptedException {
         if (every < 1) {
             throw new InvalidInputException("--every is " + every + "; expected a whole number from 1");
         }
-        Path simulator = SimulatorLocator.locate(simulatorPath);
+        Path simulator = simulatorOption.path();
         Swimmer swimmer = Swimmer.of(source, generation, gait);
         JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
         Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme();
         TreeSet<StreamField> wanted = new TreeSet<>(fields);
         wanted.add(StreamField.POSITION);
         StreamOptions options = StreamOptions
-                .recording(swimmer.scene(), overrides, json(swimmer.gait()), duration(swimmer, overrides, simulator))
+                .recording(swimmer.scene(), overrides, swimmer.gaitJson(),
+                        swimmer.seconds(sceneOptions.duration(), overrides, simulator))
                 .with(scheme, precision).withFields(List.copyOf(wanted)).withEvery(every);
         Path folder = outputDir != null ? outputDir : swimmer.run() != null
                 ? swimmer.run().resolve("export-" + format.text()) : Path.of(swimmer.name() + "-" + format.text());
@@ -100,22 +95,5 @@ final class ExportCommand implements Callable<Integer> {
         spec.commandLine().getOut().printf("%s: %d frames of %d particles of water and %d others%n", folder,
                 written.frames(), written.water(), written.solids());
         return ExitCode.OK;
-    }
-
-    private double duration(Swimmer swimmer, JsonNode overrides, Path simulator) throws InterruptedException {
-        Double given = sceneOptions.duration() != null ? sceneOptions.duration() : swimmer.duration();
-        double seconds = given != null ? given : SceneInfo.of(swimmer.scene(), overrides, simulator).duration();
-        if (!(seconds > 0) || Double.isInfinite(seconds)) {
-            throw new InvalidInputException("--duration is " + seconds + "; expected a number of seconds above 0");
-        }
-        return seconds;
-    }
-
-    private static JsonNode json(Gait gait) {
-        try {
-            return gait == null ? null : Json.parse(Json.line(gait), JsonNode.class);
-        } catch (JsonProcessingException e) {
-            throw new IllegalStateException(e);
-        }
     }
 }

@@ -1,14 +1,17 @@
 package io.natator.cli;
 
+import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
+import io.natator.simulator.SceneInfo;
 import java.nio.file.Path;
 
 /**
@@ -70,6 +73,31 @@ record Swimmer(Path run, Integer generation, String scene, JsonNode overrides, G
                     + ", only the best of all; leave out --generation");
         }
         return found.gait();
+    }
+
+    /**
+     * How long to simulate.
+     *
+     * @param given     by the user, s, or null
+     * @param overrides on the scene, or null
+     * @throws InvalidInputException if that is no time, or the simulator does not know the scene
+     */
+    double seconds(Double given, JsonNode overrides, Path simulator) throws InterruptedException {
+        Double known = given != null ? given : duration;
+        double seconds = known != null ? known : SceneInfo.of(scene, overrides, simulator).duration();
+        if (!(seconds > 0) || Double.isInfinite(seconds)) {
+            throw new InvalidInputException("--duration is " + seconds + "; expected a number of seconds above 0");
+        }
+        return seconds;
+    }
+
+    /** Its gait as JSON, or null. */
+    JsonNode gaitJson() {
+        try {
+            return gait == null ? null : Json.parse(Json.line(gait), JsonNode.class);
+        } catch (JsonProcessingException e) {
+            throw new IllegalStateException(e);
+        }
     }
 
     /** What metadata say of it. */

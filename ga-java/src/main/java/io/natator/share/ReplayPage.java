@@ -1,0 +1,116 @@
+package io.natator.share;
+
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.util.Base64;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.Collectors;
+
+/** One HTML file that replays swims: scripts, styles and data are all in it, and it makes no request. */
+public final class ReplayPage {
+
+    private static final int[] EVERY = {1, 2, 3, 4, 5, 6, 8, 10, 12};
+    private static final double MEGABYTE = 1e6;
+
+    private final String title;
+    private final List<RecordedSwim> swims;
+    private final boolean water;
+
+    /**
+     * What was written.
+     *
+     * @param bytes           of the file
+     * @param framesPerSecond of simulated time that are in it; less than were recorded if all would have been too much
+     * @param isReduced       whether they are
+     * @param largestError    of a coordinate of any water particle, in length units; 0 without water
+     */
+    public record Written(long bytes, double framesPerSecond, boolean isReduced, double largestError) {
+    }
+
+    /**
+     * A page.
+     *
+     * @param title of the page
+     * @param swims at least one
+     * @param water whether the water is shown too
+     */
+    public ReplayPage(String title, List<RecordedSwim> swims, boolean water) {
+        this.title = title;
+        this.swims = List.copyOf(swims);
+        this.water = water;
+    }
+
+    /**
+     * Writes the page with as many frames as fit.
+     *
+     * @param maxBytes what the file may have
+     * @throws InvalidInputException if too few frames would fit to be watched
+     * @throws UncheckedIOException  if the file cannot be written
+     */
+    public Written write(Path file, long maxBytes) {
+        byte[] html = null;
+        for (int every : EVERY) {
+            html = html(every).getBytes(StandardCharsets.UTF_8);
+            if (html.length <= maxBytes) {
+                save(file, html);
+                return new Written(html.length, framesPerSecond(every), every > 1, largestError());
+            }
+        }
+        int last = EVERY[EVERY.length - 1];
+        throw new InvalidInputException(String.format(Locale.ROOT, "the page has %.1f MB even with %.0f frames a second; "
+                + "expected at most %.1f MB: a larger --max-size, fewer swims, a shorter --duration, or --no-water",
+                html.length / MEGABYTE, framesPerSecond(last), maxBytes / MEGABYTE));
+    }
+
+    private static void save(Path file, byte[] html) {
+        Path fresh = file.resolveSibling(file.getFileName() + ".new");
+        try {
+            Files.write(fresh, html);
+            Files.move(fresh, file, StandardCopyOption.REPLACE_EXISTING);
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + file + ": " + e.getMessage(), e);
+        }
+    }
+
+    private double framesPerSecond(int every) {
+        return swims.stream().mapToDouble(swim -> 1 / (every * swim.scene().timeStep())).min().orElseThrow();
+    }
+
+    private double largestError() {
+        double largest = 0;
+        for (RecordedSwim swim : swims) {
+            for (double error : new SwimCode(swim, water).largestErrors()[0]) {
+                largest = Math.max(largest, water && swim.scene().fluidCount() > 0 ? error : 0);
+            }
+        }
+        return largest;
+    }
+
+    private String html(int every) {
+        String swimText = swims.stream().map(swim -> "<script type=\"text/plain\" class=\"swim\" data-title=\""
+                + escaped(swim.title()) + "\">" + base64(new SwimCode(swim, water).compressed(every)) + "</script>")
+                .collect(Collectors.joining("\n"));
+        String modules = base64(Zlib.compressed(
+                Json.line(PageModules.of("natator/replay.js")).getBytes(StandardCharsets.UTF_8)));
+        return PageModules.resource("natator/replay.html")
+                .replace("{{title}}", escaped(title))
+                .replace("{{style}}", PageModules.resource("natator/theme.css") + PageModules.resource("natator/style.css"))
+                .replace("{{modules}}", modules)
+                .replace("{{swims}}", swimText);
+    }
+
+    private static String base64(byte[] content) {
+        return Base64.getEncoder().encodeToString(content);
+    }
+
+    private static String escaped(String text) {
+        return text.replace("&", "&amp;").replace("<", "&lt;").replace("\"", "&quot;");
+    }
+}

@@ -1,0 +1,160 @@
+/** One WebSocket, which is one simulator process: commands up, scenes and frames down, again after a loss. */
+
+/** Frames that may be under way or waiting to be drawn. */
+const CREDIT = 3;
+const FIRST_RETRY_MS = 400;
+const LAST_RETRY_MS = 8000;
+
+/**
+ * Calls `handlers`: status(state, text) with state connecting, open or lost; scene(SCEN), frame(ArrayBuffer),
+ * stop(STOP), analysis(ANALYSIS), lost(LOST).
+ */
+export class Connection {
+  #url;
+  #handlers;
+  #start;
+  #socket = null;
+  #waiting = new Map();
+  #nextId = 1;
+  #granted = 0;
+  #frames = [];
+  #retryMs = FIRST_RETRY_MS;
+  #timer = 0;
+  #closed = false;
+
+  /** `start` gives the first command of each connection: what to show, as it was last set. */
+  constructor(url, start, handlers) {
+    this.#url = url;
+    this.#start = start;
+    this.#handlers = handlers;
+    this.#open();
+  }
+
+  /** Whether commands can be sent now. */
+  get isOpen() {
+    return this.#socket !== null && this.#socket.readyState === WebSocket.OPEN;
+  }
+
+  /**
+   * Sends a command.
+   *
+   * @returns {Promise<string|null>} the error that the simulator answers with, or null
+   */
+  send(command) {
+    if (!this.isOpen) {
+      return Promise.resolve('not connected');
+    }
+    const id = this.#nextId++;
+    this.#socket.send(JSON.stringify({...command, id}));
+    return new Promise(resolve => this.#waiting.set(id, resolve));
+  }
+
+  /** The oldest frame that has not been taken, or null. Taking it makes room for another. */
+  takeFrame() {
+    const frame = this.#frames.shift() ?? null;
+    if (frame !== null) {
+      this.#grant();
+    }
+    return frame;
+  }
+
+  /** Closes for good. */
+  close() {
+    this.#closed = true;
+    clearTimeout(this.#timer);
+    this.#socket?.close();
+  }
+
+  #open() {
+    this.#handlers.status('connecting', 'connecting');
+    const socket = new WebSocket(this.#url);
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => this.#opened(socket);
+    socket.onmessage = event => this.#received(event.data);
+    socket.onclose = event => this.#lost(event.reason);
+    this.#socket = socket;
+  }
+
+  #opened(socket) {
+    this.#retryMs = FIRST_RETRY_MS;
+    this.#forgetFrames();
+    socket.send(JSON.stringify(this.#start()));
+    this.#grant();
+    this.#handlers.status('open', 'connected');
+  }
+
+  #received(data) {
+    if (typeof data !== 'string') {
+      this.#granted--;
+      this.#frames.push(data);
+      return;
+    }
+    const message = JSON.parse(data);
+    switch (message.type) {
+      case 'SCEN':
+        this.#frames.length = 0;
+        this.#grant();
+        this.#handlers.scene(message.body);
+        break;
+      case 'ANSW':
+        this.#answered(message.body);
+        break;
+      case 'STOP':
+        this.#handlers.stop(message.body);
+        break;
+      case 'ANALYSIS':
+        this.#handlers.analysis(message.body);
+        break;
+      case 'LOST':
+        this.#forgetFrames();
+        this.#answerAll('the simulator was lost');
+        this.#grant();
+        this.#handlers.lost(message.body);
+        break;
+      default:
+        console.warn('unknown message', message.type);
+    }
+  }
+
+  #answered(answer) {
+    const resolve = this.#waiting.get(answer.id);
+    if (resolve !== undefined) {
+      this.#waiting.delete(answer.id);
+      resolve(answer.error ?? null);
+    } else if (answer.error !== undefined) {
+      this.#handlers.stop({reason: answer.error});
+    }
+  }
+
+  #answerAll(error) {
+    for (const resolve of this.#waiting.values()) {
+      resolve(error);
+    }
+    this.#waiting.clear();
+  }
+
+  #lost(reason) {
+    this.#forgetFrames();
+    this.#answerAll('the connection was lost');
+    if (this.#closed) {
+      return;
+    }
+    const seconds = (this.#retryMs / 1000).toFixed(1);
+    this.#handlers.status('lost', `${reason || 'no connection'}; again in ${seconds} s`);
+    this.#timer = setTimeout(() => this.#open(), this.#retryMs);
+    this.#retryMs = Math.min(2 * this.#retryMs, LAST_RETRY_MS);
+  }
+
+  #forgetFrames() {
+    this.#frames.length = 0;
+    this.#granted = 0;
+  }
+
+  #grant() {
+    const room = CREDIT - this.#granted - this.#frames.length;
+    if (room > 0 && this.isOpen) {
+      this.#granted += room;
+      this.#socket.send(`{"do":"credit","frames":${room}}`);
+    }
+  }
+}

@@ -1,0 +1,82 @@
+/** What water can be coloured by. */
+
+import {niceStep} from './scaling.js';
+
+/** How often the ends of a scale are looked at again, in frames. */
+const PERIOD = 45;
+const SAMPLES = 400;
+
+/** Name, title and unit of each. */
+export const FIELDS = {
+  speed: {title: 'Speed', unit: 'length/s'},
+  density: {title: 'Density', unit: 'rest densities'},
+  mass: {title: 'Mass', unit: ''},
+};
+
+/** Values of one field for the particles of a scene, and the ends of their scale, which follow slowly. */
+export class FieldValues {
+  #scene = null;
+  #field = null;
+  #age = 0;
+  #sample = new Float32Array(SAMPLES);
+
+  /** Ends of the scale. */
+  range = [0, 1];
+
+  /** Called with the ends when they change. */
+  onRange = () => {};
+
+  /** Fills `out` with the values of `count` particles from `first` on. */
+  read(field, scene, frame, first, count, out) {
+    const {velocities, density} = frame;
+    if (field === 'speed' && velocities !== null) {
+      for (let i = 0, k = 3 * first; i < count; i++, k += 3) {
+        const x = velocities[k];
+        const y = velocities[k + 1];
+        const z = velocities[k + 2];
+        out[i] = Math.sqrt(x * x + y * y + z * z);
+      }
+    } else if (field === 'density' && density !== null) {
+      out.set(density.subarray(first, first + count));
+    } else if (field === 'mass') {
+      for (let i = 0; i < count; i++) {
+        out[i] = scene.mass[first + i] ?? 0;
+      }
+    } else {
+      out.fill(0, 0, count);
+    }
+    this.#follow(field, scene, out, count);
+  }
+
+  #follow(field, scene, values, count) {
+    const isNew = field !== this.#field || scene !== this.#scene;
+    if (count === 0 || !isNew && ++this.#age < PERIOD) {
+      return;
+    }
+    this.#field = field;
+    this.#scene = scene;
+    this.#age = 0;
+    const taken = Math.min(count, SAMPLES);
+    const sample = this.#sample.subarray(0, taken);
+    for (let i = 0; i < taken; i++) {
+      sample[i] = values[Math.floor(i * count / taken)];
+    }
+    sample.sort();
+    const ends = this.#ends(field, sample);
+    const wasWide = this.range[1] - this.range[0];
+    const fits = !isNew && ends[0] >= this.range[0] && ends[1] <= this.range[1]
+        && ends[1] - ends[0] > 0.4 * wasWide;
+    if (!fits && (isNew || ends[0] !== this.range[0] || ends[1] !== this.range[1])) {
+      this.range = ends;
+      this.onRange(ends);
+    }
+  }
+
+  /** Round numbers around most of a sorted sample. */
+  #ends(field, sample) {
+    const low = field === 'speed' ? 0 : sample[Math.floor(0.01 * (sample.length - 1))];
+    const high = Math.max(sample[Math.ceil(0.99 * (sample.length - 1))], low + 1e-3);
+    const step = niceStep((high - low) / 4);
+    return [Math.floor(low / step + 1e-6) * step, Math.ceil(high / step - 1e-6) * step];
+  }
+}

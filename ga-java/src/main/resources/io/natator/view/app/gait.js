@@ -1,0 +1,115 @@
+/** Controls of the gait: one frequency, amplitude and phase of each actuator. */
+
+import {byId, make} from './element.js';
+import {Slider, sliderRow} from './sliders.js';
+
+/** Ranges in which gaits are looked for. */
+const FREQUENCY = {id: 'frequency', label: 'Frequency', title: '1/s', min: 0.5, max: 2, step: 0.01};
+
+/** A gait of any actuators that swims a little: a wave from head to tail. */
+export function waveGait(actuators) {
+  return {
+    frequency: 1.5,
+    amplitude: Array(actuators).fill(0.6),
+    phase: Array.from({length: actuators}, (_, i) => Math.round(1000 * (i * 0.75 % 1)) / 1000),
+  };
+}
+
+/** Whether a scene (SCEN) has muscles, and a gait that does not move them. */
+export function isAtRest({actuators, gait}) {
+  return actuators > 0 && (gait === null || gait.amplitude.every(one => one === 0));
+}
+
+/** Any gait within the ranges. */
+export function randomGait(actuators) {
+  const any = (low, high) => Math.round(1000 * (low + Math.random() * (high - low))) / 1000;
+  return {
+    frequency: any(FREQUENCY.min, FREQUENCY.max),
+    amplitude: Array.from({length: actuators}, () => any(0.2, 1)),
+    phase: Array.from({length: actuators}, (_, i) => i === 0 ? 0 : any(0, 1)),
+  };
+}
+
+/**
+ * Reads a gait from the text of a file: a gait itself, or what holds one, as best.json of a run.
+ *
+ * @throws {Error} if there is none
+ */
+export function parseGait(text) {
+  let found;
+  try {
+    found = JSON.parse(text);
+  } catch (error) {
+    throw new Error(`not JSON: ${error.message}`);
+  }
+  const gait = found?.gait ?? found;
+  const isNumbers = list => Array.isArray(list) && list.every(Number.isFinite);
+  if (!Number.isFinite(gait?.frequency) || !isNumbers(gait.amplitude) || !isNumbers(gait.phase)) {
+    throw new Error('no gait: expected {"frequency": …, "amplitude": […], "phase": […]}');
+  }
+  const {frequency, amplitude, phase, power} = gait;
+  return {frequency, amplitude, phase, ...(power === undefined ? {} : {power})};
+}
+
+/** Fits itself to the number of actuators of the scene. */
+export class GaitControls {
+  #place = byId('gait');
+  #onChange;
+  #actuators = -1;
+  #frequency = null;
+  #amplitude = [];
+  #phase = [];
+  #gait = null;
+
+  /** `onChange(gait)` gives a promise of an error, null or SUPERSEDED. */
+  constructor(onChange) {
+    this.#onChange = onChange;
+  }
+
+  /** Shows the gait of a scene (SCEN). */
+  show(scene) {
+    if (scene.actuators !== this.#actuators) {
+      this.#build(scene.actuators);
+    }
+    const gait = scene.gait ?? {frequency: 1, amplitude: Array(scene.actuators).fill(0), phase: Array(scene.actuators).fill(0)};
+    this.#gait = gait;
+    this.#frequency?.show(gait.frequency);
+    this.#amplitude.forEach((slider, i) => slider.show(gait.amplitude[i] ?? 0));
+    this.#phase.forEach((slider, i) => slider.show(gait.phase[i] ?? 0));
+  }
+
+  #build(actuators) {
+    this.#actuators = actuators;
+    this.#amplitude = [];
+    this.#phase = [];
+    this.#frequency = null;
+    if (actuators === 0) {
+      this.#place.replaceChildren(make('p', {className: 'hint', textContent: 'Nothing here can be moved.'}));
+      return;
+    }
+    const {slider, row} = sliderRow(FREQUENCY, value => this.#send({frequency: value}));
+    this.#frequency = slider;
+    const error = make('output', {className: 'error', role: 'alert', 'data-testid': 'actuator-error'});
+    const rows = Array.from({length: actuators}, (_, i) => this.#actuatorRow(i, actuators, error));
+    const head = make('tr', {}, ...['', 'Amplitude', 'Phase'].map(text => make('th', {scope: 'col', textContent: text})));
+    this.#place.replaceChildren(row, make('table', {className: 'actuators'},
+        make('caption', {className: 'hidden', textContent: 'Actuators from head to tail'}),
+        make('thead', {}, head), make('tbody', {}, ...rows)), error);
+  }
+
+  #actuatorRow(i, actuators, error) {
+    const end = actuators > 1 && i === 0 ? ' head' : actuators > 1 && i === actuators - 1 ? ' tail' : '';
+    const slider = (name, list) => {
+      const setting = {id: `${name}-${i + 1}`, label: `${name} of actuator ${i + 1}`, min: 0, max: 1, step: 0.005};
+      list[i] = new Slider(setting, error, value => this.#send({[name]: this.#gait[name].with(i, value)}));
+      return make('td', {}, make('div', {className: 'pair'}, ...list[i].inputs));
+    };
+    return make('tr', {}, make('th', {scope: 'row', textContent: `${i + 1}${end}`}),
+        slider('amplitude', this.#amplitude), slider('phase', this.#phase));
+  }
+
+  #send(change) {
+    this.#gait = {...this.#gait, ...change};
+    return this.#onChange(this.#gait);
+  }
+}

@@ -1,0 +1,89 @@
+/** Muscles as ribbons, coloured by how far they are contracted or stretched. */
+
+import * as THREE from 'three';
+import {SCALES, scaleBytes} from './colours.js';
+import {MUSCLE_WIDTH, distinctMuscles, muscleChange} from './scene.js';
+import {scaleTexture} from './gl-spheres.js';
+
+const VERTEX = `
+  attribute vec3 start;
+  attribute vec3 end;
+  attribute float change;
+  uniform float width;
+  uniform sampler2D scale;
+  varying vec3 colour;
+  varying float across;
+  void main() {
+    vec4 a = modelViewMatrix * vec4(start, 1.0);
+    vec4 b = modelViewMatrix * vec4(end, 1.0);
+    vec2 along = b.xy / -b.z - a.xy / -a.z;
+    vec2 side = vec2(-along.y, along.x) / max(length(along), 1e-6);
+    vec4 eye = mix(a, b, position.x);
+    eye.xy += width * position.y * side;
+    gl_Position = projectionMatrix * eye;
+    colour = texture2D(scale, vec2(0.5 + 0.498 * change, 0.5)).rgb;
+    across = position.y;
+  }`;
+
+const FRAGMENT = `
+  varying vec3 colour;
+  varying float across;
+  void main() {
+    gl_FragColor = vec4(colour * (1.0 - 0.35 * across * across), 1.0);
+  }`;
+
+/** One ribbon for each pair of particles that muscles join, seen through the body. */
+export class GlMuscles {
+  #muscles = [];
+  #start;
+  #end;
+  #change;
+  #mesh = null;
+  #material = new THREE.ShaderMaterial({
+    vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide, depthTest: false, depthWrite: false,
+    uniforms: {width: {value: 1}, scale: {value: scaleTexture(scaleBytes(SCALES.diverging))}},
+  });
+
+  /** What to add to a scene of three.js. */
+  object = new THREE.Group();
+
+  /** Takes over what is known of a scene (SCEN). */
+  setScene(scene) {
+    this.#muscles = distinctMuscles(scene);
+    this.#mesh?.geometry.dispose();
+    this.object.clear();
+    const geometry = new THREE.InstancedBufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute([0, -1, 0, 1, -1, 0, 0, 1, 0, 1, 1, 0], 3));
+    geometry.setIndex([0, 1, 2, 2, 1, 3]);
+    this.#start = attribute(geometry, 'start', 3, this.#muscles.length);
+    this.#end = attribute(geometry, 'end', 3, this.#muscles.length);
+    this.#change = attribute(geometry, 'change', 1, this.#muscles.length);
+    geometry.instanceCount = this.#muscles.length;
+    this.#mesh = new THREE.Mesh(geometry, this.#material);
+    this.#mesh.frustumCulled = false;
+    this.#mesh.renderOrder = 5;
+    this.object.add(this.#mesh);
+    this.#material.uniforms.width.value = 0.5 * MUSCLE_WIDTH * scene.solidRestDistance;
+  }
+
+  /** Moves and colours the ribbons; a muscle at rest is grey. */
+  update(frame) {
+    this.#muscles.forEach((muscle, i) => {
+      for (let axis = 0; axis < 3; axis++) {
+        this.#start.array[3 * i + axis] = frame.position[3 * muscle.a + axis];
+        this.#end.array[3 * i + axis] = frame.position[3 * muscle.b + axis];
+      }
+      this.#change.array[i] = muscleChange(muscle, frame);
+    });
+    this.#start.needsUpdate = true;
+    this.#end.needsUpdate = true;
+    this.#change.needsUpdate = true;
+  }
+}
+
+function attribute(geometry, name, size, count) {
+  const made = new THREE.InstancedBufferAttribute(new Float32Array(size * count), size);
+  made.setUsage(THREE.DynamicDrawUsage);
+  geometry.setAttribute(name, made);
+  return made;
+}

@@ -1,0 +1,119 @@
+/** Draws with WebGL, through three.js. */
+
+import * as THREE from 'three';
+import {GlBody} from './gl-body.js';
+import {GlMuscles} from './gl-muscles.js';
+import {GlTank} from './gl-tank.js';
+import {GlTrace} from './gl-trace.js';
+import {GlWater} from './gl-water.js';
+
+THREE.ColorManagement.enabled = false;
+
+/** Screens with more pixels per length get no finer picture than this. */
+const MAX_PIXEL_RATIO = 2;
+
+/** Names of what draws without a graphics card. */
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+
+let known = null;
+
+/** Whether WebGL is there and a graphics card behind it. */
+export function hasGraphicsCard() {
+  known ??= findGraphicsCard();
+  return known;
+}
+
+function findGraphicsCard() {
+  const context = document.createElement('canvas').getContext('webgl2');
+  if (context === null) {
+    return false;
+  }
+  const info = context.getExtension('WEBGL_debug_renderer_info');
+  const name = info === null ? '' : context.getParameter(info.UNMASKED_RENDERER_WEBGL);
+  context.getExtension('WEBGL_lose_context')?.loseContext();
+  return !SOFTWARE.test(name);
+}
+
+/** One canvas; throws where there is no WebGL. The same methods as `PlainPicture`. */
+export class GlPicture {
+  #renderer;
+  #world = new THREE.Scene();
+  #water;
+  #body = new GlBody();
+  #muscles = new GlMuscles();
+  #tank = new GlTank();
+  #trace;
+  #background = new THREE.Color();
+  #sky = new THREE.Color();
+  #look = null;
+
+  constructor(canvas, trace, field) {
+    this.#renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false, powerPreference: 'high-performance'});
+    this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.#renderer.autoClear = false;
+    this.#water = new GlWater(field);
+    this.#trace = new GlTrace(trace);
+    this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
+  }
+
+  /** How it draws, for people. */
+  get name() {
+    return 'WebGL';
+  }
+
+  /** Whether the time that `draw` takes is that of drawing. */
+  get isDoneAtOnce() {
+    return false;
+  }
+
+  setScene(scene) {
+    this.#water.setScene(scene);
+    this.#body.setScene(scene);
+    this.#muscles.setScene(scene);
+  }
+
+  setBounds(bounds) {
+    this.#tank.setBounds(bounds);
+  }
+
+  setLook(look) {
+    this.#look = look;
+    this.#muscles.object.visible = look.muscles;
+    this.#trace.object.visible = look.trace;
+  }
+
+  setTheme(colours) {
+    this.#background.setStyle(colours.background);
+    this.#sky.setStyle(colours.sky);
+    this.#tank.setColours(colours.floor, colours.marks, colours.edges);
+    this.#trace.setInk(colours.ink);
+  }
+
+  /** The size in CSS pixels, the share of the screen's pixels along each side, and the angle of view in degrees. */
+  setSize(width, height, share, angle) {
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, MAX_PIXEL_RATIO) * share);
+    this.#renderer.setSize(width, height, false);
+    const {width: columns, height: rows} = this.#renderer.domElement;
+    const pixels = rows / 2 / Math.tan(angle * Math.PI / 360);
+    this.#water.setPixels(pixels, columns, rows);
+    this.#body.setPixels(pixels);
+  }
+
+  /** Draws a frame; water nearer than `from` is left out. */
+  draw(frame, camera, from) {
+    this.#body.update(frame);
+    this.#muscles.update(frame);
+    this.#trace.update();
+    this.#water.update(frame, camera, this.#look, from);
+    this.#renderer.setRenderTarget(null);
+    this.#renderer.setClearColor(this.#background, 1);
+    this.#renderer.clear();
+    this.#renderer.render(this.#world, camera);
+    this.#water.drawSurface(this.#renderer, camera, this.#look, this.#body.points, this.#sky);
+  }
+
+  dispose() {
+    this.#renderer.dispose();
+    this.#renderer.forceContextLoss();
+  }
+}

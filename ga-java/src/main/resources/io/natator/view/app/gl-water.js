@@ -1,0 +1,97 @@
+/** The fluid: which particles are seen, nearest first, with the value that they are coloured by. */
+
+import * as THREE from 'three';
+import {SCALES, scaleBytes} from './colours.js';
+import {WATER_RADIUS} from './scene.js';
+import {NearestFirst} from './sort.js';
+import {PlaceBuffer, scaleTexture, sphereMaterial} from './gl-spheres.js';
+import {GlSurface} from './gl-surface.js';
+
+/**
+ * Drawn nearest first with depth written, so of spheres behind each other only the first is seen: one layer, through
+ * which the body shows.
+ */
+export class GlWater {
+  #scene = null;
+  #places = null;
+  #points = null;
+  #values = null;
+  #order = new NearestFirst();
+  #field;
+  #scale = scaleTexture(scaleBytes(SCALES.sequential));
+  #material = sphereMaterial(this.#scale, 1, 0.5);
+  #surface = new GlSurface(this.#scale);
+  #forward = new THREE.Vector3();
+
+  /** What to add to a scene of three.js. */
+  object = new THREE.Group();
+
+  /** `field` gives values and their scale; see `FieldValues`. */
+  constructor(field) {
+    this.#field = field;
+  }
+
+  /** Takes over what is known of a scene (SCEN). */
+  setScene(scene) {
+    const count = scene.fluid[1];
+    this.#scene = scene;
+    this.#places?.dispose();
+    this.object.clear();
+    this.#places = new PlaceBuffer(count);
+    this.#values = new Float32Array(count);
+    this.#points = new THREE.Points(this.#places.geometry, this.#material);
+    this.#points.frustumCulled = false;
+    this.#points.renderOrder = 10;
+    this.object.add(this.#points);
+    this.#material.uniforms.radius.value = WATER_RADIUS * scene.fluidRestDistance;
+    this.#surface.setScene(scene, this.#places.geometry);
+  }
+
+  /**
+   * Brings places and values of a frame to the GPU.
+   *
+   * @param {object} look what is shown: water, colour, opacity, cut
+   * @param {number} from depth before which water is cut away
+   */
+  update(frame, camera, look, from) {
+    const [first, count] = this.#scene.fluid;
+    const isShown = look.water !== 'none' && count > 0;
+    this.#points.visible = isShown && look.water === 'spheres';
+    if (!isShown) {
+      return;
+    }
+    this.#field.read(look.colour, this.#scene, frame, first, count, this.#values);
+    this.#material.uniforms.range.value.fromArray(this.#field.range);
+    camera.getWorldDirection(this.#forward);
+    const seen = this.#order.sort(frame.position, first, count, camera.position, this.#forward, from);
+    this.#write(frame.position, first, seen);
+    this.#material.uniforms.opacity.value = look.opacity;
+    this.#material.transparent = look.opacity < 1;
+  }
+
+  #write(position, first, seen) {
+    const numbers = this.#places.numbers;
+    const order = this.#order.order;
+    for (let i = 0, out = 0; i < seen; i++, out += 4) {
+      const from = 3 * (first + order[i]);
+      numbers[out] = position[from];
+      numbers[out + 1] = position[from + 1];
+      numbers[out + 2] = position[from + 2];
+      numbers[out + 3] = this.#values[order[i]];
+    }
+    this.#places.written(seen);
+  }
+
+  /** Draws the surface over what the renderer has drawn, if that is how water is shown. */
+  drawSurface(renderer, camera, look, bodyPoints, theme) {
+    if (look.water === 'surface' && this.#scene !== null && this.#scene.fluid[1] > 0) {
+      this.#surface.draw(renderer, camera, this.#field.range, look.opacity, bodyPoints, theme);
+    }
+  }
+
+  /** The size of the picture: height in pixels over twice the tangent of half the view angle. */
+  setPixels(pixelsPerUnit, width, height) {
+    this.#material.uniforms.pixelsPerUnit.value = pixelsPerUnit;
+    this.#surface.setSize(pixelsPerUnit, width, height);
+  }
+}

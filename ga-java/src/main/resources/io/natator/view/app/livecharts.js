@@ -1,0 +1,68 @@
+/** The charts beneath the picture, drawn in turns. */
+
+import {EnvelopeChart, TimeChart, chartColours} from './charts.js';
+import {byId, make} from './element.js';
+
+/** Frames of the screen between two drawings of charts. */
+const TURN = 4;
+
+/** Distance, speed, envelope, momentum and density error of one or two views. */
+export class LiveCharts {
+  #modes;
+  #turn = 0;
+  #charts;
+  #outputs;
+
+  /** `modes` are the envelopes of real fish. */
+  constructor(modes) {
+    this.#modes = modes;
+    this.#charts = [
+      ['distance', new TimeChart(byId('chart-distance'), ['distance'], 0.01)],
+      ['speed', new TimeChart(byId('chart-speed'), ['beatSpeed', 'speed'], 0.02)],
+      ['envelope', new EnvelopeChart(byId('chart-envelope'))],
+      ['momentum', new TimeChart(byId('chart-momentum'), ['momentum', 'angularMomentum'], 0.01)],
+      ['density', new TimeChart(byId('chart-density'), ['densityMean', 'densityMax'], 0.5)],
+    ];
+    byId('envelope-key').replaceChildren(...modes.flatMap(({name}, i) => [
+      make('i', {className: `key s${i + 2} dash`}), `${name} `,
+    ]));
+    this.#outputs = new Map([...document.querySelectorAll('[data-chart]')].map(one => [one.dataset.chart, one]));
+  }
+
+  /** Takes over new colours. */
+  recolour() {
+    for (const [, chart] of this.#charts) {
+      chart.colours = chartColours(byId('chart-distance'));
+    }
+  }
+
+  /** To be called for each frame of the screen; draws one chart every few. */
+  tick(views) {
+    if (this.#turn++ % TURN === 0) {
+      this.#draw(Math.floor(this.#turn / TURN) % this.#charts.length, views);
+    }
+  }
+
+  #draw(which, views) {
+    const [name, chart] = this.#charts[which];
+    const text = this.#text(name, views[0]);
+    if (this.#outputs.get(name).textContent !== text) {
+      this.#outputs.get(name).textContent = text;
+    }
+    if (name === 'envelope') {
+      chart.draw(this.#modes, views.map(view => view.analysis));
+    } else {
+      chart.draw(views.map(view => view.history));
+    }
+  }
+
+  #text(name, {history, analysis}) {
+    if (name === 'envelope') {
+      const least = analysis?.modes.reduce((best, mode) => best === null || mode.e < best.e ? mode : best, null);
+      return least ? `${least.name.slice(0, 4)}., e ${least.e.toFixed(2)}` : '';
+    }
+    const column = {distance: 'distance', speed: 'beatSpeed', momentum: 'momentum', density: 'densityMean'}[name];
+    const value = history.last(column);
+    return Number.isNaN(value) ? '' : value.toFixed(name === 'density' ? 2 : 3) + (name === 'density' ? ' %' : '');
+  }
+}

@@ -1,0 +1,401 @@
+/** The page of `natator view`: puts its parts together. */
+
+import {CAMERAS} from './cameras.js';
+import {byId, choose, fillSegments, fillSelect} from './element.js';
+import {Figures} from './figures.js';
+import {GaitControls, isAtRest, parseGait, randomGait, waveGait} from './gait.js';
+import {listen} from './keys.js';
+import {LiveCharts} from './livecharts.js';
+import {LookControls} from './look.js';
+import {remembered, rememberSoon} from './memory.js';
+import {RunBrowser} from './runs.js';
+import {download, fileName, gaitText, sceneText} from './save.js';
+import {SolverControls, withoutSettings} from './solver.js';
+import {DEFAULT_LOOK} from './stage.js';
+import {Theme} from './theme.js';
+import {View} from './view.js';
+
+const FIGURES_MS = 250;
+const NAMES = ['a', 'b'];
+
+/** The whole page: one or two views, and controls for the chosen one. */
+class Page {
+  #setup;
+  #views = [];
+  #figures = [];
+  #chosen = 0;
+  #camera = 'follow';
+  #look;
+  #theme;
+  #gait;
+  #solver;
+  #charts;
+  #runs;
+  #lastFigures = 0;
+  #vacuumBusy = false;
+
+  constructor(setup, memory) {
+    this.#setup = setup;
+    this.#look = new LookControls({...DEFAULT_LOOK, ...memory.look}, () => this.#lookChanged());
+    this.#charts = new LiveCharts(setup.modes);
+    this.#theme = new Theme(memory.theme ?? 'auto', () => this.#themeChanged());
+    this.#gait = new GaitControls(gait => this.#view.setGait(gait));
+    this.#solver = new SolverControls((key, patch) => this.#view.setOverrides(key, patch));
+    this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watch(run, best, beside));
+    fillSelect(byId('scheme'), setup.schemes.map(scheme => [scheme, scheme]));
+    fillSegments(byId('cameras'), 'camera', CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]), mode => this.setCamera(mode));
+    fillSegments(byId('which'), 'which', [['0', 'Left'], ['1', 'Right']], which => this.#choose(Number(which)));
+    this.#addView(memory.views?.[0] ?? setup.start);
+    if (memory.views?.[1]) {
+      this.#addView(memory.views[1]);
+    }
+    this.setCamera(memory.camera ?? 'follow');
+    this.#choose(0);
+    this.#listen();
+    if (setup.runs.length > 0) {
+      const run = setup.runs.some(({id}) => id === memory.run?.run) ? memory.run : {run: setup.runs[0].id};
+      this.#runs.load(run.run, run.generation ?? null);
+    }
+    requestAnimationFrame(now => this.#tick(now));
+  }
+
+  get views() {
+    return this.#views;
+  }
+
+  get #view() {
+    return this.#views[this.#chosen];
+  }
+
+  #tick(now) {
+    for (const view of this.#views) {
+      view.tick(now);
+    }
+    this.#charts.tick(this.#views);
+    if (now - this.#lastFigures > FIGURES_MS) {
+      this.#lastFigures = now;
+      this.#views.forEach((view, i) => this.#figures[i].show(view));
+    }
+    requestAnimationFrame(next => this.#tick(next));
+  }
+
+  // --- views
+
+  #addView(setting) {
+    const which = this.#views.length;
+    const element = byId(`stage-${NAMES[which]}`);
+    element.hidden = false;
+    const view = new View(element.querySelector('.picture'), setting, this.#setup.scenes, {
+      scene: () => this.#sceneChanged(which),
+      status: (state, text) => this.#status(state, text),
+      notice: (text, isBad) => this.#banner(text, isBad),
+      range: range => which === 0 && this.#look.showRange(range),
+    });
+    view.stage.setTheme(this.#theme.colours);
+    view.stage.setLook(this.#look.look);
+    view.stage.rig.setMode(this.#camera);
+    view.stage.rig.onMode = () => choose(byId('cameras'), view.stage.rig.mode);
+    this.#views.push(view);
+    this.#figures.push(new Figures(element));
+    this.#compareChanged();
+  }
+
+  #removeSecond() {
+    this.#views.pop().close();
+    this.#figures.pop();
+    const old = byId('stage-b').querySelector('.picture');
+    old.replaceWith(old.cloneNode());
+    byId('stage-b').querySelector('.overlay').hidden = false;
+    byId('stage-b').hidden = true;
+    this.#choose(0);
+    this.#compareChanged();
+  }
+
+  /** Shows a second view that begins as the first is, or closes it. */
+  async toggleCompare(setting = null) {
+    if (this.#views.length === 2) {
+      this.#removeSecond();
+      return;
+    }
+    this.#addView(setting ?? {...this.#views[0].setting});
+    await this.reset();
+  }
+
+  #compareChanged() {
+    const isTwo = this.#views.length === 2;
+    byId('compare').setAttribute('aria-pressed', isTwo);
+    byId('which').hidden = !isTwo;
+    this.#remember();
+  }
+
+  #choose(which) {
+    this.#chosen = which;
+    choose(byId('which'), which);
+    this.#showControls();
+  }
+
+  // --- what changes
+
+  #sceneChanged(which) {
+    const {scene} = this.#views[which];
+    if (scene !== null) {
+      const gait = scene.gait === null ? 'no gait' : `${scene.gait.frequency.toFixed(2)} /s`;
+      this.#figures[which].name(scene.scene.split('/').at(-1), `${scene.scheme}, ${scene.particles} particles, ${gait}`);
+    }
+    if (which === this.#chosen) {
+      this.#showControls();
+    }
+    this.#remember();
+  }
+
+  #showControls() {
+    const view = this.#view;
+    this.#showRun();
+    byId('rate').value = String(view.setting.rate);
+    if (view.scene === null) {
+      return;
+    }
+    const {scene} = view;
+    const names = this.#setup.scenes.includes(scene.scene) ? this.#setup.scenes : [scene.scene, ...this.#setup.scenes];
+    if (byId('scene').options.length !== names.length) {
+      fillSelect(byId('scene'), names.map(name => [name, name]));
+    }
+    byId('scene').value = scene.scene;
+    byId('scheme').value = scene.scheme;
+    if (!this.#vacuumBusy) {
+      byId('vacuum').checked = view.isVacuum;
+    }
+    this.#gait.show(scene);
+    this.#solver.show(scene);
+    byId('gait-save').disabled = scene.gait === null;
+    for (const id of ['gait-random', 'gait-load']) {
+      byId(id).disabled = scene.actuators === 0;
+    }
+  }
+
+  #showRun() {
+    byId('run').textContent = this.#view.isPaused ? 'Run' : 'Pause';
+  }
+
+  #lookChanged() {
+    const look = this.#look.look;
+    this.#views.forEach(view => view.stage.setLook(look));
+    this.#remember();
+  }
+
+  #themeChanged() {
+    byId('theme').value = this.#theme?.choice ?? 'auto';
+    this.#charts.recolour();
+    this.#runs?.draw();
+    this.#views.forEach(view => view.stage.setTheme(this.#theme.colours));
+    this.#remember();
+  }
+
+  setCamera(mode) {
+    this.#camera = mode;
+    choose(byId('cameras'), mode);
+    this.#views.forEach(view => view.stage.rig.setMode(mode));
+    this.#remember();
+  }
+
+  #status(state, text) {
+    byId('status').dataset.state = state;
+    byId('status').textContent = text;
+    if (state === 'lost') {
+      document.querySelectorAll('.overlay').forEach(one => {
+        one.textContent = text;
+      });
+    }
+  }
+
+  #banner(text, isBad) {
+    byId('banner').dataset.kind = isBad ? 'bad' : 'note';
+    byId('banner-text').textContent = text;
+    byId('banner').hidden = false;
+  }
+
+  #remember() {
+    rememberSoon(() => ({
+      views: this.#views.map(view => view.setting), camera: this.#camera, look: this.#look.look,
+      theme: this.#theme.choice, run: this.#runs.choice,
+    }));
+  }
+
+  // --- commands
+
+  async #all(action, error) {
+    const answers = await Promise.all(this.#views.map(action));
+    byId(error).textContent = answers.find(answer => typeof answer === 'string') ?? '';
+    this.#showRun();
+    this.#remember();
+  }
+
+  toggleRun() {
+    const isPaused = this.#view.isPaused;
+    return this.#all(view => isPaused ? view.run() : view.pause(), 'transport-error');
+  }
+
+  step() {
+    return this.#all(view => view.step(), 'transport-error');
+  }
+
+  /** All back to the start; two views leave it together. */
+  async reset() {
+    const wasPaused = this.#views[0].isPaused;
+    if (this.#views.length === 2 && !wasPaused) {
+      await Promise.all(this.#views.map(view => view.pause()));
+      await this.#all(view => view.reset(), 'transport-error');
+      await this.#all(view => view.run(), 'transport-error');
+      return;
+    }
+    await this.#all(view => view.reset(), 'transport-error');
+  }
+
+  setRate(value) {
+    byId('rate').value = String(value);
+    return this.#all(view => view.setRate(value), 'transport-error');
+  }
+
+  #moveRate(step) {
+    const options = byId('rate').options;
+    const at = Math.min(options.length - 1, Math.max(0, byId('rate').selectedIndex + step));
+    this.setRate(Number(options[at].value));
+  }
+
+  async #changeScene(name) {
+    const scheme = this.#view.scene?.overrides?.scheme;
+    const overrides = scheme === undefined ? null : {scheme};
+    const error = await this.#view.setScene(name, overrides, null);
+    byId('scene-error').textContent = error ?? '';
+    if (error === null && isAtRest(this.#view.scene)) {
+      this.#view.setGait(this.#setup.gaits?.[name] ?? waveGait(this.#view.scene.actuators));
+    }
+  }
+
+  async #changeVacuum(isVacuum) {
+    this.#vacuumBusy = true;
+    const error = await this.#view.setVacuum(isVacuum);
+    this.#vacuumBusy = false;
+    byId('scene-error').textContent = error ?? '';
+    this.#showControls();
+  }
+
+  async #changeScheme(scheme) {
+    byId('scene-error').textContent = await this.#view.setOverrides('scheme', {scheme}) ?? '';
+    this.#showControls();
+  }
+
+  async #watch(run, best, beside) {
+    if (beside && this.#views.length === 1) {
+      await this.toggleCompare({scene: run.scene, overrides: run.overrides, gait: best.gait, rate: this.#view.setting.rate});
+      return null;
+    }
+    const view = beside ? this.#views[1] : this.#view;
+    const {scene} = view;
+    const isSame = scene !== null && scene.scene === run.scene
+        && JSON.stringify(scene.overrides ?? {}) === JSON.stringify(run.overrides ?? {});
+    const error = isSame ? await view.setGait(best.gait) : await view.setScene(run.scene, run.overrides, best.gait);
+    if (error === null && isSame) {
+      await this.reset();
+    }
+    return error;
+  }
+
+  async #loadGait(file) {
+    try {
+      byId('gait-error').textContent = await this.#view.setGait(parseGait(await file.text())) ?? '';
+    } catch (error) {
+      byId('gait-error').textContent = `${file.name}: ${error.message}`;
+    }
+  }
+
+  // --- inputs
+
+  #listen() {
+    const click = (id, action) => byId(id).addEventListener('click', action);
+    const change = (id, action) => byId(id).addEventListener('change', event => action(event.target));
+    click('run', () => this.toggleRun());
+    click('step', () => this.step());
+    click('reset', () => this.reset());
+    click('compare', () => this.toggleCompare());
+    click('banner-close', () => {
+      byId('banner').hidden = true;
+    });
+    click('gait-save', () => download(fileName(this.#view.scene, 'gait'), gaitText(this.#view.scene)));
+    click('scene-save', () => download(fileName(this.#view.scene, 'scene'), sceneText(this.#view.scene)));
+    click('gait-load', () => byId('gait-file').click());
+    click('gait-random', async () => {
+      byId('gait-error').textContent = await this.#view.setGait(randomGait(this.#view.scene.actuators)) ?? '';
+    });
+    click('solver-default', async () => {
+      const {scene, overrides, gait} = this.#view.scene;
+      byId('solver-error').textContent = await this.#view.setScene(scene, withoutSettings(overrides), gait) ?? '';
+    });
+    change('gait-file', input => {
+      if (input.files.length > 0) {
+        this.#loadGait(input.files[0]);
+        input.value = '';
+      }
+    });
+    change('rate', select => this.setRate(Number(select.value)));
+    change('scene', select => this.#changeScene(select.value));
+    change('scheme', select => this.#changeScheme(select.value));
+    change('vacuum', input => this.#changeVacuum(input.checked));
+    change('theme', select => this.#theme.choose(select.value));
+    this.#listenToKeys();
+  }
+
+  #listenToKeys() {
+    listen([
+      [' ', 'run or pause', () => this.toggleRun()],
+      ['.', 'one frame', () => this.step()],
+      ['r', 'back to the start', () => this.reset()],
+      [['+', '-'], 'faster, slower', key => this.#moveRate(key === '+' ? 1 : -1)],
+      [['1', '2', '3', '4'], 'camera: follow, side, top, free', key => this.setCamera(CAMERAS[Number(key) - 1])],
+      ['v', 'vacuum, water', () => this.#changeVacuum(!this.#view.isVacuum)],
+      ['w', 'water: spheres, surface, none', () => this.#look.next('water')],
+      ['c', 'colour: speed, density, mass', () => this.#look.next('colour')],
+      ['x', 'cut the water open at the body', () => this.#look.toggle('cut')],
+      ['m', 'muscles', () => this.#look.toggle('muscles')],
+      ['t', 'trace of the spine', () => this.#look.toggle('trace')],
+      ['b', 'two swimmers side by side', () => this.toggleCompare()],
+      [['[', ']'], 'generation before, after', key => this.#runs.move(key === ']' ? 1 : -1)],
+      ['d', 'light, dark', () => this.#theme.toggle()],
+      ['?', 'this list', () => byId('help').showModal()],
+    ]);
+  }
+}
+
+/** Figures of what is shown, to be read by tests: of the first view, or of `views[1]`. */
+function figures(page) {
+  const of = which => ({
+    frame: () => page.views[which]?.frame?.frame ?? -1,
+    time: () => page.views[which]?.frame?.time ?? 0,
+    distance: () => page.views[which]?.frame?.distance ?? 0,
+    fps: () => page.views[which]?.fps ?? 0,
+    pace: () => page.views[which]?.pace ?? 0,
+    dropped: () => page.views[which]?.dropped ?? 0,
+    drawing: () => page.views[which]?.stage.drawing ?? '',
+    share: () => page.views[which]?.stage.share ?? 0,
+    scene: () => page.views[which]?.scene ?? null,
+    connected: () => page.views[which]?.isConnected ?? false,
+    position: () => Array.from(page.views[which]?.frame?.position ?? []),
+  });
+  return {...of(0), views: [of(0), of(1)]};
+}
+
+async function begin() {
+  try {
+    const answer = await fetch('/api/setup');
+    if (!answer.ok) {
+      throw new Error(`${answer.status} ${answer.statusText}`);
+    }
+    window.natator = figures(new Page(await answer.json(), remembered()));
+  } catch (error) {
+    byId('status').dataset.state = 'lost';
+    byId('status').textContent = `The page cannot start: ${error.message}`;
+    throw error;
+  }
+}
+
+begin();

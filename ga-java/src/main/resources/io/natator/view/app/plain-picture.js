@@ -1,0 +1,287 @@
+/** Draws without WebGL: spheres by the processor into pixels, lines with the 2-d canvas. */
+
+import {Color} from 'three';
+import {SCALES, clusterColours, colourAt, scaleBytes} from './colours.js';
+import {Discs, LIGHTS} from './discs.js';
+import {addArea, addLine, addLines} from './plain-lines.js';
+import {SphereLayer, shades} from './plain-spheres.js';
+import {SurfaceLayer} from './plain-surface.js';
+import {Projector} from './projector.js';
+import {BODY_RADIUS, MUSCLE_WIDTH, SURFACE_RADIUS, WATER_RADIUS, clusterOfBody, distinctMuscles, jointOfBody, muscleChange,
+  tankLines} from './scene.js';
+import {NearestFirst} from './sort.js';
+import {SPINES} from './trace.js';
+
+/** Colours of water. */
+const COLOURS = 256;
+const CHANGES = 33;
+/** Pixels of the surface for each of the spheres' layer, along each side. */
+const SURFACE_SHARE = 0.5;
+
+/** One canvas; the same methods as `GlPicture`. */
+export class PlainPicture {
+  #canvas;
+  #context;
+  #layerCanvas = document.createElement('canvas');
+  #layerContext;
+  #layer = new SphereLayer();
+  #surfaceCanvas = document.createElement('canvas');
+  #surfaceContext;
+  #surface = new SurfaceLayer();
+  #surfaceProjector = new Projector();
+  #surfaceColours = scaleBytes(SCALES.sequential);
+  #discs = new Discs();
+  #order = new NearestFirst();
+  #projector = new Projector();
+  #lineProjector = new Projector();
+  #trace;
+  #field;
+  #scene = null;
+  #values = new Float32Array(0);
+  #kinds = new Int16Array(0);
+  #joints = new Uint8Array(0);
+  #muscles = [];
+  #lines = null;
+  #look = null;
+  #colours = null;
+  #sky = [255, 255, 255];
+  #waterShades = null;
+  #bodyShades = null;
+  #changeColours = Array.from({length: CHANGES}, (_, i) => css(colourAt(SCALES.diverging, i / (CHANGES - 1))));
+  #place = [0, 0, 0];
+
+  constructor(canvas, trace, field) {
+    this.#canvas = canvas;
+    this.#context = canvas.getContext('2d', {alpha: false});
+    this.#layerContext = this.#layerCanvas.getContext('2d');
+    this.#surfaceContext = this.#surfaceCanvas.getContext('2d');
+    this.#trace = trace;
+    this.#field = field;
+  }
+
+  /** How it draws, for people. */
+  get name() {
+    return 'processor';
+  }
+
+  /** Whether the time that `draw` takes is that of drawing. */
+  get isDoneAtOnce() {
+    return true;
+  }
+
+  setScene(scene) {
+    this.#scene = scene;
+    this.#values = new Float32Array(scene.fluid[1]);
+    this.#kinds = new Int16Array(scene.particles).fill(-1);
+    this.#joints = new Uint8Array(scene.particles);
+    const clusters = clusterOfBody(scene);
+    const joints = jointOfBody(scene);
+    scene.body.forEach((particle, i) => {
+      this.#kinds[particle] = clusters[i];
+      this.#joints[particle] = joints[i] ? 1 : 0;
+    });
+    this.#muscles = distinctMuscles(scene);
+    this.#bodyShades = shades(clusterColours(Math.max(1, scene.clusters.length)), 1);
+  }
+
+  setBounds(bounds) {
+    this.#lines = tankLines(bounds);
+  }
+
+  setLook(look) {
+    this.#look = look;
+    const colours = Array.from({length: COLOURS}, (_, i) => colourAt(SCALES.sequential, i / (COLOURS - 1)));
+    this.#waterShades = shades(colours, Math.min(look.opacity, 0.995));
+  }
+
+  setTheme(colours) {
+    this.#colours = colours;
+    this.#sky = new Color(colours.sky).toArray().map(value => 255 * value);
+  }
+
+  /** The size in CSS pixels, and the share of them that spheres are drawn with along each side. */
+  setSize(width, height, share) {
+    const ratio = Math.min(devicePixelRatio, 1);
+    this.#canvas.width = Math.round(width * ratio);
+    this.#canvas.height = Math.round(height * ratio);
+    this.#layerCanvas.width = Math.round(width * ratio * share);
+    this.#layerCanvas.height = Math.round(height * ratio * share);
+    this.#layer.setSize(this.#layerCanvas.width, this.#layerCanvas.height);
+    this.#surfaceCanvas.width = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.width));
+    this.#surfaceCanvas.height = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.height));
+    this.#surface.setSize(this.#surfaceCanvas.width, this.#surfaceCanvas.height);
+  }
+
+  /** Draws a frame; water nearer than `from` is left out. */
+  draw(frame, camera, from) {
+    this.#lineProjector.set(camera, this.#canvas.width, this.#canvas.height);
+    this.#drawTank();
+    this.#projector.set(camera, this.#layerCanvas.width, this.#layerCanvas.height);
+    this.#surfaceProjector.set(camera, this.#surfaceCanvas.width, this.#surfaceCanvas.height);
+    this.#drawParticles(frame, from);
+    this.#context.drawImage(this.#layerCanvas, 0, 0, this.#canvas.width, this.#canvas.height);
+    if (this.#look.water === 'surface') {
+      this.#drawSurface();
+    }
+    if (this.#look.muscles) {
+      this.#drawMuscles(frame);
+    }
+    if (this.#look.trace) {
+      this.#drawTrace();
+    }
+  }
+
+  dispose() {
+    this.#layerCanvas.width = 0;
+  }
+
+  #drawTank() {
+    const context = this.#context;
+    const {background, floor, marks, edges} = this.#colours;
+    context.fillStyle = background;
+    context.fillRect(0, 0, this.#canvas.width, this.#canvas.height);
+    context.lineWidth = 1;
+    this.#path(floor, null, () => addArea(context, this.#lineProjector, this.#lines.floor));
+    this.#path(null, marks, () => addLines(context, this.#lineProjector, this.#lines.marks));
+    this.#path(null, edges, () => addLines(context, this.#lineProjector, this.#lines.edges));
+  }
+
+  #path(fill, stroke, add) {
+    const context = this.#context;
+    context.beginPath();
+    add();
+    if (fill !== null) {
+      context.fillStyle = fill;
+      context.fill();
+    } else {
+      context.strokeStyle = stroke;
+      context.stroke();
+    }
+  }
+
+  #drawParticles(frame, from) {
+    const {particles, fluid} = this.#scene;
+    const projector = this.#projector;
+    const isWater = this.#look.water !== 'none' && fluid[1] > 0;
+    const isSurface = this.#look.water === 'surface';
+    if (isWater) {
+      this.#field.read(this.#look.colour, this.#scene, frame, fluid[0], fluid[1], this.#values);
+    }
+    const [low, high] = this.#field.range;
+    const perValue = (COLOURS - 1) / (high - low);
+    const count = this.#order.sort(frame.position, 0, particles, projector.eye, projector.forward, 0.05);
+    this.#layer.clear();
+    this.#surface.clear();
+    for (let i = 0; i < count; i++) {
+      const particle = this.#order.order[i];
+      const kind = this.#kinds[particle];
+      projector.project(frame.position[3 * particle], frame.position[3 * particle + 1], frame.position[3 * particle + 2],
+          this.#place, 0);
+      const [x, y, depth] = this.#place;
+      if (kind >= 0) {
+        this.#bodySphere(x, y, depth, kind, particle, isSurface);
+      } else if (isWater && depth >= from) {
+        const value = Math.round((this.#values[particle - fluid[0]] - low) * perValue);
+        const colour = value < 0 ? 0 : value < COLOURS ? value : COLOURS - 1;
+        if (isSurface) {
+          this.#surfaceSphere(x, y, depth, colour);
+        } else {
+          this.#waterSphere(x, y, depth, colour);
+        }
+      }
+    }
+    this.#layerContext.putImageData(this.#layer.image, 0, 0);
+  }
+
+  #waterSphere(x, y, depth, colour) {
+    const radius = WATER_RADIUS * this.#scene.fluidRestDistance / depth * this.#projector.pixels;
+    if (isOn(this.#layerCanvas, x, y, radius)) {
+      const disc = this.#discs.of(radius, x - Math.floor(x), y - Math.floor(y));
+      this.#layer.water(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#waterShades, colour * LIGHTS);
+    }
+  }
+
+  #bodySphere(x, y, depth, cluster, particle, blocks) {
+    const radius = BODY_RADIUS * this.#scene.solidRestDistance / depth * this.#projector.pixels;
+    if (!isOn(this.#layerCanvas, x, y, radius)) {
+      return;
+    }
+    const disc = this.#discs.of(radius, x - Math.floor(x), y - Math.floor(y));
+    this.#layer.body(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#bodyShades, cluster * LIGHTS,
+        this.#joints[particle] === 1);
+    if (blocks) {
+      const small = this.#discs.of(SURFACE_SHARE * radius, 0.5, 0.5);
+      this.#surface.block(small, Math.floor(SURFACE_SHARE * x) - small.half, Math.floor(SURFACE_SHARE * y) - small.half);
+    }
+  }
+
+  #surfaceSphere(x, y, depth, colour) {
+    const size = SURFACE_RADIUS * this.#scene.fluidRestDistance;
+    const radius = size / depth * this.#surfaceProjector.pixels;
+    const column = SURFACE_SHARE * x;
+    const row = SURFACE_SHARE * y;
+    if (isOn(this.#surfaceCanvas, column, row, radius)) {
+      const disc = this.#discs.of(radius, column - Math.floor(column), row - Math.floor(row));
+      this.#surface.water(disc, Math.floor(column) - disc.half, Math.floor(row) - disc.half, depth, size, colour);
+    }
+  }
+
+  #drawSurface() {
+    const edge = 1.5 * SURFACE_RADIUS * this.#scene.fluidRestDistance;
+    this.#surface.smooth(edge);
+    this.#surface.shade(this.#surfaceProjector, this.#surfaceColours, this.#look.opacity, this.#sky, edge);
+    this.#surfaceContext.putImageData(this.#surface.image, 0, 0);
+    this.#context.drawImage(this.#surfaceCanvas, 0, 0, this.#canvas.width, this.#canvas.height);
+  }
+
+  #drawMuscles(frame) {
+    const context = this.#context;
+    const width = MUSCLE_WIDTH * this.#scene.solidRestDistance * this.#lineProjector.pixels;
+    const place = particle => frame.position.subarray(3 * particle, 3 * particle + 3);
+    for (const muscle of this.#muscles) {
+      const a = place(muscle.a);
+      context.lineWidth = Math.max(1, width / Math.max(0.05, this.#lineProjector.depth(...a)));
+      context.strokeStyle = this.#changeColours[Math.round((CHANGES - 1) * (0.5 + 0.5 * muscleChange(muscle, frame)))];
+      context.beginPath();
+      addLine(context, this.#lineProjector, Array.from(a), Array.from(place(muscle.b)));
+      context.stroke();
+    }
+  }
+
+  #drawTrace() {
+    const context = this.#context;
+    const {spines, strength, slices, head, headPlaces} = this.#trace;
+    context.strokeStyle = this.#colours.ink;
+    context.lineWidth = 1;
+    for (let spine = 0; spine < SPINES; spine++) {
+      if (strength[spine] > 0) {
+        context.globalAlpha = 0.75 * strength[spine] ** 1.5;
+        this.#polyline(spines, spine * slices, slices);
+      }
+    }
+    context.globalAlpha = 0.9;
+    this.#polyline(head, 0, headPlaces);
+    context.globalAlpha = 1;
+  }
+
+  #polyline(places, first, count) {
+    const context = this.#context;
+    context.beginPath();
+    for (let i = first; i < first + count; i++) {
+      this.#lineProjector.project(places[3 * i], places[3 * i + 1], places[3 * i + 2], this.#place, 0);
+      if (this.#place[2] > 0.05) {
+        context.lineTo(this.#place[0], this.#place[1]);
+      }
+    }
+    context.stroke();
+  }
+}
+
+/** Whether any of a disc is within a canvas. */
+function isOn(canvas, x, y, radius) {
+  return x + radius > 0 && y + radius > 0 && x - radius < canvas.width && y - radius < canvas.height;
+}
+
+function css(colour) {
+  return `rgb(${colour.map(value => Math.round(255 * value)).join(' ')})`;
+}

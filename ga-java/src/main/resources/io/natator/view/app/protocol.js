@@ -1,0 +1,63 @@
+/** Binary frames of `natator-sim stream` (sim-native/protocol/stream.md): the body of a FRAM message. */
+
+/** Bytes before the activations. */
+export const HEAD_BYTES = 72;
+
+/** Numbers that each field has per particle. */
+const WIDTHS = {position: 3, velocity: 3, density: 1};
+
+const RUNNING = 1;
+const TOUCHING = 2;
+
+/** The number of the scene (SCEN) that a frame belongs to. */
+export function sceneNumber(buffer) {
+  return new DataView(buffer).getUint32(0, true);
+}
+
+/**
+ * Decodes one frame. Arrays are views into the buffer.
+ *
+ * @param {ArrayBuffer} buffer body of a FRAM
+ * @param {object} scene body of its SCEN
+ * @returns {object} frame, dropped, running, touching, time (s), wallTime (s), distance, velocity [x, y, z], momentum,
+ *     angularMomentum, densityMean, densityMax (shares of the rest density), activation (A numbers, a u), position and
+ *     velocities (3N numbers), density (N numbers); fields that the stream leaves out are null
+ * @throws {Error} if the length does not fit the scene
+ */
+export function decodeFrame(buffer, scene) {
+  const particles = scene.particles;
+  let expected = HEAD_BYTES + 4 * scene.actuators;
+  for (const field of scene.fields) {
+    expected += 4 * WIDTHS[field] * particles;
+  }
+  if (buffer.byteLength !== expected) {
+    throw new Error(`frame has ${buffer.byteLength} bytes; expected ${expected}`);
+  }
+  const view = new DataView(buffer);
+  const flags = view.getUint32(12, true);
+  const fields = {position: null, velocity: null, density: null};
+  let offset = HEAD_BYTES + 4 * scene.actuators;
+  for (const field of scene.fields) {
+    fields[field] = new Float32Array(buffer, offset, WIDTHS[field] * particles);
+    offset += 4 * WIDTHS[field] * particles;
+  }
+  return {
+    scene: view.getUint32(0, true),
+    frame: view.getUint32(4, true),
+    dropped: view.getUint32(8, true),
+    running: (flags & RUNNING) !== 0,
+    touching: (flags & TOUCHING) !== 0,
+    time: view.getFloat64(16, true),
+    wallTime: view.getFloat64(24, true),
+    distance: view.getFloat64(32, true),
+    velocity: new Float32Array(buffer, 40, 3),
+    momentum: view.getFloat32(52, true),
+    angularMomentum: view.getFloat32(56, true),
+    densityMean: view.getFloat32(60, true),
+    densityMax: view.getFloat32(64, true),
+    activation: new Float32Array(buffer, HEAD_BYTES, scene.actuators),
+    position: fields.position,
+    velocities: fields.velocity,
+    density: fields.density,
+  };
+}

@@ -1,0 +1,31 @@
+/** What was set, as files. */
+
+/** A gait as the text of a file for `--gait`. */
+export function gaitText(scene) {
+  return text(scene.gait);
+}
+
+/** A scene as the text of a file for `--scene`: what it builds on, and what differs. */
+export function sceneText(scene) {
+  const own = scene.overrides ?? {};
+  return text({base: scene.scene, ...own, ...(own.scheme === undefined ? {scheme: scene.scheme} : {})});
+}
+
+/** Lets the browser save a text. */
+export function download(name, content) {
+  const url = URL.createObjectURL(new Blob([content], {type: 'application/json'}));
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 1000);
+}
+
+/** A name for a file of this scene. */
+export function fileName(scene, kind) {
+  return `${scene.scene.split('/').at(-1).replace(/\.json$/, '')}-${kind}.json`;
+}
+
+function text(value) {
+  return `${JSON.stringify(value, null, 2)}\n`;
+}

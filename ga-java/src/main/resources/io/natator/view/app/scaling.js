@@ -1,0 +1,34 @@
+/** Round numbers for axes. */
+
+/** The least of 1, 2 and 5 times a power of ten that is at least `size`. */
+export function niceStep(size) {
+  if (!(size > 0)) {
+    return 1;
+  }
+  const power = 10 ** Math.floor(Math.log10(size));
+  const factor = [1, 2, 5, 10].find(one => one * power >= size * (1 - 1e-9));
+  return factor * power;
+}
+
+/**
+ * An axis over values from `low` to `high`: its ends on round numbers, and the places of its marks.
+ *
+ * @returns {{low: number, high: number, step: number, marks: number[]}}
+ */
+export function axis(low, high, count = 4) {
+  const span = high > low ? high - low : Math.max(Math.abs(high), 1e-6);
+  const step = niceStep(span / count);
+  const first = Math.floor(low / step + 1e-9);
+  const last = Math.max(Math.ceil(high / step - 1e-9), first + 1);
+  const marks = [];
+  for (let i = first; i <= last; i++) {
+    marks.push(i * step);
+  }
+  return {low: first * step, high: last * step, step, marks};
+}
+
+/** A number with as many digits as an axis with this step needs. */
+export function axisText(value, step) {
+  const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(step) + 1e-9)));
+  return (Math.abs(value) < step / 1e3 ? 0 : value).toFixed(digits);
+}

@@ -1,0 +1,80 @@
+/** A slider and a number that are the same setting; its error is shown beneath. */
+
+import {make} from './element.js';
+import {SUPERSEDED} from './live.js';
+
+/** The inputs of one setting. `onChange(value)` gives a promise of an error, null or SUPERSEDED. */
+export class Slider {
+  #range;
+  #number;
+  #error;
+  #onChange;
+  #pending = 0;
+
+  /** `setting` has id, label, min, max, step; numbers beyond min and max can be typed, and are for others to refuse. */
+  constructor(setting, error, onChange) {
+    const {id, label, min, max, step} = setting;
+    const shared = {min, max, step, 'aria-label': label};
+    this.#range = make('input', {type: 'range', ...shared, 'data-testid': id});
+    this.#number = make('input', {type: 'number', ...shared, step: 'any', id, 'data-testid': `${id}-number`});
+    this.#error = error;
+    this.#onChange = onChange;
+    this.#range.addEventListener('input', () => this.#changed(this.#range.value));
+    this.#number.addEventListener('change', () => this.#changed(this.#number.value));
+  }
+
+  get inputs() {
+    return [this.#range, this.#number];
+  }
+
+  get value() {
+    return Number(this.#number.value);
+  }
+
+  /** Shows what is in force, unless the user is just changing it. */
+  show(value) {
+    if (this.#pending === 0) {
+      this.#range.value = value;
+      this.#number.value = Number(value.toPrecision(6));
+      this.#fail(null);
+    }
+  }
+
+  set disabled(value) {
+    this.#range.disabled = value;
+    this.#number.disabled = value;
+  }
+
+  async #changed(text) {
+    const value = Number(text);
+    if (text === '' || !Number.isFinite(value)) {
+      this.#fail('expected a number');
+      return;
+    }
+    this.#range.value = value;
+    this.#number.value = value;
+    this.#pending++;
+    const error = await this.#onChange(value);
+    this.#pending--;
+    if (error !== SUPERSEDED) {
+      this.#fail(error);
+    }
+  }
+
+  #fail(error) {
+    this.#number.setAttribute('aria-invalid', error !== null);
+    if (error !== null || this.#error.dataset.from === this.#number.id) {
+      this.#error.textContent = error ?? '';
+      this.#error.dataset.from = error === null ? '' : this.#number.id;
+    }
+  }
+}
+
+/** A slider in a row with its label and its own error. */
+export function sliderRow(setting, onChange) {
+  const error = make('output', {className: 'error', role: 'alert', 'data-testid': `${setting.id}-error`});
+  const slider = new Slider(setting, error, onChange);
+  const label = make('label', {htmlFor: setting.id, title: setting.title ?? ''}, setting.label);
+  const row = make('div', {className: 'control'}, label, ...slider.inputs, error);
+  return {slider, row};
+}

@@ -1,0 +1,54 @@
+/** Controls of the solver's settings; all but gravity have the names and units of the scene file. */
+
+import {byId} from './element.js';
+import {sliderRow} from './sliders.js';
+
+/** What is in force where a scene does not say. */
+const DEFAULTS = {
+  substeps: 4, numIterations: 4, viscosity: 0, particleFriction: 0, dynamicFriction: 0, damping: 0, gravity: [0, -10, 0],
+};
+
+const SETTINGS = [
+  {id: 'substeps', label: 'Substeps', title: 'per frame of 1/60 s', min: 1, max: 16, step: 1},
+  {id: 'numIterations', label: 'Iterations', title: 'per substep', min: 1, max: 16, step: 1},
+  {id: 'viscosity', label: 'Viscosity', title: 'how much neighbours in the fluid take each other along', min: 0, max: 60, step: 0.5},
+  {id: 'particleFriction', label: 'Friction', title: 'between particles: particleFriction', min: 0, max: 1, step: 0.01},
+  {id: 'dynamicFriction', label: 'Wall friction', title: 'with the walls: dynamicFriction', min: 0, max: 1, step: 0.01},
+  {id: 'damping', label: 'Damping', title: '1/s', min: 0, max: 10, step: 0.1},
+  {id: 'gravity', label: 'Gravity', title: 'downwards, length/s²', min: 0, max: 20, step: 0.1},
+];
+
+/** Overrides without those that are set here, so that the scene's own hold. */
+export function withoutSettings(overrides) {
+  const {solver, ...others} = overrides ?? {};
+  const kept = Object.entries(solver ?? {}).filter(([key]) => SETTINGS.every(({id}) => id !== key));
+  return kept.length > 0 ? {...others, solver: Object.fromEntries(kept)} : others;
+}
+
+/** One slider for each setting. */
+export class SolverControls {
+  #sliders = new Map();
+  #gravity = DEFAULTS.gravity;
+
+  /** `onChange(key, patch)` sends a merge patch; a promise of an error, null or SUPERSEDED. */
+  constructor(onChange) {
+    for (const setting of SETTINGS) {
+      const {slider, row} = sliderRow(setting, value => onChange(setting.id, {solver: {[setting.id]: this.#json(setting, value)}}));
+      this.#sliders.set(setting.id, slider);
+      byId('solver').append(row);
+    }
+  }
+
+  /** Shows the settings of a scene (SCEN). */
+  show(scene) {
+    const solver = {...DEFAULTS, ...scene.definition.solver};
+    this.#gravity = solver.gravity;
+    for (const [id, slider] of this.#sliders) {
+      slider.show(id === 'gravity' ? -solver.gravity[1] : solver[id]);
+    }
+  }
+
+  #json(setting, value) {
+    return setting.id === 'gravity' ? this.#gravity.with(1, -value) : value;
+  }
+}

@@ -1,0 +1,175 @@
+/** A picture of one scene: which frame, from where, how fine; drawn with WebGL or without. */
+
+import * as THREE from 'three';
+import {CameraRig} from './cameras.js';
+import {FieldValues} from './fields.js';
+import {GlPicture, hasGraphicsCard} from './gl-picture.js';
+import {PlainPicture} from './plain-picture.js';
+import {Quality} from './quality.js';
+import {centreOf, tankBounds} from './scene.js';
+import {SpineTrace} from './trace.js';
+
+/** What can be chosen: water spheres, surface or none; colour speed, density or mass; drawing auto, webgl or plain. */
+export const DEFAULT_LOOK = {
+  water: 'spheres', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
+  drawing: 'auto',
+};
+
+/** Draws into an element when there is something new, and else does nothing. */
+export class Stage {
+  #host;
+  #picture = null;
+  #drawing = null;
+  #trace = new SpineTrace();
+  #field = new FieldValues();
+  #scene = null;
+  #frame = null;
+  #bounds = null;
+  #look = {...DEFAULT_LOOK};
+  #colours = null;
+  #quality = new Quality();
+  #forward = new THREE.Vector3();
+  #centre = [0, 0, 0];
+  #last = 0;
+  #isNew = true;
+  #share = 0;
+  #width = 0;
+  #height = 0;
+
+  /** `host` is what the picture fills, and what takes drags and keys. */
+  constructor(host) {
+    this.#host = host;
+    this.rig = new CameraRig(host);
+    this.#field.onRange = range => this.onRange(range);
+    new ResizeObserver(() => this.#resized()).observe(host);
+  }
+
+  /** Called with the ends of the water's colour scale. */
+  onRange = () => {};
+
+  /** The share of the screen's pixels that are drawn, along each side. */
+  get share() {
+    return this.#share;
+  }
+
+  /** What draws: WebGL, or the processor. */
+  get drawing() {
+    return this.#picture?.name ?? '';
+  }
+
+  /** Takes over a scene (SCEN); the next frame is one of it. */
+  setScene(scene) {
+    this.#bounds = this.#scene === null || scene.restarted ? null : this.#bounds;
+    this.#scene = scene;
+    this.#frame = scene.restarted ? null : this.#frame;
+    this.#trace.setScene(scene);
+    this.#picture?.setScene(scene);
+  }
+
+  /** Shows this frame from the next drawing on. */
+  setFrame(frame) {
+    this.#frame = frame;
+    if (this.#bounds === null) {
+      this.#bounds = tankBounds(this.#scene, frame.position);
+      this.#picture?.setBounds(this.#bounds);
+      this.rig.setBounds(this.#bounds);
+    }
+    this.#trace.update(frame);
+    this.#isNew = true;
+  }
+
+  /** What is shown; see `DEFAULT_LOOK`. */
+  setLook(look) {
+    this.#look = {...look};
+    this.#choosePicture();
+    this.#picture.setLook(this.#look);
+    this.#quality.rest();
+    this.#resized();
+    this.#isNew = true;
+  }
+
+  /** Colours as CSS: background, sky, floor, marks, edges, ink. */
+  setTheme(colours) {
+    this.#colours = colours;
+    this.#picture?.setTheme(colours);
+    this.#isNew = true;
+  }
+
+  /**
+   * Draws if the frame, the camera or the look changed.
+   *
+   * @param {number} now milliseconds
+   * @returns {boolean} whether it drew
+   */
+  draw(now) {
+    const seconds = Math.min((now - this.#last) / 1000, 0.1);
+    this.#last = now;
+    if (this.#frame === null || this.#width === 0) {
+      return false;
+    }
+    const {body} = this.#scene;
+    this.rig.setBody(body.length > 0 ? centreOf(body, this.#frame.position, this.#centre) : null);
+    this.rig.update(seconds, this.#width / this.#height);
+    if (!this.#isNew && !this.rig.hasMoved) {
+      this.#quality.rest();
+      return false;
+    }
+    this.#isNew = false;
+    this.rig.hasMoved = false;
+    const {camera} = this.rig;
+    camera.updateMatrixWorld();
+    const from = this.#look.cut ? this.rig.depthOfBody(camera.getWorldDirection(this.#forward)) : -Infinity;
+    const began = performance.now();
+    this.#picture.draw(this.#frame, camera, from);
+    const milliseconds = this.#picture.isDoneAtOnce ? performance.now() - began : Infinity;
+    if (this.#look.quality === 'auto' && this.#quality.drawn(now / 1000, milliseconds)) {
+      this.#resized();
+    }
+    return true;
+  }
+
+  #choosePicture() {
+    const wanted = this.#look.drawing === 'auto' ? hasGraphicsCard() ? 'webgl' : 'plain' : this.#look.drawing;
+    if (this.#picture !== null && wanted === this.#drawing) {
+      return;
+    }
+    this.#picture?.dispose();
+    const canvas = document.createElement('canvas');
+    this.#host.replaceChildren(canvas);
+    this.#drawing = wanted;
+    try {
+      this.#picture = new (wanted === 'webgl' ? GlPicture : PlainPicture)(canvas, this.#trace, this.#field);
+    } catch (error) {
+      console.warn(`without WebGL: ${error.message}`);
+      this.#host.replaceChildren(canvas.cloneNode());
+      this.#picture = new PlainPicture(this.#host.firstChild, this.#trace, this.#field);
+    }
+    this.#share = 0;
+    this.#picture.setLook(this.#look);
+    if (this.#colours !== null) {
+      this.#picture.setTheme(this.#colours);
+    }
+    if (this.#scene !== null) {
+      this.#picture.setScene(this.#scene);
+    }
+    if (this.#bounds !== null) {
+      this.#picture.setBounds(this.#bounds);
+    }
+  }
+
+  #resized() {
+    const width = this.#host.clientWidth;
+    const height = this.#host.clientHeight;
+    const share = this.#look.quality === 'auto' ? this.#quality.share : Number(this.#look.quality);
+    const isSame = width === this.#width && height === this.#height && share === this.#share;
+    if (width === 0 || height === 0 || this.#picture === null) {
+      this.#width = 0;
+    } else if (!isSame) {
+      this.#width = width;
+      this.#height = height;
+      this.#share = share;
+      this.#picture.setSize(width, height, share, this.rig.camera.fov);
+      this.#isNew = true;
+    }
+  }
+}

@@ -1,0 +1,66 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import picocli.CommandLine;
+
+/** {@code natator page} with the real simulator. */
+class PageCommandTest {
+
+    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+
+    @TempDir
+    private Path folder;
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    private int natator(String... arguments) {
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
+        List<String> all = new ArrayList<>(List.of(arguments));
+        all.addAll(1, List.of("--simulator-path", SIMULATOR.toString()));
+        return command.execute(all.toArray(String[]::new));
+    }
+
+    @Test
+    void fourSecondsWithWaterAreBelowTenMegabytes() throws IOException {
+        Path gait = Files.writeString(folder.resolve("gait.json"),
+                "{\"frequency\":1.861,\"amplitude\":[0.973,0.69],\"phase\":[0,0.648]}");
+        Path page = folder.resolve("page.html");
+
+        assertThat(natator("page", "thesis/creature-1", "--gait", gait.toString(), "--duration", "4", "--output",
+                page.toString())).as(err.toString()).isZero();
+
+        assertThat(Files.size(page)).isBetween(1_000_000L, 10_000_000L);
+        assertThat(out.toString()).startsWith(page + ": ").contains(" MB, 60 frames a second, water to 3e-05");
+    }
+
+    @Test
+    void theBestOfARun() throws IOException {
+        Path run = folder.resolve("run");
+        assertThat(natator("evolve", "--population", "6", "--generations", "1", "--duration", "0.1", "--output-dir",
+                run.toString())).as(err.toString()).isZero();
+        Path page = folder.resolve("page.html");
+
+        assertThat(natator("page", run.toString(), "--best", "2", "--no-water", "--output", page.toString()))
+                .as(err.toString()).isZero();
+
+        assertThat(Files.readString(page).split("class=\"swim\" data-title=\"run: ", -1)).hasSize(3);
+    }
+
+    @Test
+    void badInput() {
+        assertThat(natator("page", "thesis/creature-1", "--best", "0")).isEqualTo(2);
+        assertThat(natator("page", "thesis/creature-1", "--max-size", "0")).isEqualTo(2);
+        assertThat(natator("page", "no/such", "--duration", "0.1")).isEqualTo(2);
+        assertThat(err.toString()).contains("--best is 0; expected").contains("--max-size is 0.0; expected").contains("no/such");
+    }
+}
