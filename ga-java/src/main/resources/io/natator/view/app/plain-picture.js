@@ -102,10 +102,10 @@ export class PlainPicture {
   /** The size in CSS pixels, and the share of them that spheres are drawn with along each side. */
   setSize(width, height, share) {
     const ratio = Math.min(devicePixelRatio, 1);
-    this.#canvas.width = Math.round(width * ratio);
-    this.#canvas.height = Math.round(height * ratio);
-    this.#layerCanvas.width = Math.round(width * ratio * share);
-    this.#layerCanvas.height = Math.round(height * ratio * share);
+    this.#canvas.width = Math.round(width * ratio * share);
+    this.#canvas.height = Math.round(height * ratio * share);
+    this.#layerCanvas.width = this.#canvas.width;
+    this.#layerCanvas.height = this.#canvas.height;
     this.#layer.setSize(this.#layerCanvas.width, this.#layerCanvas.height);
     this.#surfaceCanvas.width = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.width));
     this.#surfaceCanvas.height = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.height));
