@@ -47,11 +47,8 @@ final class EvolveCommand implements Callable<Integer> {
     @Mixin
     private CacheOptions cacheOptions;
 
-    @Option(names = "--creature", paramLabel = "1..4", description = "Creature of the thesis. Default: 1.")
-    private Integer creature;
-
-    @Option(names = "--scene", paramLabel = "NAME|FILE", description = "Default: thesis/creature-N.")
-    private String scene;
+    @Mixin
+    private SceneChoice choice;
 
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "${sys:natator.preset:-thesis}",
             description = "Population and generations: quick (24 x 8) or thesis (150 x 100). Default: ${DEFAULT-VALUE}.")
@@ -143,7 +140,7 @@ final class EvolveCommand implements Callable<Integer> {
     }
 
     private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
-        String sceneName = sceneName();
+        String sceneName = choice.scene(spec);
         int actuators = SceneInfo.of(sceneName, sceneOptions.overrides(), execution.simulator()).actuators();
         EncodingKind kind = encoding != null ? encoding : EncodingKind.usualFor(sceneName);
         try {
@@ -162,16 +159,6 @@ final class EvolveCommand implements Callable<Integer> {
     private int generations() {
         return generations != null ? generations
                 : evaluations != null ? EvolutionSettings.NO_LIMIT : preset.generations();
-    }
-
-    private String sceneName() {
-        if (creature != null && scene != null) {
-            throw new ParameterException(spec.commandLine(), "--creature and --scene exclude each other");
-        }
-        if (creature != null && (creature < 1 || creature > 4)) {
-            throw new InvalidInputException("--creature is " + creature + "; expected 1, 2, 3 or 4");
-        }
-        return scene != null ? SceneOptions.scene(scene) : "thesis/creature-" + (creature != null ? creature : 1);
     }
 
     /** runs/creature-1-seed-7, or with -2, -3 … if that is taken. */

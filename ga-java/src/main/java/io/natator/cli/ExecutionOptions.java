@@ -4,9 +4,8 @@ import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
-import io.natator.simulator.SimulatorLocator;
-import java.nio.file.Path;
 import java.time.Duration;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 /** Options that say how evaluations are carried out. */
@@ -33,9 +32,8 @@ final class ExecutionOptions {
             + "Default: what follows from the scene's cost, for the thesis' scenes two minutes.")
     private Double timeoutSeconds;
 
-    @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
-            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else build/release/bin/natator-sim.")
-    private Path simulatorPath;
+    @Mixin
+    private SimulatorOption simulator;
 
     /** The backend that was asked for, or null. */
     Backend backend() {
@@ -53,7 +51,7 @@ final class ExecutionOptions {
                     + "; expected a number of seconds above 0");
         }
         Backend chosen = backend != null ? backend : otherwise;
-        return new ExecutionSettings(SimulatorLocator.locate(simulatorPath),
+        return new ExecutionSettings(simulator.path(),
                 mode != null ? mode : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS, chosen,
                 device, workers != null ? workers : Runtime.getRuntime().availableProcessors(),
                 timeoutSeconds == null ? null

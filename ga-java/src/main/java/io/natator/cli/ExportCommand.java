@@ -6,7 +6,6 @@ import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.export.Export;
 import io.natator.export.ExportFormat;
-import io.natator.simulator.SimulatorLocator;
 import io.natator.stream.StreamField;
 import io.natator.stream.StreamOptions;
 import java.nio.file.Path;
@@ -71,16 +70,15 @@ final class ExportCommand implements Callable<Integer> {
             description = "What the simulator computes in: float (default) or double. Files hold floats.")
     private String precision;
 
-    @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
-            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else build/release/bin/natator-sim.")
-    private Path simulatorPath;
+    @Mixin
+    private SimulatorOption simulatorOption;
 
     @Override
     public Integer call() throws InterruptedException {
         if (every < 1) {
             throw new InvalidInputException("--every is " + every + "; expected a whole number from 1");
         }
-        Path simulator = SimulatorLocator.locate(simulatorPath);
+        Path simulator = simulatorOption.path();
         Swimmer swimmer = Swimmer.of(source, generation, gait);
         JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
         Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme();

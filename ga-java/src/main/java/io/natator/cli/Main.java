@@ -7,7 +7,8 @@ import picocli.CommandLine.Command;
 @Command(name = "natator", description = "Evolves and evaluates gaits of swimming soft bodies.",
         subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, ShowCommand.class,
             CompareCommand.class, CompareOptimizersCommand.class, CompareFlexCommand.class,
-            ReportCommand.class, ExportCommand.class, PageCommand.class, ReproduceCommand.class, PlotCommand.class},
+            ReportCommand.class, ViewCommand.class, PageCommand.class, ExportCommand.class, ReproduceCommand.class,
+            PlotCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})

@@ -10,7 +10,6 @@ import io.natator.share.RecordedSwim;
 import io.natator.share.ReplayPage;
 import io.natator.share.SwimRecorder;
 import io.natator.simulator.SimulationResult;
-import io.natator.simulator.SimulatorLocator;
 import io.natator.stream.StreamOptions;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -66,9 +65,8 @@ final class PageCommand implements Callable<Integer> {
     @Option(names = "--no-water", description = "Only the body.")
     private boolean noWater;
 
-    @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "
-            + "the environment variable " + SimulatorLocator.VARIABLE + " names, else build/release/bin/natator-sim.")
-    private Path simulatorPath;
+    @Mixin
+    private SimulatorOption simulatorOption;
 
     @Override
     public Integer call() throws InterruptedException {
@@ -78,7 +76,7 @@ final class PageCommand implements Callable<Integer> {
         if (!(maxSize > 0) || Double.isInfinite(maxSize)) {
             throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes above 0");
         }
-        Path simulator = SimulatorLocator.locate(simulatorPath);
+        Path simulator = simulatorOption.path();
         List<RecordedSwim> swims = new ArrayList<>();
         for (String source : sources) {
             for (Swimmer swimmer : swimmers(source)) {

@@ -19,9 +19,18 @@ public final class Swimming implements LateralMotion {
      * @param path all frames count, those of setting off too, as in the thesis
      */
     public Swimming(SpinePath path) {
+        this(path, path.restLength());
+    }
+
+    /**
+     * Takes the motion out of a part of a path, in which the body is not straight at first.
+     *
+     * @param length of the body at rest, above 0
+     */
+    public Swimming(SpinePath path, double length) {
         times = path.times().clone();
         spines = Stream.of(path.centres()).map(Spine::of).toList();
-        length = path.restLength();
+        this.length = length;
         measuredLength = Math.max(spines.stream().mapToDouble(Spine::length).min().orElseThrow(), length / 10);
     }
 

@@ -15,10 +15,17 @@ import java.util.List;
  * @param version        version of its source
  * @param instructionSet kernels that it uses on this processor
  * @param devices        GPUs, by number
+ * @param scenes         names of the scenes that come with it
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 public record ProgramInfo(@JsonProperty(required = true) String version,
-        @JsonProperty(required = true) String instructionSet, @JsonProperty(required = true) List<String> devices) {
+        @JsonProperty(required = true) String instructionSet, @JsonProperty(required = true) List<String> devices,
+        List<String> scenes) {
+
+    /** Copies the scenes. */
+    public ProgramInfo {
+        scenes = scenes == null ? List.of() : List.copyOf(scenes);
+    }
 
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
 

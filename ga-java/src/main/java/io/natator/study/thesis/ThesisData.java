@@ -83,6 +83,12 @@ public record ThesisData(@JsonProperty(required = true) List<String> about,
         return "thesis/creature-" + creature;
     }
 
+    /** The gait of the creature in one of the thesis' scenes, of several the last; null for any other scene. */
+    public Gait gaitIn(String scene) {
+        return gaits.stream().filter(one -> scene.replaceFirst("-vacuum$", "").equals(scene(one.creature())))
+                .map(PublishedGait::gait).reduce((first, last) -> last).orElse(null);
+    }
+
     /** The gait of a name. */
     public PublishedGait gait(String name) {
         return gaits.stream().filter(gait -> gait.name().equals(name)).findFirst().orElseThrow();

@@ -1,0 +1,32 @@
+package io.natator.cli;
+
+import io.natator.config.InvalidInputException;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+
+/** Options that choose one scene. */
+final class SceneChoice {
+
+    @Option(names = "--creature", paramLabel = "1..4", description = "Creature of the thesis. Default: 1.")
+    private Integer creature;
+
+    @Option(names = "--scene", paramLabel = "NAME|FILE", description = "Default: thesis/creature-N.")
+    private String scene;
+
+    /** Whether either was given. */
+    boolean isGiven() {
+        return creature != null || scene != null;
+    }
+
+    /** The scene as {@link SceneOptions#scene} has it. */
+    String scene(CommandSpec command) {
+        if (creature != null && scene != null) {
+            throw new ParameterException(command.commandLine(), "--creature and --scene exclude each other");
+        }
+        if (creature != null && (creature < 1 || creature > 4)) {
+            throw new InvalidInputException("--creature is " + creature + "; expected 1, 2, 3 or 4");
+        }
+        return scene != null ? SceneOptions.scene(scene) : "thesis/creature-" + (creature != null ? creature : 1);
+    }
+}

@@ -1,0 +1,77 @@
+package io.natator.view;
+
+import io.javalin.websocket.WsConfig;
+import io.javalin.websocket.WsContext;
+import java.nio.file.Path;
+import java.util.Map;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.Semaphore;
+import java.util.concurrent.TimeUnit;
+import org.eclipse.jetty.websocket.api.StatusCode;
+
+/** All sockets, each with a session of its own, and no more than {@value #MOST_SESSIONS} at a time. */
+final class StreamSockets implements AutoCloseable {
+
+    static final int MOST_SESSIONS = 4;
+    /** A page that is loaded anew opens its socket before the end of the old one is noticed. */
+    private static final long PATIENCE_SECONDS = 1;
+    private static final long PING_SECONDS = 15;
+
+    private final Path simulator;
+    private final Set<String> files;
+    private final Map<String, StreamSession> sessions = new ConcurrentHashMap<>();
+    private final Semaphore free = new Semaphore(MOST_SESSIONS, true);
+    private final ExecutorService analysts = Executors.newSingleThreadExecutor(task -> {
+        Thread thread = new Thread(task, "view-analysis");
+        thread.setDaemon(true);
+        return thread;
+    });
+
+    /** See {@link StreamSession}. */
+    StreamSockets(Path simulator, Set<String> files) {
+        this.simulator = simulator;
+        this.files = files;
+    }
+
+    /** What happens at a socket. */
+    void handle(WsConfig socket) {
+        socket.onConnect(this::open);
+        socket.onMessage(message -> {
+            StreamSession session = sessions.get(message.sessionId());
+            if (session != null) {
+                session.receive(message.message());
+            }
+        });
+        socket.onBinaryMessage(message ->
+                message.closeSession(StatusCode.BAD_DATA, "expected text"));
+        socket.onClose(this::end);
+        socket.onError(this::end);
+    }
+
+    private void open(WsContext context) throws InterruptedException {
+        if (!free.tryAcquire(PATIENCE_SECONDS, TimeUnit.SECONDS)) {
+            context.closeSession(StatusCode.TRY_AGAIN_LATER, MOST_SESSIONS + " simulations run already; close a page");
+            return;
+        }
+        // Tells a page that is paused from one that has gone.
+        context.enableAutomaticPings(PING_SECONDS, TimeUnit.SECONDS);
+        sessions.put(context.sessionId(), new StreamSession(context.session, simulator, files, analysts));
+    }
+
+    private void end(WsContext context) {
+        StreamSession session = sessions.remove(context.sessionId());
+        if (session != null) {
+            session.close();
+            free.release();
+        }
+    }
+
+    @Override
+    public void close() {
+        sessions.values().forEach(StreamSession::close);
+        analysts.shutdownNow();
+    }
+}

@@ -1,0 +1,151 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import io.natator.simulator.FakeSimulator;
+import java.io.BufferedReader;
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.net.ServerSocket;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse.BodyHandlers;
+import java.net.http.WebSocket;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionStage;
+import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import picocli.CommandLine;
+
+/** {@code natator view} from the command line to its end; the simulator is the real one. */
+@Timeout(value = 120, unit = TimeUnit.SECONDS)
+class ViewCommandTest {
+
+    private static final String SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize().toString();
+
+    @TempDir
+    private Path folder;
+    private Process program;
+
+    @AfterEach
+    void end() {
+        if (program != null) {
+            program.destroyForcibly();
+        }
+    }
+
+    /** Starts the program and reads the address that it prints. */
+    private URI start(String... arguments) throws IOException {
+        List<String> command = new ArrayList<>(List.of(
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-XX:TieredStopAtLevel=1",
+                "-XX:-UsePerfData", "-XX:+UseSerialGC", "-cp", System.getProperty("java.class.path"),
+                Main.class.getName(), "view", "--simulator-path", SIMULATOR, "--port", "0", "--no-browser"));
+        command.addAll(List.of(arguments));
+        program = new ProcessBuilder(command).redirectError(folder.resolve("errors").toFile()).start();
+        BufferedReader out = program.inputReader();
+        String address = out.readLine();
+        assertThat(address).as(Files.readString(folder.resolve("errors"))).matches("http://127\\.0\\.0\\.1:\\d+/");
+        return URI.create(address);
+    }
+
+    private static JsonNode start(URI server) throws IOException, InterruptedException {
+        return Json.parse(HttpClient.newHttpClient().send(
+                HttpRequest.newBuilder(server.resolve("/api/setup")).build(), BodyHandlers.ofString()).body(),
+                JsonNode.class).get("start");
+    }
+
+    /** As by Ctrl-C or by the system's end. */
+    @Test
+    void whenToldToEndItLeavesNothingBehind() throws IOException, InterruptedException {
+        URI server = start("--creature", "1");
+        for (int i = 0; i < 2; i++) {
+            watch(server);
+        }
+        List<ProcessHandle> simulators = program.descendants().toList();
+        assertThat(simulators).hasSize(2);
+
+        program.destroy();
+
+        assertThat(program.waitFor(10, TimeUnit.SECONDS)).as("it ends in time").isTrue();
+        assertThat(program.exitValue()).isEqualTo(128 + 15);
+        assertThat(simulators).noneMatch(ProcessHandle::isAlive);
+        assertThat(Files.readString(folder.resolve("errors"))).isEmpty();
+    }
+
+    /** Opens a socket and waits until its simulator has said something. */
+    private static void watch(URI server) {
+        CompletableFuture<Void> heard = new CompletableFuture<>();
+        WebSocket socket = HttpClient.newHttpClient().newWebSocketBuilder()
+                .header("Origin", "http://" + server.getAuthority())
+                .buildAsync(URI.create("ws://" + server.getAuthority() + "/stream"), new WebSocket.Listener() {
+                    @Override
+                    public CompletionStage<?> onText(WebSocket one, CharSequence data, boolean last) {
+                        heard.complete(null);
+                        one.request(1);
+                        return null;
+                    }
+                }).join();
+        socket.sendText("{\"do\":\"start\",\"scene\":\"thesis/creature-1\"}", true).join();
+        heard.orTimeout(60, TimeUnit.SECONDS).join();
+    }
+
+    @Test
+    void aThesisCreatureSwimsAsPublished() throws IOException, InterruptedException {
+        JsonNode start = start(start("--creature", "2", "--scheme", "conserving"));
+
+        assertThat(start.get("scene").textValue()).isEqualTo("thesis/creature-2");
+        assertThat(start.get("overrides").toString()).isEqualTo("{\"scheme\":\"conserving\"}");
+        assertThat(start.get("gait").get("frequency").asDouble()).isEqualTo(1.338);
+        assertThat(start.get("gait").get("phase").get(1).asDouble()).isEqualTo(0.862);
+    }
+
+    @Test
+    void ofARunTheBestSwims() throws IOException, InterruptedException {
+        Path run = folder.resolve("run");
+        assertThat(EvolvedRuns.evolve(FakeSimulator.in(folder), run)).isZero();
+
+        JsonNode start = start(start("--run", run.toString()));
+
+        JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class);
+        assertThat(start.get("gait")).isEqualTo(best.get("gait"));
+        assertThat(start.get("overrides").toString()).isEqualTo("{\"scheme\":\"conserving\"}");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "--port 70000|2|natator view: --port is 70000; expected a whole number from 0 to 65535",
+        "--creature 5|2|natator view: --creature is 5; expected 1, 2, 3 or 4",
+        "--scene no/such|2|natator view: scene no/such: ",
+        "--scene no/such.json|2|natator view: --scene is no/such.json; expected a named scene or an existing file",
+        "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
+        "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
+        "--host no-such-host.invalid|1|natator view: cannot listen at port 0 of no-such-host.invalid; ",
+        "--port TAKEN|1|natator view: cannot listen at port "})
+    void whatIsWrongIsOneLine(String arguments, int status, String message) throws IOException {
+        StringWriter err = new StringWriter();
+        CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
+        try (ServerSocket taken = new ServerSocket(0)) {
+            List<String> all = new ArrayList<>(List.of("view", "--simulator-path", SIMULATOR, "--no-browser"));
+            all.addAll(List.of(arguments.replace("TAKEN", "" + taken.getLocalPort()).split(" ")));
+            if (!arguments.startsWith("--port")) {
+                all.addAll(List.of("--port", "0"));
+            }
+            assertThat(command.execute(all.toArray(String[]::new))).as(err.toString()).isEqualTo(status);
+        }
+        assertThat(err.toString()).startsWith(message);
+        assertThat(err.toString().lines()).hasSize(1);
+    }
+}

@@ -1,0 +1,291 @@
+package io.natator.view;
+
+import static io.natator.view.ViewFixture.GAIT;
+import static io.natator.view.ViewFixture.SCENE;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.simulator.Processes;
+import java.nio.ByteBuffer;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+/** What goes on at a page's socket, with the real simulator behind it. */
+@Timeout(value = 180, unit = TimeUnit.SECONDS)
+class StreamSocketTest {
+
+    private static ViewServer server;
+    private final List<StreamClient> clients = new ArrayList<>();
+
+    @BeforeAll
+    static void start() throws InterruptedException {
+        server = ViewFixture.server();
+    }
+
+    @AfterAll
+    static void stop() {
+        server.close();
+    }
+
+    /** A page that goes takes its simulator along. */
+    @AfterEach
+    void nothingRunsOn() throws InterruptedException {
+        clients.forEach(StreamClient::close);
+        ViewFixture.await("end of all simulators",
+                () -> ViewFixture.simulators(ProcessHandle.current()).isEmpty());
+        Processes.assertThatNoChildIsLeft();
+    }
+
+    private StreamClient open() {
+        clients.add(StreamClient.open(server.address()));
+        return clients.get(clients.size() - 1);
+    }
+
+    private StreamClient openStarted(boolean paused) throws InterruptedException {
+        StreamClient page = open().start(SCENE, GAIT, paused);
+        assertThat(page.await("SCEN").get("scene").textValue()).isEqualTo(SCENE);
+        return page;
+    }
+
+    private static long number(ByteBuffer frame) {
+        return Integer.toUnsignedLong(frame.getInt(4));
+    }
+
+    @Test
+    void framesComeAsTheSimulatorWroteThem() throws InterruptedException {
+        StreamClient page = open().start(SCENE, GAIT, true);
+        JsonNode scene = page.await("SCEN");
+
+        page.send("{'do':'credit','frames':3,'id':7}");
+        assertThat(page.await("ANSW").toString()).isEqualTo("{\"id\":7,\"ok\":true}");
+        page.send("{'do':'step','frames':2}").send("{'do':'step','frames':1}");
+
+        assertThat(scene.get("gait").get("frequency").asDouble()).isEqualTo(1.5);
+        assertThat(scene.get("restarted").asBoolean()).isTrue();
+        int size = 72 + 4 * scene.get("actuators").asInt() + 28 * scene.get("particles").asInt();
+        ByteBuffer frame = page.awaitFrame();
+        while (number(frame) < 2) {
+            frame = page.awaitFrame();
+        }
+        assertThat(frame.remaining()).isEqualTo(size);
+        assertThat(frame.getInt(0)).isEqualTo(scene.get("number").asInt());
+        assertThat(frame.getDouble(16)).isCloseTo(2 * scene.get("timeStep").asDouble(), within(1e-9));
+        assertThat(number(page.awaitFrame())).isEqualTo(3);
+    }
+
+    @Test
+    void noMoreFramesComeThanWereGranted() throws InterruptedException {
+        StreamClient page = openStarted(true);
+
+        page.send("{'do':'credit','frames':1}").send("{'do':'step','frames':5,'id':1}").send("{'do':'step','id':2}");
+        while (page.await("ANSW").path("id").asInt() != 2) {
+            // Those of the commands before.
+        }
+        page.awaitFrame();
+        for (int i = 3; i < 8; i++) {
+            page.send("{'do':'step','frames':1,'id':" + i + "}");
+            assertThat(page.await("ANSW").get("ok").asBoolean()).isTrue();
+        }
+
+        assertThat(page.waitingFrames()).isZero();
+        page.send("{'do':'credit','frames':1}").send("{'do':'step','frames':1}");
+        ByteBuffer frame = page.awaitFrame();
+        assertThat(Integer.toUnsignedLong(frame.getInt(8))).as("dropped and counted").isPositive();
+        assertThat(page.waitingFrames()).isZero();
+    }
+
+    /** A thousand frames are over a hundred megabytes: they wait in the simulator, which stands still meanwhile. */
+    @Test
+    void aPageThatTakesNothingCostsNoMemory() throws InterruptedException {
+        StreamClient page = StreamClient.openSlow(server.address());
+        clients.add(page);
+        long before = usedMemory();
+
+        page.start("thesis/creature-1", GAIT, false).send("{'do':'rate','value':0}")
+                .send("{'do':'credit','frames':1000}");
+        ViewFixture.await("start", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
+        ProcessHandle simulator = ViewFixture.simulator();
+        Duration[] last = {Duration.ZERO};
+        long[] since = {System.nanoTime()};
+        ViewFixture.await("the simulator to stand still", () -> {
+            Duration now = simulator.info().totalCpuDuration().orElseThrow();
+            if (!now.equals(last[0])) {
+                last[0] = now;
+                since[0] = System.nanoTime();
+            }
+            return now.toMillis() > 100 && System.nanoTime() - since[0] > 1_500_000_000L;
+        });
+
+        assertThat(usedMemory() - before).as("bytes more in use").isLessThan(30_000_000);
+        page.wake();
+        long sent = 0;
+        for (int i = 0; i < 300; i++) {
+            sent += page.awaitFrame().remaining();
+        }
+        assertThat(sent).isGreaterThan(45_000_000);
+    }
+
+    private static long usedMemory() {
+        Runtime runtime = Runtime.getRuntime();
+        System.gc();
+        return runtime.totalMemory() - runtime.freeMemory();
+    }
+
+    @Test
+    void theMotionIsMeasured() throws InterruptedException {
+        StreamClient page = openStarted(false);
+        page.send("{'do':'credit','frames':1000}");
+
+        JsonNode analysis = page.await("ANALYSIS");
+
+        assertThat(analysis.get("frequency").asDouble()).isEqualTo(1.5);
+        assertThat(analysis.get("frames").asInt()).isBetween(8, 60);
+        assertThat(analysis.get("envelope")).hasSize(25);
+        assertThat(analysis.get("envelope").get(24).get(0).asDouble()).isBetween(0.5, 1.1);
+        assertThat(analysis.get("envelope").get(24).get(1).asDouble()).isBetween(0.005, 0.5);
+        assertThat(analysis.get("modes")).extracting(mode -> mode.get("name").textValue())
+                .containsExactly("anguilliform", "carangiform", "thunniform");
+        assertThat(analysis.get("modes").get(0).get("e").asDouble()).isBetween(0.0, 1.0);
+        assertThat(analysis.get("modes").get(0).get("envelope")).hasSize(25);
+    }
+
+    @Test
+    void aKilledSimulatorIsReplaced() throws InterruptedException {
+        StreamClient page = openStarted(false);
+        page.send("{'do':'overrides','overrides':{'solver':{'gravity':[0,-0.5,0]}},'id':1}");
+        assertThat(page.await("SCEN").get("overrides").toString()).contains("-0.5");
+        page.send("{'do':'rate','value':0.5}").send("{'do':'credit','frames':1000}");
+        ByteBuffer frame = page.awaitFrame();
+        while (number(frame) < 20) {
+            frame = page.awaitFrame();
+        }
+
+        ProcessHandle first = ViewFixture.simulator();
+        first.destroyForcibly();
+
+        JsonNode lost = page.await("LOST");
+        assertThat(lost.get("restarted").asBoolean()).isTrue();
+        assertThat(lost.get("reason").textValue()).contains("simulator").contains("exit status 137");
+        JsonNode scene = page.await("SCEN");
+        assertThat(scene.get("overrides").toString()).contains("-0.5");
+        assertThat(scene.get("gait").get("frequency").asDouble()).isEqualTo(1.5);
+        page.send("{'do':'credit','frames':2}");
+        while (number(frame) >= 20) {
+            frame = page.awaitFrame();
+        }
+        assertThat(number(page.awaitFrame())).as("it goes on").isGreaterThan(number(frame));
+        assertThat(page.waitingFrames()).as("the credit of before is gone").isZero();
+        assertThat(ViewFixture.simulator().pid()).isNotEqualTo(first.pid());
+    }
+
+    @Test
+    void aSimulatorThatDiesTooOftenIsLeftAlone() throws InterruptedException {
+        StreamClient page = openStarted(true);
+        for (int i = 1; i <= 4; i++) {
+            ViewFixture.simulator().destroyForcibly();
+            assertThat(page.await("LOST").get("restarted").asBoolean()).as("after %d deaths", i).isEqualTo(i < 4);
+            if (i < 4) {
+                page.await("SCEN");
+            }
+        }
+        page.send("{'do':'run','id':9}");
+        assertThat(page.await("ANSW").toString()).contains("\"id\":9", "no simulation runs");
+
+        page.start(SCENE, GAIT, true);
+        assertThat(page.await("SCEN").get("restarted").asBoolean()).isTrue();
+    }
+
+    @Test
+    void aPausedSimulatorIsReplacedByAPausedOne() throws InterruptedException {
+        StreamClient page = openStarted(false);
+        page.send("{'do':'pause'}").send("{'do':'credit','frames':5,'id':1}");
+        page.await("ANSW");
+        ViewFixture.simulator().destroyForcibly();
+        page.await("LOST");
+        page.await("SCEN");
+
+        page.send("{'do':'credit','frames':2}").send("{'do':'step','frames':1,'id':2}");
+        ByteBuffer frame = page.awaitFrame();
+        while (number(frame) != 1) {
+            frame = page.awaitFrame();
+        }
+        assertThat(frame.getInt(12) & 1).as("running").isZero();
+    }
+
+    @Test
+    void theFifthSimulationIsRefused() throws InterruptedException {
+        for (int i = 0; i < 4; i++) {
+            openStarted(true);
+        }
+
+        assertThat(open().awaitClose()).isEqualTo("1013 4 simulations run already; close a page");
+        assertThat(ViewFixture.simulators(ProcessHandle.current())).hasSize(4);
+
+        clients.get(0).close();
+        ViewFixture.await("the end of one", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 3);
+        openStarted(true);
+    }
+
+    @Test
+    void aMessageThatIsTooLongClosesTheSocket() throws InterruptedException {
+        StreamClient page = openStarted(true);
+        page.send("{'do':'pause','id':1,'x':'" + "y".repeat(60_000) + "'}");
+        page.await("ANSW");
+
+        page.send("{'do':'pause','id':2,'x':'" + "y".repeat(70_000) + "'}");
+
+        assertThat(page.awaitClose()).startsWith("1009 ");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "{|command: ",
+        "[]|command: expected an object with a text \"do\"",
+        "{'do':7}|command: expected an object with a text \"do\"",
+        "{'do':'run','do':'pause'}|command: Duplicate",
+        "{'do':'run'}|run: no simulation runs; expected start",
+        "{'do':'start'}|scene: expected a named scene",
+        "{'do':'start','scene':'/etc/passwd.json'}|scene: expected a named scene",
+        "{'do':'start','scene':'../creatures/creature-1'}|scene: expected a named scene",
+        "{'do':'start','scene':'--help'}|scene: expected a named scene",
+        "{'do':'start','scene':'thesis/tank','gait':'/etc/passwd'}|gait: expected an object",
+        "{'do':'start','scene':'thesis/tank','overrides':'x.json'}|overrides: expected an object",
+        "{'do':'scene','scene':'/etc/hosts.json'}|scene: expected a named scene",
+        "{'do':'overrides','overrides':{'creature':{'name':'/etc/hosts.json'}}}|overrides.creature.name: expected"})
+    void aCommandThatIsNoneIsAnswered(String command, String error) throws InterruptedException {
+        JsonNode answer = open().send(command).await("ANSW");
+
+        assertThat(answer.get("error").textValue()).contains(error).doesNotContain("\n", "Exception");
+        assertThat(answer.has("id")).isTrue();
+    }
+
+    @Test
+    void whatTheSimulatorRefusesAtTheStartIsTold() throws InterruptedException {
+        StreamClient page = open().start("thesis/no-such", GAIT, true);
+        JsonNode lost = page.await("LOST");
+
+        assertThat(lost.get("restarted").asBoolean()).isFalse();
+        assertThat(lost.get("reason").textValue()).contains("unknown scene \"thesis/no-such\"");
+        page.start(SCENE, GAIT, true);
+        page.await("SCEN");
+        assertThat(page.start(SCENE, GAIT, true).await("ANSW").get("error").textValue()).contains("expected scene");
+    }
+
+    @Test
+    void binaryMessagesAreRefused() throws InterruptedException {
+        StreamClient page = openStarted(true);
+        page.sendBinary();
+
+        assertThat(page.awaitClose()).isEqualTo("1003 expected text");
+    }
+}

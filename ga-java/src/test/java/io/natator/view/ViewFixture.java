@@ -1,0 +1,49 @@
+package io.natator.view;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.encoding.Gait;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.function.BooleanSupplier;
+
+/** Servers with the real simulator, and its processes. */
+final class ViewFixture {
+
+    static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+    /** Without water: it starts and steps in no time. */
+    static final String SCENE = "thesis/creature-1-vacuum";
+    static final String GAIT = "{'frequency':1.5,'amplitude':[0.9,0.6],'phase':[0,0.6]}";
+    private static final int PATIENCE_SECONDS = 60;
+
+    private ViewFixture() {
+    }
+
+    /** A server on a free port of this machine alone. */
+    static ViewServer server(Path... runs) throws InterruptedException {
+        assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
+        return new ViewServer(new ViewSettings(SIMULATOR, ViewSettings.LOOPBACK, 0,
+                new Start(SCENE, null, new Gait(1.5, List.of(0.9, 0.6), List.of(0.0, 0.6))), List.of(runs)));
+    }
+
+    /** Simulators among the descendants of a process. */
+    static List<ProcessHandle> simulators(ProcessHandle of) {
+        return of.descendants().filter(child -> child.info().command().orElse("").endsWith("natator-sim")).toList();
+    }
+
+    /** The only simulator of this process. */
+    static ProcessHandle simulator() {
+        List<ProcessHandle> all = simulators(ProcessHandle.current());
+        assertThat(all).hasSize(1);
+        return all.get(0);
+    }
+
+    /** Waits until something holds. */
+    static void await(String what, BooleanSupplier holds) throws InterruptedException {
+        long end = System.nanoTime() + PATIENCE_SECONDS * 1_000_000_000L;
+        while (!holds.getAsBoolean()) {
+            assertThat(System.nanoTime()).as("%s within %d s", what, PATIENCE_SECONDS).isLessThan(end);
+            Thread.sleep(10);
+        }
+    }
+}
