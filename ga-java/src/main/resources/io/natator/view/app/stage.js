@@ -52,7 +52,7 @@ export class Stage {
     return this.#share;
   }
 
-  /** What draws: WebGL, or the processor. */
+  /** What draws: webgl or plain. */
   get drawing() {
     return this.#picture?.name ?? '';
   }
