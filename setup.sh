@@ -4,20 +4,23 @@ set -euo pipefail
 
 usage() {
     cat <<'TEXT'
-usage: ./setup.sh [--check] [--cuda] [--readers]
+usage: ./setup.sh [--check] [--cuda] [--browser] [--readers]
   --check   only report what is missing (exit 1 if anything is), install nothing
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
+  --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there
   --readers also what the tests read exports back with: pyvista, plyfile, USD and numpy, from PyPI into .readers (1 GB)
 TEXT
 }
 
 check_only=false
 with_cuda=false
+with_browser=false
 with_readers=false
 for argument in "$@"; do
     case $argument in
         --check) check_only=true ;;
         --cuda) with_cuda=true ;;
+        --browser) with_browser=true ;;
         --readers) with_readers=true ;;
         -h|--help) usage; exit 0 ;;
         *) printf 'setup.sh: unknown option %s\n' "$argument" >&2; usage >&2; exit 2 ;;
@@ -75,6 +78,15 @@ install_nvcc() {
         ln --symbolic --force --no-dereference "$toolkit" "$cuda_folder/toolkit"
 }
 
+# The tests look in the same places.
+browser_works() {
+    local browser
+    for browser in "${NATATOR_BROWSER:-}" chromium chromium-browser google-chrome google-chrome-stable; do
+        [[ -n $browser ]] && command -v "$browser" >/dev/null && return
+    done
+    return 1
+}
+
 readonly readers_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/.readers
 readonly readers_list=$(dirname "$readers_folder")/tests/readers/requirements.txt
 
@@ -111,6 +123,7 @@ find_missing() {
     for library in "${libraries[@]}"; do
         installed "$library" || missing+=("$library")
     done
+    $with_browser && ! browser_works && missing+=(chromium)
     nvcc_missing=false
     if $with_cuda && ! nvcc_works; then
         nvcc_missing=true

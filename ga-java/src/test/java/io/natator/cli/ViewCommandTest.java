@@ -115,7 +115,7 @@ class ViewCommandTest {
     @Test
     void ofARunTheBestSwims() throws IOException, InterruptedException {
         Path run = folder.resolve("run");
-        assertThat(EvolvedRuns.evolve(FakeSimulator.in(folder), run)).isZero();
+        Commands.evolve(FakeSimulator.in(folder), run);
 
         JsonNode start = start(start("--run", run.toString()));
 

@@ -19,11 +19,16 @@ final class ViewFixture {
     private ViewFixture() {
     }
 
-    /** A server on a free port of this machine alone. */
+    /** A server on a free port of this machine alone, which begins with a creature in vacuum. */
     static ViewServer server(Path... runs) throws InterruptedException {
+        return server(SCENE, runs);
+    }
+
+    /** A server that begins with a scene of creature 1. */
+    static ViewServer server(String scene, Path... runs) throws InterruptedException {
         assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
         return new ViewServer(new ViewSettings(SIMULATOR, ViewSettings.LOOPBACK, 0,
-                new Start(SCENE, null, new Gait(1.5, List.of(0.9, 0.6), List.of(0.0, 0.6))), List.of(runs)));
+                new Start(scene, null, new Gait(1.5, List.of(0.9, 0.6), List.of(0.0, 0.6))), List.of(runs)));
     }
 
     /** Simulators among the descendants of a process. */

@@ -4,7 +4,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import io.natator.cli.EvolvedRuns;
+import io.natator.cli.Commands;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.simulator.FakeSimulator;
@@ -41,7 +41,7 @@ class ViewServerTest {
     @BeforeAll
     static void start() throws InterruptedException {
         run = folder.resolve("my-run");
-        assertThat(EvolvedRuns.evolve(FakeSimulator.in(folder), run)).isZero();
+        Commands.evolve(FakeSimulator.in(folder), run);
         server = ViewFixture.server(run);
     }
 

@@ -56,9 +56,9 @@ export class GlPicture {
     this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
   }
 
-  /** How it draws, as in `DEFAULT_LOOK`. */
+  /** What draws, for people. */
   get name() {
-    return 'webgl';
+    return 'WebGL';
   }
 
   /** Whether the time that `draw` takes is that of drawing. */

@@ -60,9 +60,9 @@ export class PlainPicture {
     this.#field = field;
   }
 
-  /** How it draws, as in `DEFAULT_LOOK`. */
+  /** What draws, for people. */
   get name() {
-    return 'plain';
+    return 'processor';
   }
 
   /** Whether the time that `draw` takes is that of drawing. */

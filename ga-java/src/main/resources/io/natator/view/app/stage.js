@@ -52,7 +52,7 @@ export class Stage {
     return this.#share;
   }
 
-  /** What draws: webgl or plain. */
+  /** What draws: WebGL or processor. */
   get drawing() {
     return this.#picture?.name ?? '';
   }

@@ -1,0 +1,30 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.io.Writer;
+import java.nio.file.Path;
+import picocli.CommandLine;
+
+/** Commands that tests of other parts need the outcome of. */
+public final class Commands {
+
+    private Commands() {
+    }
+
+    /** Carries out a command, which must succeed. */
+    public static void natator(String... arguments) {
+        StringWriter errors = new StringWriter();
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(Writer.nullWriter()))
+                .setErr(new PrintWriter(errors, true));
+        assertThat(command.execute(arguments)).as(errors.toString()).isZero();
+    }
+
+    /** Evolves creature 1 for three generations of eight, with another scheme than the scene's. */
+    public static void evolve(Path simulator, Path folder) {
+        natator("evolve", "--simulator-path", simulator.toString(), "--no-cache", "--population", "8", "--generations",
+                "3", "--seed", "5", "--optimizer", "random", "--scheme", "conserving", "--output-dir", folder.toString());
+    }
+}

@@ -1,0 +1,324 @@
+package io.natator.view;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.microsoft.playwright.Browser.NewContextOptions;
+import com.microsoft.playwright.Download;
+import com.microsoft.playwright.Locator;
+import io.natator.cli.Commands;
+import io.natator.config.Json;
+import io.natator.simulator.FakeSimulator;
+import java.awt.image.BufferedImage;
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.regex.Pattern;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+/** The page of {@code natator view} in a real browser, with the real simulator. */
+@Timeout(value = 180, unit = TimeUnit.SECONDS)
+class ViewPageTest extends BrowserTest {
+
+    /** An empty picture has its background's few colours. */
+    private static final int LEAST_COLOURS = 500;
+
+    @TempDir
+    private static Path folder;
+    private static ViewServer water;
+    private static ViewServer vacuum;
+
+    private ViewServer server;
+
+    @BeforeAll
+    static void start() throws InterruptedException {
+        Path run = folder.resolve("my-run");
+        Commands.evolve(FakeSimulator.in(folder), run);
+        water = ViewFixture.server("thesis/creature-1", run);
+        vacuum = ViewFixture.server(ViewFixture.SCENE, run);
+    }
+
+    @AfterAll
+    static void stop() {
+        water.close();
+        vacuum.close();
+    }
+
+    @BeforeEach
+    void noSimulatorIsLeft() throws InterruptedException {
+        ViewFixture.await("the end of the last page", () -> ViewFixture.simulators(ProcessHandle.current()).isEmpty());
+    }
+
+    @Override
+    boolean isOwn(URI address) {
+        return address.getScheme().matches("blob|data") || server.address().getAuthority().equals(address.getAuthority());
+    }
+
+    /** Opens the page and waits until it swims. */
+    private void open(ViewServer on) {
+        server = on;
+        page.navigate(server.address().toString());
+        awaitSwimming();
+    }
+
+    private void awaitSwimming() {
+        await("window.natator && natator.frame() > 5");
+        assertThat(get("status")).hasAttribute("data-state", "open");
+    }
+
+    /** Without water, which is quick to draw, and paused at its start. */
+    private void openAtRest() {
+        open(vacuum);
+        get("run").click();
+        get("reset").click();
+        await("natator.frame() === 0");
+    }
+
+    /** Where the body is after so many frames from the start. */
+    private List<?> pathOf(int frames) {
+        get("reset").click();
+        await("natator.frame() === 0");
+        for (int i = 1; i <= frames; i++) {
+            get("step").click();
+            await("natator.frame() === " + i);
+        }
+        return (List<?>) page.evaluate("() => natator.position()");
+    }
+
+    private JsonNode gait() throws IOException {
+        return Json.parse((String) page.evaluate("() => JSON.stringify(natator.scene().gait)"), JsonNode.class);
+    }
+
+    @Test
+    void aSwimmerInWaterIsSeen() {
+        open(water);
+        await("natator.fps() > 0");
+
+        BufferedImage before = picture(get("picture-a"));
+        assertThat(colours(before)).isGreaterThan(LEAST_COLOURS);
+        await("natator.frame() > 60");
+        assertThat(difference(before, picture(get("picture-a")))).as("what has moved").isGreaterThan(0.005);
+        assertThat(get("time-a")).containsText("s");
+        assertThat(get("dropped-a")).hasText(Pattern.compile("\\d+"));
+        assertThat(get("distance-a")).hasText(Pattern.compile("-?\\d+\\.\\d+"));
+        assertThat(get("overlay-a")).isHidden();
+        assertThat(get("banner")).isHidden();
+    }
+
+    /** Each of them draws its own way; both must do without a graphics card. */
+    @ParameterizedTest
+    @CsvSource({"webgl, WebGL", "plain, processor"})
+    void bothWaysOfDrawingShowIt(String drawing, String name) {
+        open(water);
+        get("run").click();
+        get("drawing").selectOption(drawing);
+        choose("water-none");
+        BufferedImage without = stillPicture(get("picture-a"));
+        assertThat(page.evaluate("() => natator.drawing()")).isEqualTo(name);
+        for (String shown : List.of("spheres", "surface")) {
+            choose("water-" + shown);
+            BufferedImage with = stillPicture(get("picture-a"));
+            keepPicture("ViewPageTest-" + drawing + "-" + shown);
+            assertThat(colours(with)).as("colours of %s", shown).isGreaterThan(LEAST_COLOURS);
+            assertThat(difference(without, with)).as("share of %s", shown).isGreaterThan(0.2);
+        }
+    }
+
+    /** Presses one of several buttons in a row; the radio button itself is hidden. */
+    private void choose(String testId) {
+        get(testId).check(new Locator.CheckOptions().setForce(true));
+    }
+
+    @Test
+    void aSliderChangesTheMotion() throws IOException {
+        openAtRest();
+        List<?> before = pathOf(12);
+        assertThat(pathOf(12)).as("the same gait again").isEqualTo(before);
+
+        get("amplitude-1").fill("0.2");
+        await("natator.scene().gait.amplitude[0] === 0.2");
+
+        assertThat(gait().get("amplitude").get(1).asDouble()).isEqualTo(0.6);
+        assertThat(pathOf(12)).isNotEqualTo(before);
+        get("frequency-number").fill("1.85");
+        get("frequency-number").press("Enter");
+        await("natator.scene().gait.frequency === 1.85");
+    }
+
+    @Test
+    void aSolverSettingTakesEffectAtOnce() {
+        openAtRest();
+
+        get("damping").fill("3");
+        await("natator.scene().definition.solver.damping === 3");
+
+        assertThat(number("natator.scene().restarted ? 1 : 0")).isZero();
+    }
+
+    @Test
+    void whatIsRefusedIsSaid() {
+        openAtRest();
+
+        get("frequency-number").fill("-7");
+        get("frequency-number").press("Enter");
+
+        assertThat(get("frequency-error")).containsText("frequency");
+        assertThat(number("natator.scene().gait.frequency")).isEqualTo(1.5);
+    }
+
+    @Test
+    void pauseHoldsStill() {
+        open(vacuum);
+        get("run").click();
+        assertThat(get("run")).hasText("Run");
+        // Frames may be under way, and the camera and the detail follow a little later.
+        BufferedImage before = stillPicture(get("picture-a"));
+        double frame = number("natator.frame()");
+
+        awaitDrawings(60);
+
+        assertThat(number("natator.frame()")).isEqualTo(frame);
+        assertThat(difference(before, picture(get("picture-a")))).isZero();
+        get("run").click();
+        await("natator.frame() > " + (frame + 10));
+    }
+
+    @Test
+    void aReloadReconnects() throws InterruptedException {
+        open(vacuum);
+        ProcessHandle before = ViewFixture.simulator();
+
+        page.reload();
+        awaitSwimming();
+
+        ViewFixture.await("the end of the first simulator", () -> !before.isAlive());
+        assertThat(ViewFixture.simulator().pid()).isNotEqualTo(before.pid());
+    }
+
+    @Test
+    void aKilledSimulatorIsReportedAndGoesOn() {
+        open(vacuum);
+        await("natator.frame() > 60");
+
+        ViewFixture.simulator().destroyForcibly();
+
+        assertThat(get("banner")).containsText("was lost");
+        assertThat(get("banner")).containsText("started again");
+        await("natator.frame() < 60 && natator.frame() > 10");
+        assertThat(get("status")).hasAttribute("data-state", "open");
+    }
+
+    @Test
+    void aSmallScreenIsEnough() {
+        useBrowser(new NewContextOptions().setViewportSize(390, 844).setDeviceScaleFactor(2).setHasTouch(true)
+                .setIsMobile(true));
+        open(vacuum);
+
+        assertThat(number("document.documentElement.scrollWidth")).as("width").isLessThanOrEqualTo(390);
+        assertThat(get("picture-a").boundingBox().height).isGreaterThan(200);
+        get("run").tap();
+        assertThat(get("run")).hasText("Run");
+        get("frequency").scrollIntoViewIfNeeded();
+        assertThat(get("frequency").boundingBox().width).isGreaterThan(80);
+        get("frequency").fill("1.2");
+        await("natator.scene().gait.frequency === 1.2");
+        get("picture-a").scrollIntoViewIfNeeded();
+        assertThat(colours(picture(get("picture-a")))).isGreaterThan(100);
+    }
+
+    @Test
+    void theKeyboardIsEnough() {
+        open(vacuum);
+
+        page.keyboard().press("Space");
+        assertThat(get("run")).hasText("Run");
+        page.keyboard().press("r");
+        await("natator.frame() === 0");
+        page.keyboard().press(".");
+        await("natator.frame() === 1");
+        page.keyboard().press("2");
+        assertThat(get("camera-side")).isChecked();
+        page.keyboard().press("?");
+        assertThat(get("help")).isVisible();
+        page.keyboard().press("Escape");
+        assertThat(get("help")).isHidden();
+        for (int i = 0; i < 60 && !isFocused("frequency"); i++) {
+            page.keyboard().press("Tab");
+        }
+        page.keyboard().press("ArrowRight");
+        await("Math.abs(natator.scene().gait.frequency - 1.51) < 1e-9");
+    }
+
+    private boolean isFocused(String testId) {
+        return (Boolean) page.evaluate("id => document.activeElement.dataset.testid === id", testId);
+    }
+
+    @Test
+    void theGenerationsOfARunAreWatched() throws IOException {
+        open(vacuum);
+
+        get("chart-fitness").focus();
+        page.keyboard().press("Home");
+
+        assertThat(get("run-chosen")).containsText("Generation 0");
+        JsonNode first = best(0);
+        await("Math.abs(natator.scene().gait.frequency - " + first.get("frequency") + ") < 1e-9");
+        assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");
+        page.keyboard().press("End");
+        await("Math.abs(natator.scene().gait.frequency - " + best(3).get("frequency") + ") < 1e-9");
+    }
+
+    private JsonNode best(int generation) throws IOException {
+        return Json.parse((String) page.evaluate("async () => (await fetch('/api/runs/0')).text()"), JsonNode.class)
+                .get("bests").get(generation).get("gait");
+    }
+
+    @Test
+    void twoSwimSideBySide() {
+        open(vacuum);
+
+        get("compare").click();
+        await("natator.views[1].frame() > 5");
+
+        assertThat(get("stage-b")).isVisible();
+        assertThat(ViewFixture.simulators(ProcessHandle.current())).hasSize(2);
+        assertThat(colours(picture(get("picture-b")))).isGreaterThan(100);
+        get("compare").click();
+        assertThat(get("stage-b")).isHidden();
+    }
+
+    @Test
+    void aGaitIsSavedAsAFile() throws IOException {
+        openAtRest();
+
+        Download saved = page.waitForDownload(() -> get("gait-save").click());
+
+        JsonNode gait = Json.parse(Files.readString(saved.path()), JsonNode.class);
+        assertThat(gait).isEqualTo(gait());
+        assertThat(saved.suggestedFilename()).endsWith("-gait.json");
+    }
+
+    @Test
+    void waterComesAndGoes() {
+        open(vacuum);
+        get("vacuum").uncheck();
+        await("natator.scene().fluid[1] > 1000 && natator.frame() > 5");
+        get("scheme").selectOption("conserving");
+        await("natator.scene().scheme === 'conserving' && natator.frame() > 5");
+
+        get("vacuum").check();
+        await("natator.scene().fluid[1] === 0");
+        assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");
+    }
+}
