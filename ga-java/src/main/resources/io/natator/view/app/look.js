@@ -50,6 +50,7 @@ export class LookControls {
         row('Opacity', this.#opacity, 'opacity'), row('Detail', this.#quality, 'quality'), row('Drawn by', this.#drawing, 'drawing'),
         make('div', {className: 'switches'}, ...switches));
     byId('legend-bar').style.background = cssGradient(SCALES.sequential);
+    byId('legend-change').style.background = cssGradient(SCALES.diverging);
     this.#show();
   }
 
@@ -82,7 +83,7 @@ export class LookControls {
   }
 
   #show() {
-    const {water, colour, opacity, quality, drawing} = this.#look;
+    const {water, colour, opacity, quality, drawing, muscles} = this.#look;
     choose(this.#water, water);
     this.#colour.value = colour;
     this.#opacity.value = opacity;
@@ -93,7 +94,10 @@ export class LookControls {
     }
     const {title, unit} = FIELDS[colour];
     byId('legend-title').textContent = unit === '' ? title : `${title}, ${unit}`;
-    byId('legend').hidden = water === 'none';
+    byId('legend-title').hidden = water === 'none';
+    byId('legend-bar').parentElement.hidden = water === 'none';
+    byId('legend-muscles').hidden = !muscles;
+    byId('legend').hidden = water === 'none' && !muscles;
   }
 }
 
