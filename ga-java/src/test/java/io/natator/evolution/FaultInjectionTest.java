@@ -115,10 +115,13 @@ class FaultInjectionTest {
         Thread killer = new Thread(() -> killNowAndThen(kills));
         killer.start();
 
-        List<EvaluationRecord> evaluations = evolve(settings, execution);
-
-        killer.interrupt();
-        killer.join();
+        List<EvaluationRecord> evaluations;
+        try {
+            evaluations = evolve(settings, execution);
+        } finally {
+            killer.interrupt();
+            killer.join();
+        }
         assertThat(evaluations).hasSize(160);
         assertThat(kills.get()).as("processes killed").isGreaterThan(10);
         assertThatNoChildIsLeft();
@@ -144,7 +147,7 @@ class FaultInjectionTest {
     private static void killNowAndThen(AtomicInteger kills) {
         try {
             for (int i = 0;; i++) {
-                Thread.sleep(25 + i * 37 % 30);
+                Thread.sleep(50 + i * 37 % 30);
                 ProcessHandle.current().children().skip(i % 2).findFirst().ifPresent(child -> {
                     if (child.destroyForcibly()) {
                         kills.incrementAndGet();

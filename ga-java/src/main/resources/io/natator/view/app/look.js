@@ -21,6 +21,7 @@ export class LookControls {
   #quality;
   #drawing;
   #switches = new Map();
+  #hasWater = true;
 
   /** `onChange(look)` is called with each change; see `DEFAULT_LOOK` in stage.js. */
   constructor(look, onChange) {
@@ -75,6 +76,12 @@ export class LookControls {
     this.set({[name]: !this.#look[name]});
   }
 
+  /** Whether there is water that the legend is about. */
+  set hasWater(value) {
+    this.#hasWater = value;
+    this.#show();
+  }
+
   /** Ends of the colour scale. */
   showRange([low, high]) {
     const step = niceStep((high - low) / 100);
@@ -94,10 +101,11 @@ export class LookControls {
     }
     const {title, unit} = FIELDS[colour];
     byId('legend-title').textContent = unit === '' ? title : `${title}, ${unit}`;
-    byId('legend-title').hidden = water === 'none';
-    byId('legend-bar').parentElement.hidden = water === 'none';
+    const isWater = this.#hasWater && water !== 'none';
+    byId('legend-title').hidden = !isWater;
+    byId('legend-bar').parentElement.hidden = !isWater;
     byId('legend-muscles').hidden = !muscles;
-    byId('legend').hidden = water === 'none' && !muscles;
+    byId('legend').hidden = !isWater && !muscles;
   }
 }
 
