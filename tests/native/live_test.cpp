@@ -121,6 +121,7 @@ TEST(LiveTest, SettingsMassesAndPlanesGoOnFromThePresentState) {
 
 TEST(LiveTest, OtherParticlesOrConstraintsStartAnew) {
     const std::vector<json> patches{{{"fluid", {{"count", {50, 6, 17}}}}},
+                                    {{"fluid", {{"origin", {0.051, 0.05, 0.05}}}}},
                                     {{"fluid", nullptr}},
                                     {{"creature", {{"spacing", 0.07}}}},
                                     {{"creature", {{"rearCentre", {0.5, 0.6, 0.6}}}}},

@@ -91,6 +91,7 @@ class Player {
     }
     byId('scrub').max = duration;
     this.#stage.setScene(scene);
+    this.#look.hasWater = scene.fluid[1] > 0;
     this.#figures.name(this.#recording.title, `${scene.scheme}, ${scene.particles} particles`);
     this.#showFacts();
     this.seek(0);

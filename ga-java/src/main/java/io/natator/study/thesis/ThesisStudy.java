@@ -3,6 +3,7 @@ package io.natator.study.thesis;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
 import io.natator.config.Scheme;
 import io.natator.report.Recorded;
 import io.natator.report.Recording;
@@ -10,12 +11,11 @@ import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.ArrayList;
-import java.util.Comparator;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Objects;
 
 /**
  * The measuring half of the study: what the published gaits and the evolved ones do. Everything is kept in files of the
@@ -59,7 +59,7 @@ public final class ThesisStudy implements AutoCloseable {
 
     /** How many runs are still to be recorded or timed on the processor. */
     public int missingRecordings() {
-        long pictures = pictured().keySet().stream().filter(name -> !Files.exists(recording(name))).count();
+        long pictures = pictured().entrySet().stream().filter(picture -> !isRecorded(picture)).count();
         return motions.missing(catalogue.recorded()).size() + (int) pictures
                 + costs.missing(catalogue.timed()).size();
     }
@@ -83,10 +83,9 @@ public final class ThesisStudy implements AutoCloseable {
     public void record(ExecutionSettings execution, Runnable done) throws InterruptedException {
         motions.record(catalogue.recorded(), execution, done);
         for (Map.Entry<String, SimulationRequest> picture : pictured().entrySet()) {
-            Path file = recording(picture.getKey());
-            if (!Files.exists(file)) {
+            if (!isRecorded(picture)) {
                 double seconds = duration == null ? Catalogue.THESIS_SECONDS : duration;
-                Recorded.of(picture.getValue(), seconds / 2, execution).write(file);
+                Recorded.of(picture.getValue(), seconds / 2, execution).write(recording(picture.getKey()));
                 done.run();
             }
         }
@@ -103,7 +102,7 @@ public final class ThesisStudy implements AutoCloseable {
         for (ThesisData.PublishedGait gait : data.gaits()) {
             pictured.put("thesis-" + gait.name(), catalogue.speeds(gait, Scheme.FLEX).get(0).request());
         }
-        for (EvolvedRun run : bestOfSeeds()) {
+        for (EvolvedRun run : bestEvolved()) {
             SimulationRequest request = catalogue.speeds(run).get(0).request();
             ObjectNode on = ((ObjectNode) request.overrides()).deepCopy();
             ((ObjectNode) on.get("stopping")).put("planeContact", false);
@@ -113,24 +112,30 @@ public final class ThesisStudy implements AutoCloseable {
         return pictured;
     }
 
-    /** Of each creature in each scheme the evolution that came farthest. */
-    private List<EvolvedRun> bestOfSeeds() {
-        Map<String, EvolvedRun> best = new LinkedHashMap<>();
-        List<EvolvedRun> sorted = new ArrayList<>(evolved);
-        sorted.sort(Comparator.comparingDouble(run -> -catalogue.best(run).distance()));
-        sorted.forEach(run -> best.putIfAbsent(run.creature() + " " + run.scheme(), run));
-        return best.values().stream()
-                .sorted(Comparator.comparing(EvolvedRun::creature).thenComparing(EvolvedRun::scheme)).toList();
+    /** Of each creature in each scheme the best evolution that is measured. */
+    private List<EvolvedRun> bestEvolved() {
+        Findings findings = findings();
+        return evolved.stream().map(EvolvedRun::creature).distinct().sorted()
+                .flatMap(creature -> Catalogue.SCHEMES.stream().map(scheme -> findings.best(creature, scheme)))
+                .filter(Objects::nonNull).toList();
+    }
+
+    private Findings findings() {
+        return new Findings(data, catalogue, measurements, motions, costs, evolved);
+    }
+
+    /** Whether just this is recorded: with more seeds another run may be the best. */
+    private boolean isRecorded(Map.Entry<String, SimulationRequest> picture) {
+        Path file = recording(picture.getKey());
+        return Files.exists(file)
+                && Json.line(Recording.read(file).request().withId(0)).equals(Json.line(picture.getValue().withId(0)));
     }
 
     /** Recordings that are there, by name. */
     private Map<String, Recording> recordings() {
         Map<String, Recording> found = new LinkedHashMap<>();
-        pictured().keySet().forEach(name -> {
-            if (Files.exists(recording(name))) {
-                found.put(name, Recording.read(recording(name)));
-            }
-        });
+        pictured().entrySet().stream().filter(this::isRecorded)
+                .forEach(picture -> found.put(picture.getKey(), Recording.read(recording(picture.getKey()))));
         return found;
     }
 
@@ -142,8 +147,7 @@ public final class ThesisStudy implements AutoCloseable {
      * @return the page
      */
     public Path report(EvolutionPlan plan, String command) {
-        Findings findings = new Findings(data, catalogue, measurements, motions, costs, evolved);
-        return new ThesisReport(directory, findings, plan.runs().size(), recordings(), command).write();
+        return new ThesisReport(directory, findings(), plan.runs().size(), recordings(), command).write();
     }
 
     @Override

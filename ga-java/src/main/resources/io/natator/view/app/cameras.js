@@ -14,6 +14,8 @@ const DIRECTIONS = {
 };
 /** Share of the way to the target that is left after a second. */
 const EASE = 0.02;
+/** Closer to where it is to be than this, in length units, the camera goes there at once. */
+const NEAR = 2e-3;
 const ZOOM_LIMITS = [0.3, 4];
 
 /** One perspective camera. A drag on the canvas frees it from where it is; the wheel zooms in every mode. */
@@ -100,15 +102,15 @@ export class CameraRig {
       return;
     }
     this.#want(aspect);
-    const left = this.#jump || this.#still.matches ? 0 : EASE ** seconds;
     const off = this.#eye.distanceTo(this.#wantedEye) + this.#target.distanceTo(this.#wantedTarget);
+    const left = this.#jump || this.#still.matches || off < NEAR ? 0 : EASE ** seconds;
     this.#eye.lerp(this.#wantedEye, 1 - left);
     this.#target.lerp(this.#wantedTarget, 1 - left);
     this.camera.position.copy(this.#eye);
     this.camera.lookAt(this.#target);
     this.#controls.target.copy(this.#target);
     this.#jump = false;
-    this.hasMoved = this.hasMoved || off > 1e-3;
+    this.hasMoved = this.hasMoved || off > 1e-9;
   }
 
   #want(aspect) {

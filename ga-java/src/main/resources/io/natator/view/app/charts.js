@@ -219,7 +219,7 @@ export class EnvelopeChart extends Chart {
       colour: which === 0 ? this.colours.series[0] : this.colours.other, width: 2.2,
     }));
     if (measured.length === 0) {
-      this.note('measured after one whole beat');
+      this.note('after a whole beat');
     }
   }
 

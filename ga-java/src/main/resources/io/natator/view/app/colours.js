@@ -55,7 +55,7 @@ export const SCALES = {
   /** Little to much: deep blue, teal, pale yellow. */
   sequential: even([[0.38, 0.125, 264], [0.53, 0.12, 240], [0.68, 0.105, 200], [0.83, 0.12, 155], [0.95, 0.12, 108]]),
   /** Contracted, at rest, stretched: blue, grey, orange. */
-  diverging: even([[0.55, 0.17, 255], [0.92, 0.01, 255], [0.62, 0.19, 40]]),
+  diverging: even([[0.55, 0.17, 255], [0.92, 0, 255], [0.92, 0, 40], [0.62, 0.19, 40]]),
 };
 
 /** The colours of a scale as RGBA bytes, for a texture. */

@@ -3,14 +3,14 @@
 import {niceStep} from './scaling.js';
 
 /** How often the ends of a scale are looked at again, in frames. */
-const PERIOD = 45;
+const PERIOD = 12;
 const SAMPLES = 400;
 
-/** Name, title and unit of each. */
+/** Name, title, unit, and least width of the scale of each. */
 export const FIELDS = {
-  speed: {title: 'Speed', unit: 'length/s'},
-  density: {title: 'Density', unit: 'rest densities'},
-  mass: {title: 'Mass', unit: ''},
+  speed: {title: 'Speed', unit: 'length/s', least: 0.05},
+  density: {title: 'Density', unit: 'rest densities', least: 0.02},
+  mass: {title: 'Mass', unit: '', least: 0.01},
 };
 
 /** Values of one field for the particles of a scene, and the ends of their scale, which follow slowly. */
@@ -75,7 +75,7 @@ export class FieldValues {
   /** Round numbers around most of a sorted sample. */
   #ends(field, sample) {
     const low = field === 'speed' ? 0 : sample[Math.floor(0.01 * (sample.length - 1))];
-    const high = Math.max(sample[Math.ceil(0.99 * (sample.length - 1))], low + 1e-3);
+    const high = Math.max(sample[Math.ceil(0.99 * (sample.length - 1))], low + FIELDS[field].least);
     const step = niceStep((high - low) / 4);
     return [Math.floor(low / step + 1e-6) * step, Math.ceil(high / step - 1e-6) * step];
   }

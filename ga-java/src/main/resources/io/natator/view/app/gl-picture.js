@@ -56,7 +56,7 @@ export class GlPicture {
     this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
   }
 
-  /** How it draws, for people. */
+  /** What draws, for people. */
   get name() {
     return 'WebGL';
   }

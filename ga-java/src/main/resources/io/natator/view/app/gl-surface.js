@@ -174,12 +174,14 @@ export class GlSurface {
   #drawDepth(renderer, camera, bodyPoints, target) {
     const parent = bodyPoints.parent;
     bodyPoints.material.colorWrite = false;
+    bodyPoints.material.uniforms.pixelsPerUnit.value *= SHARE;
     this.#hidden.add(bodyPoints);
     renderer.setRenderTarget(target);
     renderer.setClearColor(this.#clear, 0);
     renderer.clear();
     renderer.render(this.#scene, camera);
     bodyPoints.material.colorWrite = true;
+    bodyPoints.material.uniforms.pixelsPerUnit.value /= SHARE;
     parent.add(bodyPoints);
   }
 

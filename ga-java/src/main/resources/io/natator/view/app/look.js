@@ -21,6 +21,7 @@ export class LookControls {
   #quality;
   #drawing;
   #switches = new Map();
+  #hasWater = true;
 
   /** `onChange(look)` is called with each change; see `DEFAULT_LOOK` in stage.js. */
   constructor(look, onChange) {
@@ -50,6 +51,7 @@ export class LookControls {
         row('Opacity', this.#opacity, 'opacity'), row('Detail', this.#quality, 'quality'), row('Drawn by', this.#drawing, 'drawing'),
         make('div', {className: 'switches'}, ...switches));
     byId('legend-bar').style.background = cssGradient(SCALES.sequential);
+    byId('legend-change').style.background = cssGradient(SCALES.diverging);
     this.#show();
   }
 
@@ -74,6 +76,12 @@ export class LookControls {
     this.set({[name]: !this.#look[name]});
   }
 
+  /** Whether there is water that the legend is about. */
+  set hasWater(value) {
+    this.#hasWater = value;
+    this.#show();
+  }
+
   /** Ends of the colour scale. */
   showRange([low, high]) {
     const step = niceStep((high - low) / 100);
@@ -82,7 +90,7 @@ export class LookControls {
   }
 
   #show() {
-    const {water, colour, opacity, quality, drawing} = this.#look;
+    const {water, colour, opacity, quality, drawing, muscles} = this.#look;
     choose(this.#water, water);
     this.#colour.value = colour;
     this.#opacity.value = opacity;
@@ -93,7 +101,11 @@ export class LookControls {
     }
     const {title, unit} = FIELDS[colour];
     byId('legend-title').textContent = unit === '' ? title : `${title}, ${unit}`;
-    byId('legend').hidden = water === 'none';
+    const isWater = this.#hasWater && water !== 'none';
+    byId('legend-title').hidden = !isWater;
+    byId('legend-bar').parentElement.hidden = !isWater;
+    byId('legend-muscles').hidden = !muscles;
+    byId('legend').hidden = !isWater && !muscles;
   }
 }
 

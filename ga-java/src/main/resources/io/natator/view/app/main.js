@@ -89,7 +89,7 @@ class Page {
       scene: () => this.#sceneChanged(which),
       status: (state, text) => this.#status(state, text),
       notice: (text, isBad) => this.#banner(text, isBad),
-      range: range => which === 0 && this.#look.showRange(range),
+      range: range => (which === 0 || this.#views[0].isVacuum) && this.#look.showRange(range),
     });
     view.stage.setTheme(this.#theme.colours);
     view.stage.setLook(this.#look.look);
@@ -142,6 +142,7 @@ class Page {
       const gait = scene.gait === null ? 'no gait' : `${scene.gait.frequency.toFixed(2)} /s`;
       this.#figures[which].name(scene.scene.split('/').at(-1), `${scene.scheme}, ${scene.particles} particles, ${gait}`);
     }
+    this.#look.hasWater = this.#views.some(view => view.scene === null || view.scene.fluid[1] > 0);
     if (which === this.#chosen) {
       this.#showControls();
     }

@@ -48,6 +48,7 @@ export class PlainPicture {
   #waterShades = null;
   #bodyShades = null;
   #changeColours = Array.from({length: CHANGES}, (_, i) => css(colourAt(SCALES.diverging, i / (CHANGES - 1))));
+  #lineWidth = 1;
   #place = [0, 0, 0];
 
   constructor(canvas, trace, field) {
@@ -59,7 +60,7 @@ export class PlainPicture {
     this.#field = field;
   }
 
-  /** How it draws, for people. */
+  /** What draws, for people. */
   get name() {
     return 'processor';
   }
@@ -102,10 +103,11 @@ export class PlainPicture {
   /** The size in CSS pixels, and the share of them that spheres are drawn with along each side. */
   setSize(width, height, share) {
     const ratio = Math.min(devicePixelRatio, 1);
-    this.#canvas.width = Math.round(width * ratio);
-    this.#canvas.height = Math.round(height * ratio);
-    this.#layerCanvas.width = Math.round(width * ratio * share);
-    this.#layerCanvas.height = Math.round(height * ratio * share);
+    this.#canvas.width = Math.round(width * ratio * share);
+    this.#canvas.height = Math.round(height * ratio * share);
+    this.#layerCanvas.width = this.#canvas.width;
+    this.#layerCanvas.height = this.#canvas.height;
+    this.#lineWidth = Math.max(0.6, share);
     this.#layer.setSize(this.#layerCanvas.width, this.#layerCanvas.height);
     this.#surfaceCanvas.width = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.width));
     this.#surfaceCanvas.height = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.height));
@@ -140,7 +142,7 @@ export class PlainPicture {
     const {background, floor, marks, edges} = this.#colours;
     context.fillStyle = background;
     context.fillRect(0, 0, this.#canvas.width, this.#canvas.height);
-    context.lineWidth = 1;
+    context.lineWidth = this.#lineWidth;
     this.#path(floor, null, () => addArea(context, this.#lineProjector, this.#lines.floor));
     this.#path(null, marks, () => addLines(context, this.#lineProjector, this.#lines.marks));
     this.#path(null, edges, () => addLines(context, this.#lineProjector, this.#lines.edges));
@@ -252,7 +254,7 @@ export class PlainPicture {
     const context = this.#context;
     const {spines, strength, slices, head, headPlaces} = this.#trace;
     context.strokeStyle = this.#colours.ink;
-    context.lineWidth = 1;
+    context.lineWidth = this.#lineWidth;
     for (let spine = 0; spine < SPINES; spine++) {
       if (strength[spine] > 0) {
         context.globalAlpha = 0.75 * strength[spine] ** 1.5;

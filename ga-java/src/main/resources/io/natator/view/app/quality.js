@@ -1,7 +1,7 @@
 /** Chooses how many pixels to draw so that the picture keeps up. */
 
 /** Shares of the screen's pixels along each side. */
-export const LEVELS = [1, 0.85, 0.7, 0.6, 0.5, 0.4, 0.33];
+export const LEVELS = [1, 0.85, 0.7, 0.6, 0.5];
 /** Frames per second below which it steps down. */
 const TOO_SLOW = 52;
 const WINDOW_S = 1;

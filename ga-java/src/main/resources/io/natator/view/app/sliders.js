@@ -35,7 +35,7 @@ export class Slider {
   show(value) {
     if (this.#pending === 0) {
       this.#range.value = value;
-      this.#number.value = Number(value.toPrecision(6));
+      this.#number.value = Math.round(1000 * value) / 1000;
       this.#fail(null);
     }
   }

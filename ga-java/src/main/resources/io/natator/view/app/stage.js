@@ -52,7 +52,7 @@ export class Stage {
     return this.#share;
   }
 
-  /** What draws: WebGL, or the processor. */
+  /** What draws: WebGL or processor. */
   get drawing() {
     return this.#picture?.name ?? '';
   }

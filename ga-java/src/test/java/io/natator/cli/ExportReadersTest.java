@@ -1,0 +1,173 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.stream.StreamBytes;
+import java.io.File;
+import java.io.IOException;
+import java.io.OutputStream;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import picocli.CommandLine;
+
+/**
+ * Exports of the real simulator, read back by pyvista, plyfile, USD and numpy in {@code tests/readers/check_export.py},
+ * which compares every number with the simulator's own stream.
+ */
+@Timeout(value = 180, unit = TimeUnit.SECONDS)
+class ExportReadersTest {
+
+    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+    private static final Path READERS = Path.of(System.getProperty("natator.readers")).normalize();
+    private static final Path CHECK =
+            Path.of(System.getProperty("natator.protocol"), "../../tests/readers/check_export.py").normalize();
+    private static final String GAIT = "{\"frequency\":%s,\"amplitude\":[%s],\"phase\":[%s]}";
+
+    @TempDir
+    private Path folder;
+
+    @BeforeAll
+    static void readersAreInstalled() {
+        assertThat(READERS).as("the readers of exports are missing; install them by: ./setup.sh --readers")
+                .isExecutable();
+        assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
+    }
+
+    @BeforeEach
+    void gaits() throws IOException {
+        Files.writeString(folder.resolve("two.json"), GAIT.formatted("1.861", "0.973,0.690", "0,0.648"));
+        Files.writeString(folder.resolve("three.json"), GAIT.formatted("1.761", "0.863,0.503,0.271", "0,0.176,0.729"));
+    }
+
+    private int run(File output, String... command) throws IOException, InterruptedException {
+        return new ProcessBuilder(command).redirectErrorStream(true).redirectOutput(output).start().waitFor();
+    }
+
+    /** What the simulator writes, byte for byte, all fields and frames. */
+    private Path stream(double until, String... scene) throws IOException, InterruptedException {
+        Path file = folder.resolve("reference.stream");
+        List<String> command = new ArrayList<>(List.of(SIMULATOR.toString(), "stream", "--fields",
+                "position,velocity,density", "--rate", "0", "--lossless", "--until", "" + until));
+        command.addAll(List.of(scene));
+        Process process = new ProcessBuilder(command).redirectOutput(file.toFile())
+                .redirectError(ProcessBuilder.Redirect.INHERIT).start();
+        try (OutputStream commands = process.getOutputStream()) {
+            commands.write("{\"do\":\"credit\",\"frames\":1000}\n".getBytes(StandardCharsets.UTF_8));
+            commands.flush();
+            assertThat(process.waitFor()).isZero();
+        }
+        return file;
+    }
+
+    private Path export(String format, double until, String... arguments) {
+        return export(SIMULATOR, format, until, arguments);
+    }
+
+    private Path export(Path simulator, String format, double until, String... arguments) {
+        Path target = folder.resolve(format);
+        List<String> all = new ArrayList<>(List.of("export", "--format", format, "--duration", "" + until,
+                "--simulator-path", simulator.toString(), "--output-dir", target.toString()));
+        all.addAll(List.of(arguments));
+        StringWriter said = new StringWriter();
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(said, true)).setErr(new PrintWriter(said, true));
+        assertThat(command.execute(all.toArray(String[]::new))).as(said.toString()).isZero();
+        return target;
+    }
+
+    private String check(int status, Path stream, Path export) throws IOException, InterruptedException {
+        Path log = folder.resolve("check.log");
+        int found = run(log.toFile(), READERS.toString(), CHECK.toString(), stream.toString(), export.toString());
+        String said = Files.readString(log);
+        assertThat(found).as(said).isEqualTo(status);
+        return said;
+    }
+
+    @ParameterizedTest
+    @CsvSource({"vtp, 500000", "ply, 400000", "usd, 300000", "csv, 400000", "npz, 300000"})
+    void everyNumberOfASwimIsReadBack(String format, long atLeast) throws IOException, InterruptedException {
+        Path gait = folder.resolve("two.json");
+        Path stream = stream(0.1, "thesis/creature-1", "--gait", gait.toString());
+
+        String said = check(0, stream, export(format, 0.1, "thesis/creature-1", "--gait", gait.toString()));
+
+        assertThat(said).startsWith(format).endsWith("numbers equal in 7 frames\n");
+        assertThat(Long.parseLong(said.split("[: ]+")[1])).isGreaterThan(atLeast);
+    }
+
+    /** Slices of many sizes, every third frame, another scheme, changed settings. */
+    @ParameterizedTest
+    @CsvSource({"vtp", "ply", "usd", "csv", "npz"})
+    void theBodyAloneAndFewerFieldsAndFrames(String format) throws IOException, InterruptedException {
+        String[] swim = {"thesis/creature-4", "--gait", folder.resolve("three.json").toString(), "--scheme",
+            "conserving", "--overrides", "{\"solver\":{\"substeps\":2,\"viscosity\":3}}"};
+        List<String> arguments = new ArrayList<>(List.of(swim));
+        arguments.addAll(List.of("--no-water", "--every", "3", "--fields", "position"));
+
+        String said = check(0, stream(0.2, swim), export(format, 0.2, arguments.toArray(String[]::new)));
+
+        assertThat(said).endsWith("numbers equal in 5 frames\n");
+    }
+
+    @ParameterizedTest
+    @CsvSource({"vtp", "ply", "usd", "csv", "npz"})
+    void waterWithoutABody(String format) throws IOException, InterruptedException {
+        check(0, stream(0.05, "thesis/tank"), export(format, 0.05, "thesis/tank"));
+    }
+
+    /** Particles that are held in place, and solids of no body, in a stream made for it. */
+    @ParameterizedTest
+    @CsvSource({"vtp", "ply", "usd", "csv", "npz"})
+    void particlesOfEveryKind(String format) throws IOException, InterruptedException {
+        ObjectNode scene = StreamBytes.scene();
+        scene.putArray("body").add(4).add(5).add(6);
+        scene.putArray("slices");
+        scene.putArray("joints");
+        scene.putArray("clusters").addArray().add(5).add(6);
+        StreamBytes stream = new StreamBytes().json("SCEN", scene).frame(1, 0).frame(1, 1).frame(1, 2)
+                .json("STOP", "{\"reason\":\"until\"}");
+        Path file = Files.write(folder.resolve("made.stream"), stream.toBytes());
+        Path program = Files.writeString(folder.resolve("simulator.sh"), "#!/bin/sh\ncat '" + file + "'\n");
+        assertThat(program.toFile().setExecutable(true)).isTrue();
+
+        check(0, file, export(program, format, 1, "test/pool"));
+    }
+
+    /** That the comparison would find a difference. */
+    @ParameterizedTest
+    @CsvSource({"vtp", "ply", "usd", "csv", "npz"})
+    void anotherSwimIsNotTheSame(String format) throws IOException, InterruptedException {
+        Path stream = stream(0.05, "thesis/creature-1", "--precision", "double");
+        Path export = export(format, 0.05, "thesis/creature-1");
+        Path metadata = export.resolve("metadata.json");
+        Files.writeString(metadata, Files.readString(metadata).replace("\"float\"", "\"double\""));
+
+        assertThat(check(1, stream, export)).contains("; expected ").hasLineCount(1);
+    }
+
+    /** A motion that is twice as large as the memory is written all the same. */
+    @Test
+    void memoryDoesNotGrowWithTheDuration() throws IOException, InterruptedException {
+        Path log = folder.resolve("log");
+        int status = run(log.toFile(), Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-Xmx18m",
+                "-XX:+UseSerialGC", "-cp", System.getProperty("java.class.path"), Main.class.getName(), "export",
+                "thesis/tank", "--format", "npz", "--duration", "4", "--overrides", "{\"solver\":{\"substeps\":1}}",
+                "--simulator-path", SIMULATOR.toString(), "--output-dir", folder.resolve("long").toString());
+
+        assertThat(status).as(Files.readString(log)).isZero();
+        assertThat(Files.size(folder.resolve("long/swim.npz"))).isGreaterThan(2 * (18L << 20));
+    }
+}

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "child_process.h"
+#include "measure/fnv1a.h"
+#include "natator/protocol.h"
+#include "stream_client.h"
+
+/// Streams that tests begin with, and what they take from them.
+namespace natator::test {
+
+inline const std::string vacuum = "thesis/creature-1-vacuum", water = "thesis/creature-1";
+inline const std::string gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
+inline const nlohmann::json step{{"do", "step"}};
+
+inline std::vector<std::string> paused_in(const std::string& scene, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{scene, "--gait", gait, "--paused"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+inline nlohmann::json credit(int frames) {
+    return {{"do", "credit"}, {"frames", frames}};
+}
+
+/// Grants credit for the settled start, which a paused stream sends then.
+inline StreamFrame take_start(StreamClient& client) {
+    EXPECT_EQ(client.ask(credit(1)).value("ok", false), true);
+    return client.frame();
+}
+
+/// Simulates so many frames and gives the last one.
+inline StreamFrame take_step(StreamClient& client, int frames = 1) {
+    EXPECT_EQ(client.ask(credit(1)).value("ok", false), true);
+    EXPECT_EQ(client.ask({{"do", "step"}, {"frames", frames}}).value("ok", false), true);
+    const auto passed = client.passed();
+    EXPECT_EQ(passed.size(), 1u);
+    return {passed.at(0).body, client.scene()};
+}
+
+/// As `natator-sim evaluate` computes it from the state.
+inline std::string hash_of(const StreamFrame& frame) {
+    Fnv1a hash;
+    for (const auto* values : {&frame.position, &frame.velocity})
+        for (const float value : *values) hash.add(value);
+    return hash_text(hash.value());
+}
+
+inline nlohmann::json evaluated(const std::string& scene, int frames) {
+    const nlohmann::json request{{"id", 1},
+                                 {"scene", scene},
+                                 {"gait", nlohmann::json::parse(gait)},
+                                 {"duration", frames / 60.0},
+                                 {"overrides", {{"stopping", {{"planeContact", false}, {"noProgressAfter", 0}}}}}};
+    return nlohmann::json::parse(run_simulator({"evaluate"}, request.dump()).out);
+}
+
+}  // namespace natator::test
