@@ -13,7 +13,10 @@ import org.junit.jupiter.api.extension.BeforeAllCallback;
 import org.junit.jupiter.api.extension.ExtensionContext;
 import org.junit.jupiter.api.extension.ExtensionContext.Namespace;
 
-/** The browser that is installed here, without a screen and without a graphics card; one for all tests. */
+/**
+ * The browser that is installed here, without a screen and without a graphics card: one for all tests of a class, after
+ * which it ends, since others count the processes that are left.
+ */
 final class Chromium implements BeforeAllCallback {
 
     /** Environment variable with the path of a browser. */
@@ -57,7 +60,7 @@ final class Chromium implements BeforeAllCallback {
 
     @Override
     public void beforeAll(ExtensionContext context) {
-        browser = context.getRoot().getStore(Namespace.create(Chromium.class))
+        browser = context.getStore(Namespace.create(Chromium.class))
                 .computeIfAbsent(Running.class, key -> Running.start(), Running.class).browser();
     }
 
