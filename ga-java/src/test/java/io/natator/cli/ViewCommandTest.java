@@ -72,7 +72,7 @@ class ViewCommandTest {
     void whenToldToEndItLeavesNothingBehind() throws IOException, InterruptedException {
         URI server = start("--creature", "1");
         for (int i = 0; i < 2; i++) {
-            watch(server);
+            watch(server, "thesis/creature-1");
         }
         List<ProcessHandle> simulators = program.descendants().toList();
         assertThat(simulators).hasSize(2);
@@ -85,21 +85,42 @@ class ViewCommandTest {
         assertThat(Files.readString(folder.resolve("errors"))).isEmpty();
     }
 
-    /** Opens a socket and waits until its simulator has said something. */
-    private static void watch(URI server) {
-        CompletableFuture<Void> heard = new CompletableFuture<>();
+    /** A scene that the page has saved; no other file may be named. */
+    @Test
+    void aSceneFileIsShown() throws IOException, InterruptedException {
+        Path scene = Files.writeString(folder.resolve("mine.json"),
+                "{\"base\":\"thesis/creature-1-vacuum\",\"scheme\":\"conserving\"}");
+        Path other = Files.copy(scene, folder.resolve("other.json"));
+        URI server = start("--scene", scene.toString());
+
+        String named = start(server).get("scene").textValue();
+
+        assertThat(named).isEqualTo(scene.toString());
+        assertThat(watch(server, named)).startsWith("{\"type\":\"SCEN\"").contains("\"scheme\":\"conserving\"");
+        assertThat(watch(server, other.toString())).startsWith("{\"type\":\"ANSW\"")
+                .contains("expected a named scene or one that the server was started with");
+    }
+
+    /** Opens a socket and starts a scene; what it says first. */
+    private static String watch(URI server, String scene) {
+        CompletableFuture<String> heard = new CompletableFuture<>();
         WebSocket socket = HttpClient.newHttpClient().newWebSocketBuilder()
                 .header("Origin", "http://" + server.getAuthority())
                 .buildAsync(URI.create("ws://" + server.getAuthority() + "/stream"), new WebSocket.Listener() {
+                    private final StringBuilder text = new StringBuilder();
+
                     @Override
                     public CompletionStage<?> onText(WebSocket one, CharSequence data, boolean last) {
-                        heard.complete(null);
+                        text.append(data);
+                        if (last) {
+                            heard.complete(text.toString());
+                        }
                         one.request(1);
                         return null;
                     }
                 }).join();
-        socket.sendText("{\"do\":\"start\",\"scene\":\"thesis/creature-1\"}", true).join();
-        heard.orTimeout(60, TimeUnit.SECONDS).join();
+        socket.sendText("{\"do\":\"start\",\"scene\":\"" + scene + "\"}", true).join();
+        return heard.orTimeout(60, TimeUnit.SECONDS).join();
     }
 
     @Test
