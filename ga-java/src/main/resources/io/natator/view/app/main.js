@@ -85,7 +85,7 @@ class Page {
     const which = this.#views.length;
     const element = byId(`stage-${NAMES[which]}`);
     element.hidden = false;
-    const view = new View(element.querySelector('.picture'), setting, this.#setup.scenes, {
+    const view = new View(element.querySelector('.picture'), setting, this.#setup.start, this.#setup.scenes, {
       scene: () => this.#sceneChanged(which),
       status: (state, text) => this.#status(state, text),
       notice: (text, isBad) => this.#banner(text, isBad),

@@ -22,6 +22,7 @@ export class View {
   #meter = new Meter();
   #setting;
   #known;
+  #fallback;
 
   /** SCEN of what runs, or null. */
   scene = null;
@@ -34,11 +35,13 @@ export class View {
   /**
    * @param {HTMLElement} host what the picture fills
    * @param {object} setting scene, overrides, gait, rate, paused: how to begin
+   * @param {object} fallback scene, overrides, gait: what to show if that is refused
    * @param {string[]} known names of scenes
    */
-  constructor(host, setting, known, handlers) {
+  constructor(host, setting, fallback, known, handlers) {
     this.#setting = {overrides: null, gait: null, rate: 1, paused: false, ...setting};
     this.#known = known;
+    this.#fallback = fallback;
     this.#handlers = handlers;
     this.stage = new Stage(host);
     this.stage.onRange = range => handlers.range(range);
@@ -53,6 +56,7 @@ export class View {
         this.analysis = analysis;
       },
       lost: lost => this.#lost(lost),
+      refused: error => this.#refused(error),
     });
   }
 
@@ -193,6 +197,16 @@ export class View {
         : stop.reason === 'until' ? 'Came to its end.' : stop.reason;
     this.#handlers.notice(text, stop.reason !== 'until');
     this.#handlers.scene();
+  }
+
+  /** What an address remembers may be gone: then what the server was started with is shown. */
+  #refused(error) {
+    if (this.scene === null && this.#fallback !== null) {
+      this.#handlers.notice(error, true);
+      this.#setting = {...this.#setting, overrides: null, gait: null, ...this.#fallback};
+      this.#fallback = null;
+      this.#connection.begin();
+    }
   }
 
   #lost(lost) {
