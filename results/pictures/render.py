@@ -1,4 +1,4 @@
-"""Draws one frame of `natator export --format vtp`: water as translucent spheres coloured by speed, the body by cluster.
+"""Draws one frame of `natator export --format vtp`: water as spheres coloured by speed, the body by cluster.
 
     render.py FOLDER TIME PICTURE.png
 
@@ -17,8 +17,9 @@ SIZE = (1200, 480)
 SPEEDS = ["#d0e6f6", "#a9d0ec", "#7fbbe0", "#4a9bcf", "#2579b5", "#145a94", "#0a3d6e", "#06254a"]
 CLUSTERS = ["#e4822d", "#d6474d", "#bd4a92", "#735fb9", "#fbbc4b"]
 
-BAR = {"title": "speed of the water [length/s]", "color": "#333333", "n_labels": 2, "fmt": "%.2f", "title_font_size": 15,
-       "label_font_size": 13, "width": 0.25, "height": 0.07, "position_x": 0.72, "position_y": 0.88}
+BAR = {"title": "speed of the water [length/s]", "color": "#333333", "n_labels": 2, "fmt": "%.2f",
+       "title_font_size": 15, "label_font_size": 13, "width": 0.25, "height": 0.07, "position_x": 0.72,
+       "position_y": 0.88}
 
 
 def spheres(points, radius, detail):

@@ -20,7 +20,7 @@ struct Options {
     ExecutionOptions execution;
 };
 
-constexpr std::size_t most_waiting = 64;  // commands
+constexpr std::size_t most_waiting = 64;  // commands, beside as many that were taken together
 
 LiveSetup read_setup(const Options& options) {
     LiveSetup setup;

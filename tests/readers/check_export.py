@@ -1,9 +1,10 @@
-"""Reads an export back by the readers that its users have, and compares every number with the simulator's own stream.
+"""Reads an export back by the readers that its users have; compares every number with the simulator's own stream.
 
     check_export.py STREAM FOLDER
 
-STREAM is what `natator-sim stream` wrote for the same scene, with all fields and frames (sim-native/protocol/stream.md);
-FOLDER is the export. Prints how many numbers are equal; exit status 1 and one line if one is not.
+STREAM is what `natator-sim stream` wrote for the same scene, with all fields and frames; its format is described in
+sim-native/protocol/stream.md. FOLDER is the export. Prints how many numbers are equal; exit status 1 and one line if one
+is not.
 """
 
 import csv

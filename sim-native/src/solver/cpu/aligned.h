@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <new>
 #include <vector>
@@ -35,6 +36,7 @@ struct Vector3Array {
         y.resize(n, value);
         z.resize(n, value);
     }
+    std::array<Real*, 3> pointers() { return {x.data(), y.data(), z.data()}; }
     Eigen::Matrix<Real, 3, 1> at(int i) const { return {x[i], y[i], z[i]}; }
     void set(int i, const Eigen::Matrix<Real, 3, 1>& value) {
         x[i] = value.x();

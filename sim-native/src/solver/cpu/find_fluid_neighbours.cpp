@@ -6,10 +6,9 @@ namespace natator::cpu {
 
 template <class Real>
 FluidView<Real> Substep<Real>::fluid_view() {
-    const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
-    const auto position = pointers(ws_.position);
-    const auto correction = pointers(ws_.correction);
-    const auto velocity = pointers(ws_.velocity);
+    const auto position = ws_.position.pointers();
+    const auto correction = ws_.correction.pointers();
+    const auto velocity = ws_.velocity.pointers();
     return {.first_block = 0,
             .end_block = ws_.blocks(),
             .row_begin = ws_.row_begin.data(),

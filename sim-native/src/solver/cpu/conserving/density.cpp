@@ -8,11 +8,10 @@ namespace natator::cpu {
 
 template <class Real>
 DensityView<Real> ConservingStages<Real>::density_view() {
-    const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
-    const auto position = pointers(ws_.position);
-    const auto correction = pointers(ws_.correction);
-    const auto velocity = pointers(ws_.velocity);
-    const auto gradient = pointers(solid_gradient_);
+    const auto position = ws_.position.pointers();
+    const auto correction = ws_.correction.pointers();
+    const auto velocity = ws_.velocity.pointers();
+    const auto gradient = solid_gradient_.pointers();
     return {.first_block = 0,
             .end_block = ws_.blocks(),
             .row_begin = ws_.row_begin.data(),
@@ -48,9 +47,8 @@ void ConservingStages<Real>::clear_boundary_terms() {
 
 template <class Real>
 PlanePressure<Real> ConservingStages<Real>::plane_pressure() {
-    const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
-    const auto position = pointers(ws_.position), gradient = pointers(solid_gradient_),
-               correction = pointers(ws_.correction);
+    const auto position = ws_.position.pointers(), gradient = solid_gradient_.pointers(),
+               correction = ws_.correction.pointers();
     return {.position = {position[0], position[1], position[2]},
             .scale = own_.plane_scale,
             .gap = own_.plane_gap,

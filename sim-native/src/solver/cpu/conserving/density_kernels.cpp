@@ -19,6 +19,16 @@ Real finite_inverse(Real v) {
     return v > Real(least_response) ? 1 / v : 0;
 }
 
+/// w_i |grad_i C_i|^2 + sum_k w_k |grad_k C_i|^2 of a slot, of the sums over its fluid neighbours.
+template <class Real>
+Real inverse_response(const DensityView<Real>& fluid, int i, Real gx, Real gy, Real gz, Real square_sum) {
+    const Real cx = fluid.gradient_scale * gx + fluid.solid_gradient[0][i];
+    const Real cy = fluid.gradient_scale * gy + fluid.solid_gradient[1][i];
+    const Real cz = fluid.gradient_scale * gz + fluid.solid_gradient[2][i];
+    const Real others = fluid.gradient_scale * fluid.gradient_scale * square_sum + fluid.solid_gradient_square[i];
+    return fluid.inverse_mass[i] * (cx * cx + cy * cy + cz * cz) + others;
+}
+
 template <class Real>
 void compute_lambda(const DensityView<Real>& fluid) {
     const Real* const x = fluid.position[0];
@@ -51,14 +61,9 @@ void compute_lambda(const DensityView<Real>& fluid) {
         for (int lane = 0; lane < lanes; ++lane) {
             const int i = first + lane;
             const Real above = fluid.kernel_scale * (sum[lane] - fluid.rest_sum) + fluid.solid_density[i];
-            const Real cx = fluid.gradient_scale * gx[lane] + fluid.solid_gradient[0][i];
-            const Real cy = fluid.gradient_scale * gy[lane] + fluid.solid_gradient[1][i];
-            const Real cz = fluid.gradient_scale * gz[lane] + fluid.solid_gradient[2][i];
-            const Real others =
-                fluid.gradient_scale * fluid.gradient_scale * square[lane] + fluid.solid_gradient_square[i];
-            const Real all = w[i] * (cx * cx + cy * cy + cz * cz) + others;
             fluid.density[i] = 1 + above;
-            const Real response = finite_inverse(all);
+            const Real response =
+                finite_inverse(inverse_response(fluid, i, gx[lane], gy[lane], gz[lane], square[lane]));
             const Real lambda = above > 0 ? -above * response : 0;
             fluid.response[i] = response;
             fluid.lambda[i] = lambda;
@@ -74,14 +79,26 @@ Floats inverse_distance(const DensityView<float>& fluid, int entry, Floats r2) {
     return inverse_r;
 }
 
-/// w_i |grad_i C_i|^2 + sum_k w_k |grad_k C_i|^2 of the slots from `first` on, of the sums over their fluid neighbours.
-Floats inverse_response(const DensityView<float>& fluid, int first, Floats gx, Floats gy, Floats gz,
-                        Floats square_sum) {
-    const Floats cx = fluid.gradient_scale * gx + load(fluid.solid_gradient[0] + first);
-    const Floats cy = fluid.gradient_scale * gy + load(fluid.solid_gradient[1] + first);
-    const Floats cz = fluid.gradient_scale * gz + load(fluid.solid_gradient[2] + first);
+/// Sums over the fluid neighbours of a group of slots, without gradient_scale: of gradients, and of w gradient^2.
+struct GradientSums {
+    Floats x{}, y{}, z{}, square{};
+
+    /// A neighbour with inverse mass w at distance d; g is the size of its gradient.
+    void add(Floats g, Floats slope, Floats w, Floats dx, Floats dy, Floats dz) {
+        x -= slope * dx;
+        y -= slope * dy;
+        z -= slope * dz;
+        square += w * g * g;
+    }
+};
+
+/// The same for the slots from `first` on.
+Floats inverse_response(const DensityView<float>& fluid, int first, const GradientSums& sums) {
+    const Floats cx = fluid.gradient_scale * sums.x + load(fluid.solid_gradient[0] + first);
+    const Floats cy = fluid.gradient_scale * sums.y + load(fluid.solid_gradient[1] + first);
+    const Floats cz = fluid.gradient_scale * sums.z + load(fluid.solid_gradient[2] + first);
     const Floats others =
-        fluid.gradient_scale * fluid.gradient_scale * square_sum + load(fluid.solid_gradient_square + first);
+        fluid.gradient_scale * fluid.gradient_scale * sums.square + load(fluid.solid_gradient_square + first);
     return load(fluid.inverse_mass + first) * square(cx, cy, cz) + others;
 }
 
@@ -95,7 +112,8 @@ void compute_lambda(const DensityView<float>& fluid) {
         const Floats x = load(fluid.position[0] + first);
         const Floats y = load(fluid.position[1] + first);
         const Floats z = load(fluid.position[2] + first);
-        Floats sum{}, gx{}, gy{}, gz{}, square_sum{};
+        Floats sum{};
+        GradientSums gradients;
         for (int row = row_begin; row < row_end; ++row) {
             const int entry = row * lanes + lane;
             const Floats4 other = gather(packed, fluid.neighbour + entry);
@@ -106,13 +124,10 @@ void compute_lambda(const DensityView<float>& fluid) {
             const Floats g = t * t;
             const Floats slope = g * inverse_r;
             sum += g * t;
-            gx -= slope * dx;
-            gy -= slope * dy;
-            gz -= slope * dz;
-            square_sum += other.w * g * g;
+            gradients.add(g, slope, other.w, dx, dy, dz);
         }
         const Floats above = fluid.kernel_scale * (sum - fluid.rest_sum) + load(fluid.solid_density + first);
-        const Floats response = finite_inverse(inverse_response(fluid, first, gx, gy, gz, square_sum));
+        const Floats response = finite_inverse(inverse_response(fluid, first, gradients));
         const Floats lambda = -positive_part(above) * response;
         store(fluid.density + first, 1 + above);
         store(fluid.response + first, response);
@@ -222,13 +237,9 @@ void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
         }
         for (int lane = 0; lane < lanes; ++lane) {
             const int i = first + lane;
-            const Real cx = fluid.gradient_scale * gx[lane] + fluid.solid_gradient[0][i];
-            const Real cy = fluid.gradient_scale * gy[lane] + fluid.solid_gradient[1][i];
-            const Real cz = fluid.gradient_scale * gz[lane] + fluid.solid_gradient[2][i];
-            const Real others =
-                fluid.gradient_scale * fluid.gradient_scale * square[lane] + fluid.solid_gradient_square[i];
-            const Real all = inverse_mass[i] * (cx * cx + cy * cy + cz * cz) + others;
-            const Real lambda = -fluid.gradient_scale * rate[lane] * finite_inverse(all);
+            const Real response =
+                finite_inverse(inverse_response(fluid, i, gx[lane], gy[lane], gz[lane], square[lane]));
+            const Real lambda = -fluid.gradient_scale * rate[lane] * response;
             const Real most = -fluid.lambda_sum[i] * inverse_h;
             const Real limited = lambda < most ? lambda : most;
             fluid.lambda[i] = most > 0 ? limited : 0;
@@ -246,7 +257,8 @@ void compute_rate_lambda(const DensityView<float>& fluid, float inverse_h) {
         const Floats u = load(fluid.velocity[0] + first);
         const Floats v = load(fluid.velocity[1] + first);
         const Floats w = load(fluid.velocity[2] + first);
-        Floats rate{}, gx{}, gy{}, gz{}, square_sum{};
+        Floats rate{};
+        GradientSums gradients;
         for (int row = row_begin; row < row_end; ++row) {
             const int entry = row * lanes + lane;
             const Floats4 other = gather(packed, fluid.neighbour + entry);
@@ -259,12 +271,9 @@ void compute_rate_lambda(const DensityView<float>& fluid, float inverse_h) {
             const Floats g = t * t;
             const Floats slope = g * inverse_r;
             rate += slope * approach;
-            gx -= slope * dx;
-            gy -= slope * dy;
-            gz -= slope * dz;
-            square_sum += other.w * g * g;
+            gradients.add(g, slope, other.w, dx, dy, dz);
         }
-        const Floats response = finite_inverse(inverse_response(fluid, first, gx, gy, gz, square_sum));
+        const Floats response = finite_inverse(inverse_response(fluid, first, gradients));
         const Floats lambda = -fluid.gradient_scale * rate * response;
         const Floats most = -load(fluid.lambda_sum + first) * inverse_h;
         const Floats limited = lambda < most ? lambda : most;

@@ -23,8 +23,8 @@ import picocli.CommandLine.Spec;
 /** {@code natator export}: a swim in the formats of other programs. */
 @Command(name = "export", mixinStandardHelpOptions = true,
         description = {"Simulates a swim and writes it, frame by frame, for another program.",
-            "vtp: ParaView; ply: Blender, a file for each frame; usd: USD; csv: one table; npz: numpy. The folder appears "
-                + "when it is whole; metadata.json in it says what was simulated."})
+            "vtp: ParaView; ply: Blender, a file for each frame; usd: USD; csv: one table; npz: numpy. The folder "
+                + "appears when it is whole; metadata.json in it says what was simulated."})
 final class ExportCommand implements Callable<Integer> {
 
     @Spec

@@ -75,8 +75,8 @@ final class ExportFolder implements Closeable {
 
     private static void failUnlessReplaceable(Path folder, Path target, boolean replace) {
         if (!replace) {
-            throw new InvalidInputException("output folder " + folder + " is not empty; choose another by --output-dir, "
-                    + "or replace the export in it by --force");
+            throw new InvalidInputException("output folder " + folder + " is not empty; choose another by "
+                    + "--output-dir, or replace the export in it by --force");
         }
         if (!Files.isRegularFile(target.resolve(METADATA))) {
             throw new InvalidInputException("output folder " + folder + " holds no export: it has no " + METADATA

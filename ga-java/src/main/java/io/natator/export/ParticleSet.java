@@ -97,11 +97,6 @@ final class ParticleSet {
         return kind[i];
     }
 
-    /** Number of particles of a kind. */
-    long count(ParticleKind wanted) {
-        return Arrays.stream(kind).filter(wanted::equals).count();
-    }
-
     /** The first cluster of the i-th particle, from the head on, or {@link #NO_CLUSTER}. */
     int cluster(int i) {
         return cluster[i];

@@ -10,9 +10,9 @@ import java.util.ArrayList;
 import java.util.List;
 
 /**
- * For USD: {@code swim.usda}, a time code for each simulated frame. {@code Water} and {@code BodyParticles} are points,
- * {@code Muscles} are curves. {@code Body} is the body's surface; where its slices have one, its particles are there but
- * invisible. The unit of length counts as a metre.
+ * For USD: {@code swim.usda}, a time code for each simulated frame. {@code Water} and {@code BodyParticles} are
+ * points, {@code Muscles} are curves. {@code Body} is the body's surface; where its slices have one, its particles are
+ * there but invisible. The unit of length counts as a metre.
  */
 final class UsdWriter implements FrameWriter {
 

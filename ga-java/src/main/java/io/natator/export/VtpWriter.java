@@ -52,8 +52,8 @@ final class VtpWriter implements FrameWriter {
         this.muscleEnds = LittleEndian.ints(IntStream.rangeClosed(1, muscles.size()).map(i -> 2 * i).toArray());
         this.actuators = LittleEndian.ints(muscles.stream().mapToInt(StreamScene.Muscle::actuator).toArray());
         this.index = Files.newBufferedWriter(folder.resolve("swim.pvd"));
-        index.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-                + "<Collection>\n");
+        index.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\""
+                + " byte_order=\"LittleEndian\">\n<Collection>\n");
     }
 
     @Override

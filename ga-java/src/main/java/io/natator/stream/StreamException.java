@@ -2,7 +2,7 @@ package io.natator.stream;
 
 import java.io.IOException;
 
-/** A stream that breaks its protocol, or that ended though it should not have; the message is one line that says how. */
+/** A stream that breaks its protocol, or that ended though it should not have; the message says how in one line. */
 public final class StreamException extends IOException {
 
     private static final long serialVersionUID = 1L;

@@ -21,8 +21,8 @@ import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 
 /**
- * A running {@code natator-sim stream}. One thread takes its messages; any thread may send commands or close it. Neither
- * it nor any descendant of it outlives {@link #close} or this virtual machine.
+ * A running {@code natator-sim stream}. One thread takes its messages; any thread may send commands or close it.
+ * Neither it nor any descendant of it outlives {@link #close} or this virtual machine.
  */
 public final class StreamProcess implements AutoCloseable {
 

@@ -69,8 +69,8 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
     }
 
     /**
-     * A spring between two particles that contracts: its length is (1 + ½ lateral a u) times that at rest, with a u of its
-     * actuator from the frame.
+     * A spring between two particles that contracts: its length is (1 + ½ lateral a u) times that at rest, with a u of
+     * its actuator from the frame.
      *
      * @param a          particle
      * @param b          particle
@@ -105,7 +105,8 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         expect(timeStep > 0 && Double.isFinite(timeStep), "timeStep is " + timeStep + "; expected seconds above 0");
         within("particles", particles, MAX_PARTICLES);
         within("actuators", actuators, MAX_ACTUATORS);
-        expect(mass != null && mass.size() == particles, "mass has " + sizeOf(mass) + " numbers; expected " + particles);
+        expect(mass != null && mass.size() == particles, "mass has " + sizeOf(mass) + " numbers; expected "
+                + particles);
         expect(fields != null && fields.stream().distinct().sorted().toList().equals(fields),
                 "fields are " + fields + "; expected some of position, velocity, density in this order");
         expect(fluid != null && fluid.size() == 2 && fluid.get(0) >= 0 && fluid.get(1) >= 0

@@ -91,21 +91,27 @@ final class StreamSession implements AutoCloseable {
             if (course != null) {
                 throw new InvalidInputException("start: a simulation runs already; expected scene");
             }
-            course = new Course(command);
-            try {
-                startProcess();
-            } catch (InvalidInputException e) {
-                course = null;
-                throw e;
-            }
-            Thread pump = new Thread(this::pump, "view-stream");
-            pump.setDaemon(true);
-            pump.start();
+            begin(command);
         } else if (course == null) {
             throw new InvalidInputException(command.what() + ": no simulation runs; expected start");
         } else {
             course.follow(command);
             process.send(command.content());
+        }
+    }
+
+    private void begin(ClientCommand start) throws StreamException {
+        boolean started = false;
+        course = new Course(start);
+        try {
+            started = startProcess();
+        } finally {
+            course = started ? course : null;
+        }
+        if (started) {
+            Thread pump = new Thread(this::pump, "view-stream");
+            pump.setDaemon(true);
+            pump.start();
         }
     }
 

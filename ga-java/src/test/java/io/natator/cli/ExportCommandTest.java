@@ -26,7 +26,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.EnumSource;
 import picocli.CommandLine;
 
-/** What {@code natator export} does with its arguments and when things go wrong; the simulator says what a file holds. */
+/** What {@code natator export} does with its arguments and when things go wrong; what the simulator says is a file. */
 @Timeout(value = 120, unit = TimeUnit.SECONDS)
 class ExportCommandTest {
 
@@ -100,7 +100,7 @@ class ExportCommandTest {
 
         assertThat(out.toString()).isEqualTo(folder.resolve("out")
                 + ": 3 frames of 4 particles of water and 4 others" + System.lineSeparator());
-        JsonNode metadata = Json.parse(Files.readString(folder.resolve("out").resolve("metadata.json")), JsonNode.class);
+        JsonNode metadata = Json.parse(Files.readString(folder.resolve("out/metadata.json")), JsonNode.class);
         assertThat(metadata.get("format").asText()).isEqualTo(format.text());
         assertThat(metadata.get("frames").asInt()).isEqualTo(3);
         assertThat(metadata.get("definition")).isEqualTo(StreamBytes.scene().get("definition"));
@@ -177,7 +177,8 @@ class ExportCommandTest {
     void aFailedSimulationLeavesNothing(String then, String message) throws IOException {
         Files.write(folder.resolve("unstable"), new StreamBytes()
                 .json("STOP", "{\"reason\":\"unstable\",\"particle\":7,\"time\":0.5}").toBytes());
-        Files.write(folder.resolve("refusal"), new StreamBytes().json("ANSW", "{\"id\":null,\"error\":\"no credit\"}").toBytes());
+        Files.write(folder.resolve("refusal"), new StreamBytes()
+                .json("ANSW", "{\"id\":null,\"error\":\"no credit\"}").toBytes());
         Path simulator = simulator(frames(3), "cd '" + folder + "'; " + then);
 
         for (ExportFormat format : ExportFormat.values()) {

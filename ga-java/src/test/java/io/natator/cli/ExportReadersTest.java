@@ -2,6 +2,8 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.stream.StreamBytes;
 import java.io.File;
 import java.io.IOException;
 import java.io.OutputStream;
@@ -72,9 +74,13 @@ class ExportReadersTest {
     }
 
     private Path export(String format, double until, String... arguments) {
+        return export(SIMULATOR, format, until, arguments);
+    }
+
+    private Path export(Path simulator, String format, double until, String... arguments) {
         Path target = folder.resolve(format);
         List<String> all = new ArrayList<>(List.of("export", "--format", format, "--duration", "" + until,
-                "--simulator-path", SIMULATOR.toString(), "--output-dir", target.toString()));
+                "--simulator-path", simulator.toString(), "--output-dir", target.toString()));
         all.addAll(List.of(arguments));
         StringWriter said = new StringWriter();
         CommandLine command = Main.commandLine().setOut(new PrintWriter(said, true)).setErr(new PrintWriter(said, true));
@@ -120,6 +126,24 @@ class ExportReadersTest {
     @CsvSource({"vtp", "ply", "usd", "csv", "npz"})
     void waterWithoutABody(String format) throws IOException, InterruptedException {
         check(0, stream(0.05, "thesis/tank"), export(format, 0.05, "thesis/tank"));
+    }
+
+    /** Particles that are held in place, and solids of no body, in a stream made for it. */
+    @ParameterizedTest
+    @CsvSource({"vtp", "ply", "usd", "csv", "npz"})
+    void particlesOfEveryKind(String format) throws IOException, InterruptedException {
+        ObjectNode scene = StreamBytes.scene();
+        scene.putArray("body").add(4).add(5).add(6);
+        scene.putArray("slices");
+        scene.putArray("joints");
+        scene.putArray("clusters").addArray().add(5).add(6);
+        StreamBytes stream = new StreamBytes().json("SCEN", scene).frame(1, 0).frame(1, 1).frame(1, 2)
+                .json("STOP", "{\"reason\":\"until\"}");
+        Path file = Files.write(folder.resolve("made.stream"), stream.toBytes());
+        Path program = Files.writeString(folder.resolve("simulator.sh"), "#!/bin/sh\ncat '" + file + "'\n");
+        assertThat(program.toFile().setExecutable(true)).isTrue();
+
+        check(0, file, export(program, format, 1, "test/pool"));
     }
 
     /** That the comparison would find a difference. */

@@ -60,8 +60,8 @@ class StreamProcessTest {
 
     @Test
     void commandsArriveOneALine() throws IOException, InterruptedException {
-        Path script = program(scene(), "read first; read second; echo \"$first\" \"$second\" >heard; printf 'ANSW\\023\\0\\0\\0'"
-                + "; printf '{\"id\":1,\"ok\":true} '; sleep 60");
+        Path script = program(scene(), "read first; read second; echo \"$first\" \"$second\" >heard; "
+                + "printf 'ANSW\\023\\0\\0\\0'; printf '{\"id\":1,\"ok\":true} '; sleep 60");
         try (StreamProcess process = new StreamProcess(script, OPTIONS)) {
             process.next();
             process.grant(2);
