@@ -92,7 +92,9 @@ const SHADE_FRAGMENT = `
     vec4 centre = texture2D(source, place);
     if (centre.a < 0.5) discard;
     vec3 here = eyeOf(place, centre.r);
-    vec3 normal = normalize(cross(slope(vec2(2.0 * step.x, 0.0), centre, here), slope(vec2(0.0, 2.0 * step.y), centre, here)));
+    vec3 across = slope(vec2(2.0 * step.x, 0.0), centre, here);
+    vec3 upwards = slope(vec2(0.0, 2.0 * step.y), centre, here);
+    vec3 normal = normalize(cross(across, upwards));
     vec3 view = normalize(-here);
     vec3 lamp = normalize(vec3(-0.35, 0.8, 0.5));
     vec3 colour = texture2D(scale, vec2((centre.g - range.x) / (range.y - range.x) * 0.996 + 0.002, 0.5)).rgb;

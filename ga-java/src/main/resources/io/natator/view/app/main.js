@@ -44,7 +44,8 @@ class Page {
     this.#solver = new SolverControls((key, patch) => this.#view.setOverrides(key, patch));
     this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watch(run, best, beside));
     fillSelect(byId('scheme'), setup.schemes.map(scheme => [scheme, scheme]));
-    fillSegments(byId('cameras'), 'camera', CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]), mode => this.setCamera(mode));
+    const cameras = CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]);
+    fillSegments(byId('cameras'), 'camera', cameras, mode => this.setCamera(mode));
     fillSegments(byId('which'), 'which', [['0', 'Left'], ['1', 'Right']], which => this.#choose(Number(which)));
     this.#addView(memory.views?.[0] ?? setup.start);
     if (memory.views?.[1]) {

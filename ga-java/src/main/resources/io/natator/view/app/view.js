@@ -221,12 +221,18 @@ export class View {
 }
 
 /** Overrides less those that make a vacuum. */
-function withoutVacuum({fluid, planes, stopping, solver, ...others}) {
-  const {gravity, ...kept} = solver ?? {};
-  return {
-    ...others,
-    ...(fluid ? {fluid} : {}),
-    ...(planes?.length > 0 ? {planes} : {}),
-    ...(Object.keys(kept).length > 0 ? {solver: kept} : {}),
-  };
+function withoutVacuum(overrides) {
+  const kept = {...overrides, solver: {...overrides.solver}};
+  delete kept.stopping;
+  delete kept.solver.gravity;
+  if (Object.keys(kept.solver).length === 0) {
+    delete kept.solver;
+  }
+  if (!kept.fluid) {
+    delete kept.fluid;
+  }
+  if (!(kept.planes?.length > 0)) {
+    delete kept.planes;
+  }
+  return kept;
 }
