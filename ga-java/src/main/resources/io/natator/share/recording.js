@@ -12,7 +12,7 @@ async function expanded(text) {
  *
  * @returns {Int32Array[]} one row for each time
  */
-export function decodeTable(code, times, numbers, bytes, steady) {
+function decodeTable(code, times, numbers, bytes, steady) {
   const mask = bytes === 4 ? -1 : (1 << 8 * bytes) - 1;
   const rows = [];
   for (let time = 0; time < times; time++) {

@@ -47,7 +47,8 @@ class Player {
     this.#stage.setTheme(this.#theme.colours);
     this.#stage.setLook(this.#look.look);
     fillSelect(byId('swim'), this.#texts.map((one, i) => [i, one.dataset.title]));
-    fillSegments(byId('cameras'), 'camera', CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]), mode => this.#setCamera(mode));
+    const cameras = CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]);
+    fillSegments(byId('cameras'), 'camera', cameras, mode => this.#setCamera(mode));
     this.#setCamera('follow');
     this.#stage.rig.onMode = mode => choose(byId('cameras'), mode);
     this.#listen();
@@ -162,12 +163,16 @@ class Player {
     const {scene, frames, duration} = this.#recording;
     const gait = scene.gait;
     const list = numbers => numbers.map(one => one.toFixed(3)).join(', ');
-    const facts = [['Scene', scene.scene], ['Scheme', scene.scheme], ['Frames', `${(frames - 1) / duration} per second`.replace(/(\.\d)\d+/, '$1')]];
+    const perSecond = duration > 0 ? Math.round(10 * (frames - 1) / duration) / 10 : 0;
+    const facts = [['Scene', scene.scene], ['Scheme', scene.scheme], ['Frames', `${perSecond} per second`]];
     if (gait) {
-      facts.push(['Frequency', `${gait.frequency.toFixed(3)} /s`], ['Amplitude', list(gait.amplitude)], ['Phase', list(gait.phase)]);
+      facts.push(['Frequency', `${gait.frequency.toFixed(3)} /s`], ['Amplitude', list(gait.amplitude)],
+          ['Phase', list(gait.phase)]);
     }
     facts.push(['Program', `Natator ${scene.program?.version ?? ''}`]);
-    byId('facts').replaceChildren(...facts.flatMap(([name, value]) => [make('dt', {textContent: name}), make('dd', {textContent: value})]));
+    byId('facts').replaceChildren(...facts.flatMap(([name, value]) => [
+      make('dt', {textContent: name}), make('dd', {textContent: value}),
+    ]));
   }
 
   #setCamera(mode) {

@@ -20,7 +20,7 @@ export function chartColours(element) {
 }
 
 /** Axes, and lines in the units of the data. */
-export class Chart {
+class Chart {
   #canvas;
   #context;
   #x = {low: 0, high: 1};

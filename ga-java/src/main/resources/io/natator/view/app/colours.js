@@ -9,7 +9,7 @@ function lab([lightness, chroma, hue]) {
 }
 
 /** OKLab to sRGB, each 0 to 255, clipped to what a screen shows. */
-export function labToRgb([l, a, b]) {
+function labToRgb([l, a, b]) {
   const long = (l + 0.3963377774 * a + 0.2158037573 * b) ** 3;
   const medium = (l - 0.1055613458 * a - 0.0638541728 * b) ** 3;
   const short = (l - 0.0894841775 * a - 1.2914855480 * b) ** 3;

@@ -6,8 +6,8 @@ const FIRST_RETRY_MS = 400;
 const LAST_RETRY_MS = 8000;
 
 /**
- * Calls `handlers`: status(state, text) with state connecting, open or lost; scene(SCEN), frame(ArrayBuffer),
- * stop(STOP), analysis(ANALYSIS), lost(LOST).
+ * Calls `handlers`: status(state, text) with state connecting, open or lost; scene(SCEN), stop(STOP), analysis(ANALYSIS),
+ * lost(LOST), refused(text) if what was to be shown cannot be.
  */
 export class Connection {
   #url;
@@ -69,18 +69,25 @@ export class Connection {
     this.#handlers.status('connecting', 'connecting');
     const socket = new WebSocket(this.#url);
     socket.binaryType = 'arraybuffer';
-    socket.onopen = () => this.#opened(socket);
+    socket.onopen = () => this.#opened();
     socket.onmessage = event => this.#received(event.data);
     socket.onclose = event => this.#lost(event.reason);
     this.#socket = socket;
   }
 
-  #opened(socket) {
+  #opened() {
     this.#retryMs = FIRST_RETRY_MS;
-    this.#forgetFrames();
-    socket.send(JSON.stringify(this.#start()));
-    this.#grant();
+    this.begin();
     this.#handlers.status('open', 'connected');
+  }
+
+  /** Asks for what `start` gives; to be called again if that was refused. */
+  begin() {
+    this.#forgetFrames();
+    const id = this.#nextId++;
+    this.#waiting.set(id, error => error !== null && this.#handlers.refused(error));
+    this.#socket.send(JSON.stringify({...this.#start(), id}));
+    this.#grant();
   }
 
   #received(data) {
@@ -122,15 +129,14 @@ export class Connection {
       this.#waiting.delete(answer.id);
       resolve(answer.error ?? null);
     } else if (answer.error !== undefined) {
-      this.#handlers.stop({reason: answer.error});
+      console.warn(answer.error);
     }
   }
 
   #answerAll(error) {
-    for (const resolve of this.#waiting.values()) {
-      resolve(error);
-    }
+    const waiting = [...this.#waiting.values()];
     this.#waiting.clear();
+    waiting.forEach(resolve => resolve(error));
   }
 
   #lost(reason) {

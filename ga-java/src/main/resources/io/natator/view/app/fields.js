@@ -20,11 +20,18 @@ export class FieldValues {
   #age = 0;
   #sample = new Float32Array(SAMPLES);
 
-  /** Ends of the scale. */
-  range = [0, 1];
+  #own = [0, 1];
 
-  /** Called with the ends when they change. */
+  /** Ends that hold instead of its own, for pictures that share a scale; null for its own. */
+  shared = null;
+
+  /** Called with its own ends when they change. */
   onRange = () => {};
+
+  /** Ends of the scale. */
+  get range() {
+    return this.shared ?? this.#own;
+  }
 
   /** Fills `out` with the values of `count` particles from `first` on. */
   read(field, scene, frame, first, count, out) {
@@ -63,11 +70,10 @@ export class FieldValues {
     }
     sample.sort();
     const ends = this.#ends(field, sample);
-    const wasWide = this.range[1] - this.range[0];
-    const fits = !isNew && ends[0] >= this.range[0] && ends[1] <= this.range[1]
-        && ends[1] - ends[0] > 0.4 * wasWide;
-    if (!fits && (isNew || ends[0] !== this.range[0] || ends[1] !== this.range[1])) {
-      this.range = ends;
+    const [low, high] = this.#own;
+    const fits = !isNew && ends[0] >= low && ends[1] <= high && ends[1] - ends[0] > 0.4 * (high - low);
+    if (!fits && (isNew || ends[0] !== low || ends[1] !== high)) {
+      this.#own = ends;
       this.onRange(ends);
     }
   }

@@ -10,7 +10,8 @@ export class Figures {
 
   constructor(stage) {
     const cell = name => stage.querySelector(`[data-figure="${name}"]`);
-    this.#cells = Object.fromEntries(['time', 'fps', 'dropped', 'pace', 'distance', 'quality'].map(name => [name, cell(name)]));
+    const names = ['time', 'fps', 'dropped', 'pace', 'distance', 'quality'];
+    this.#cells = Object.fromEntries(names.map(name => [name, cell(name)]));
     this.#title = stage.querySelector('figcaption');
     this.#overlay = stage.querySelector('.overlay');
   }

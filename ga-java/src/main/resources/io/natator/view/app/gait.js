@@ -71,7 +71,8 @@ export class GaitControls {
     if (scene.actuators !== this.#actuators) {
       this.#build(scene.actuators);
     }
-    const gait = scene.gait ?? {frequency: 1, amplitude: Array(scene.actuators).fill(0), phase: Array(scene.actuators).fill(0)};
+    const still = Array(scene.actuators).fill(0);
+    const gait = scene.gait ?? {frequency: 1, amplitude: still, phase: still};
     this.#gait = gait;
     this.#frequency?.show(gait.frequency);
     this.#amplitude.forEach((slider, i) => slider.show(gait.amplitude[i] ?? 0));

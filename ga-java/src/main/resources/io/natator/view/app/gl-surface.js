@@ -8,6 +8,8 @@ import {SURFACE_RADIUS} from './scene.js';
 
 /** Pixels of the surface for each of the picture. */
 const SHARE = 0.5;
+/** How often depth is smoothed. */
+const ROUNDS = 2;
 const DEPTH_VERTEX = `
   attribute float value;
   uniform float radius;
@@ -90,17 +92,19 @@ const SHADE_FRAGMENT = `
     vec4 centre = texture2D(source, place);
     if (centre.a < 0.5) discard;
     vec3 here = eyeOf(place, centre.r);
-    vec3 normal = normalize(cross(slope(vec2(step.x, 0.0), centre, here), slope(vec2(0.0, step.y), centre, here)));
+    vec3 across = slope(vec2(2.0 * step.x, 0.0), centre, here);
+    vec3 upwards = slope(vec2(0.0, 2.0 * step.y), centre, here);
+    vec3 normal = normalize(cross(across, upwards));
     vec3 view = normalize(-here);
     vec3 lamp = normalize(vec3(-0.35, 0.8, 0.5));
     vec3 colour = texture2D(scale, vec2((centre.g - range.x) / (range.y - range.x) * 0.996 + 0.002, 0.5)).rgb;
     float rim = pow(1.0 - max(dot(normal, view), 0.0), 3.0);
     float gloss = pow(max(dot(normal, normalize(lamp + view)), 0.0), 48.0);
     vec3 lit = colour * (0.66 + 0.4 * max(dot(normal, lamp), 0.0));
-    gl_FragColor = vec4(mix(lit, sky, 0.45 * rim) + 0.35 * gloss, clamp(opacity + 0.35 * rim + 0.5 * gloss, 0.0, 1.0));
+    gl_FragColor = vec4(mix(lit, sky, 0.45 * rim) + 0.24 * gloss, clamp(opacity + 0.35 * rim + 0.3 * gloss, 0.0, 1.0));
   }`;
 
-/** Three passes at half the size of the picture, and one over it. */
+/** Passes at half the size of the picture, and one over it. */
 export class GlSurface {
   #scene = new THREE.Scene();
   #points = null;
@@ -160,8 +164,10 @@ export class GlSurface {
     const [first, second] = this.#targets;
     const step = this.#smooth.uniforms.step.value;
     this.#drawDepth(renderer, camera, bodyPoints, first);
-    this.#pass(renderer, this.#smooth, first, second, step.set(1 / this.#width, 0));
-    this.#pass(renderer, this.#smooth, second, first, step.set(0, 1 / this.#height));
+    for (let round = 0; round < ROUNDS; round++) {
+      this.#pass(renderer, this.#smooth, first, second, step.set(1 / this.#width, 0));
+      this.#pass(renderer, this.#smooth, second, first, step.set(0, 1 / this.#height));
+    }
     const uniforms = this.#shade.uniforms;
     uniforms.range.value.fromArray(range);
     uniforms.step.value.set(1 / this.#width, 1 / this.#height);

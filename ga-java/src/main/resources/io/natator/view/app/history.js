@@ -1,7 +1,7 @@
 /** What the charts show: the last numbers of a motion. */
 
 /** What is kept of each frame. */
-export const COLUMNS = ['time', 'distance', 'speed', 'beatSpeed', 'momentum', 'angularMomentum', 'densityMean',
+const COLUMNS = ['time', 'distance', 'speed', 'beatSpeed', 'momentum', 'angularMomentum', 'densityMean',
   'densityMax'];
 const CAPACITY = 1500;
 

@@ -2,7 +2,7 @@
 
 import {byId, make} from './element.js';
 
-const NAMES = {' ': 'space', '.': '.', '?': '?'};
+const NAMES = {' ': 'space'};
 /** Where a key is text, or moves a choice. */
 const TYPING = 'input[type="number"], input[type="text"], select, textarea';
 

@@ -32,7 +32,9 @@ export class LookControls {
     this.#colour = make('select', {id: 'colour', 'data-testid': 'colour'});
     fillSelect(this.#colour, Object.entries(FIELDS).map(([name, {title}]) => [name, title]));
     this.#colour.addEventListener('change', () => this.set({colour: this.#colour.value}));
-    this.#opacity = make('input', {type: 'range', id: 'opacity', min: 0.1, max: 1, step: 0.05, 'data-testid': 'opacity'});
+    this.#opacity = make('input', {
+      type: 'range', id: 'opacity', min: 0.1, max: 1, step: 0.05, 'data-testid': 'opacity',
+    });
     this.#opacity.addEventListener('input', () => this.set({opacity: Number(this.#opacity.value)}));
     this.#quality = make('select', {id: 'quality', 'data-testid': 'quality'});
     fillSelect(this.#quality, [['auto', 'as fast as it keeps up'],
@@ -48,7 +50,8 @@ export class LookControls {
       return make('label', {className: 'switch', title: `key ${key}`}, input, text);
     });
     byId('look').replaceChildren(row('Water', this.#water, null), row('Coloured by', this.#colour, 'colour'),
-        row('Opacity', this.#opacity, 'opacity'), row('Detail', this.#quality, 'quality'), row('Drawn by', this.#drawing, 'drawing'),
+        row('Opacity', this.#opacity, 'opacity'), row('Detail', this.#quality, 'quality'),
+        row('Drawn by', this.#drawing, 'drawing'),
         make('div', {className: 'switches'}, ...switches));
     byId('legend-bar').style.background = cssGradient(SCALES.sequential);
     byId('legend-change').style.background = cssGradient(SCALES.diverging);

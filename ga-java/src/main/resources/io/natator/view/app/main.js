@@ -23,6 +23,7 @@ class Page {
   #setup;
   #views = [];
   #figures = [];
+  #ranges = [];
   #chosen = 0;
   #camera = 'follow';
   #look;
@@ -43,7 +44,8 @@ class Page {
     this.#solver = new SolverControls((key, patch) => this.#view.setOverrides(key, patch));
     this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watch(run, best, beside));
     fillSelect(byId('scheme'), setup.schemes.map(scheme => [scheme, scheme]));
-    fillSegments(byId('cameras'), 'camera', CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]), mode => this.setCamera(mode));
+    const cameras = CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]);
+    fillSegments(byId('cameras'), 'camera', cameras, mode => this.setCamera(mode));
     fillSegments(byId('which'), 'which', [['0', 'Left'], ['1', 'Right']], which => this.#choose(Number(which)));
     this.#addView(memory.views?.[0] ?? setup.start);
     if (memory.views?.[1]) {
@@ -85,11 +87,11 @@ class Page {
     const which = this.#views.length;
     const element = byId(`stage-${NAMES[which]}`);
     element.hidden = false;
-    const view = new View(element.querySelector('.picture'), setting, this.#setup.scenes, {
+    const view = new View(element.querySelector('.picture'), setting, this.#setup.start, this.#setup.scenes, {
       scene: () => this.#sceneChanged(which),
       status: (state, text) => this.#status(state, text),
       notice: (text, isBad) => this.#banner(text, isBad),
-      range: range => (which === 0 || this.#views[0].isVacuum) && this.#look.showRange(range),
+      range: range => this.#rangeChanged(which, range),
     });
     view.stage.setTheme(this.#theme.colours);
     view.stage.setLook(this.#look.look);
@@ -103,6 +105,11 @@ class Page {
   #removeSecond() {
     this.#views.pop().close();
     this.#figures.pop();
+    this.#ranges.length = 1;
+    this.#views[0].stage.shareRange(null);
+    if (this.#ranges[0] !== undefined) {
+      this.#look.showRange(this.#ranges[0]);
+    }
     const old = byId('stage-b').querySelector('.picture');
     old.replaceWith(old.cloneNode());
     byId('stage-b').querySelector('.overlay').hidden = false;
@@ -147,6 +154,17 @@ class Page {
       this.#showControls();
     }
     this.#remember();
+  }
+
+  /** Two pictures of water have one scale, over both. */
+  #rangeChanged(which, range) {
+    this.#ranges[which] = range;
+    const all = this.#views.map((view, i) => view.isVacuum ? undefined : this.#ranges[i]).filter(one => one !== undefined);
+    const both = [Math.min(...all.map(one => one[0])), Math.max(...all.map(one => one[1]))];
+    this.#views.forEach(view => view.stage.shareRange(all.length > 1 ? both : null));
+    if (all.length > 0) {
+      this.#look.showRange(both);
+    }
   }
 
   #showControls() {

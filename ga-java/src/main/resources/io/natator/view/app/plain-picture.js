@@ -173,7 +173,9 @@ export class PlainPicture {
     const perValue = (COLOURS - 1) / (high - low);
     const count = this.#order.sort(frame.position, 0, particles, projector.eye, projector.forward, 0.05);
     this.#layer.clear();
-    this.#surface.clear();
+    if (isSurface) {
+      this.#surface.clear();
+    }
     for (let i = 0; i < count; i++) {
       const particle = this.#order.order[i];
       const kind = this.#kinds[particle];

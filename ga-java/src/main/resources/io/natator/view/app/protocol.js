@@ -1,7 +1,7 @@
 /** Binary frames of `natator-sim stream` (sim-native/protocol/stream.md): the body of a FRAM message. */
 
 /** Bytes before the activations. */
-export const HEAD_BYTES = 72;
+const HEAD_BYTES = 72;
 
 /** Numbers that each field has per particle. */
 const WIDTHS = {position: 3, velocity: 3, density: 1};

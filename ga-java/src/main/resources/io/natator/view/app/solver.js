@@ -11,7 +11,7 @@ const DEFAULTS = {
 const SETTINGS = [
   {id: 'substeps', label: 'Substeps', title: 'per frame of 1/60 s', min: 1, max: 16, step: 1},
   {id: 'numIterations', label: 'Iterations', title: 'per substep', min: 1, max: 16, step: 1},
-  {id: 'viscosity', label: 'Viscosity', title: 'how much neighbours in the fluid take each other along', min: 0, max: 60, step: 0.5},
+  {id: 'viscosity', label: 'Viscosity', title: 'of the fluid; no unit', min: 0, max: 60, step: 0.5},
   {id: 'particleFriction', label: 'Friction', title: 'between particles: particleFriction', min: 0, max: 1, step: 0.01},
   {id: 'dynamicFriction', label: 'Wall friction', title: 'with the walls: dynamicFriction', min: 0, max: 1, step: 0.01},
   {id: 'damping', label: 'Damping', title: '1/s', min: 0, max: 10, step: 0.1},
@@ -33,7 +33,8 @@ export class SolverControls {
   /** `onChange(key, patch)` sends a merge patch; a promise of an error, null or SUPERSEDED. */
   constructor(onChange) {
     for (const setting of SETTINGS) {
-      const {slider, row} = sliderRow(setting, value => onChange(setting.id, {solver: {[setting.id]: this.#json(setting, value)}}));
+      const {slider, row} = sliderRow(setting,
+          value => onChange(setting.id, {solver: {[setting.id]: this.#json(setting, value)}}));
       this.#sliders.set(setting.id, slider);
       byId('solver').append(row);
     }

@@ -47,6 +47,12 @@ export class Stage {
   /** Called with the ends of the water's colour scale. */
   onRange = () => {};
 
+  /** Ends of the colour scale that hold instead of this picture's own; null for its own. */
+  shareRange(range) {
+    this.#field.shared = range;
+    this.#isNew = true;
+  }
+
   /** The share of the screen's pixels that are drawn, along each side. */
   get share() {
     return this.#share;

@@ -22,6 +22,7 @@ export class View {
   #meter = new Meter();
   #setting;
   #known;
+  #fallback;
 
   /** SCEN of what runs, or null. */
   scene = null;
@@ -34,11 +35,13 @@ export class View {
   /**
    * @param {HTMLElement} host what the picture fills
    * @param {object} setting scene, overrides, gait, rate, paused: how to begin
+   * @param {object} fallback scene, overrides, gait: what to show if that is refused
    * @param {string[]} known names of scenes
    */
-  constructor(host, setting, known, handlers) {
+  constructor(host, setting, fallback, known, handlers) {
     this.#setting = {overrides: null, gait: null, rate: 1, paused: false, ...setting};
     this.#known = known;
+    this.#fallback = fallback;
     this.#handlers = handlers;
     this.stage = new Stage(host);
     this.stage.onRange = range => handlers.range(range);
@@ -53,6 +56,7 @@ export class View {
         this.analysis = analysis;
       },
       lost: lost => this.#lost(lost),
+      refused: error => this.#refused(error),
     });
   }
 
@@ -195,6 +199,16 @@ export class View {
     this.#handlers.scene();
   }
 
+  /** What an address remembers may be gone: then what the server was started with is shown. */
+  #refused(error) {
+    if (this.scene === null && this.#fallback !== null) {
+      this.#handlers.notice(error, true);
+      this.#setting = {...this.#setting, overrides: null, gait: null, ...this.#fallback};
+      this.#fallback = null;
+      this.#connection.begin();
+    }
+  }
+
   #lost(lost) {
     this.#handlers.notice(`The simulator was lost: ${lost.reason}.${lost.restarted ? ' It was started again.' : ''}`, true);
     if (lost.restarted) {
@@ -207,12 +221,18 @@ export class View {
 }
 
 /** Overrides less those that make a vacuum. */
-function withoutVacuum({fluid, planes, stopping, solver, ...others}) {
-  const {gravity, ...kept} = solver ?? {};
-  return {
-    ...others,
-    ...(fluid ? {fluid} : {}),
-    ...(planes?.length > 0 ? {planes} : {}),
-    ...(Object.keys(kept).length > 0 ? {solver: kept} : {}),
-  };
+function withoutVacuum(overrides) {
+  const kept = {...overrides, solver: {...overrides.solver}};
+  delete kept.stopping;
+  delete kept.solver.gravity;
+  if (Object.keys(kept.solver).length === 0) {
+    delete kept.solver;
+  }
+  if (!kept.fluid) {
+    delete kept.fluid;
+  }
+  if (!(kept.planes?.length > 0)) {
+    delete kept.planes;
+  }
+  return kept;
 }
