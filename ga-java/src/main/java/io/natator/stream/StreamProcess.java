@@ -107,7 +107,7 @@ public final class StreamProcess implements AutoCloseable {
             if (closed) {
                 return null;
             }
-            throw e instanceof StreamException && !process.isAlive()
+            throw e instanceof StreamException broken && broken.isAtEnd()
                     ? new StreamException(e.getMessage() + end(), e) : e;
         }
         if (message == null && !closed) {

@@ -44,7 +44,7 @@ public final class StreamReader {
             return null;
         }
         if (count < HEAD_BYTES) {
-            throw new StreamException("stream ended " + count + " bytes into the 8-byte head of a message");
+            throw StreamException.atEnd("stream ended " + count + " bytes into the 8-byte head of a message");
         }
         String letters = new String(head, 0, LETTERS, StandardCharsets.ISO_8859_1);
         long length = Integer.toUnsignedLong(ByteBuffer.wrap(head).order(ByteOrder.LITTLE_ENDIAN).getInt(LETTERS));
@@ -125,7 +125,7 @@ public final class StreamReader {
 
     private static void whole(String letters, int read, long length) throws StreamException {
         if (read < length) {
-            throw new StreamException("stream ended after " + read + " of the " + length + " bytes of a " + letters);
+            throw StreamException.atEnd("stream ended after " + read + " of the " + length + " bytes of a " + letters);
         }
     }
 
