@@ -10,6 +10,7 @@ import java.nio.file.Path;
 import java.util.List;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
@@ -28,43 +29,45 @@ final class PlotCommand {
         List<Path> draw(Path csv, Path folder) throws IOException;
     }
 
+    /** What is drawn, and where to. */
+    private static final class Files {
+
+        @Parameters(paramLabel = "CSV", description = "Results of natator-sim bench of the same name.")
+        private Path csv;
+
+        @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where the pictures go.")
+        private Path directory;
+    }
+
     @Command(name = "precision", mixinStandardHelpOptions = true,
             description = "Run time against path error, one picture per scene, with Pareto fronts.")
-    int precision(@Parameters(paramLabel = "CSV", description = "Results of bench precision.") Path csv,
-            @Option(names = "--output-dir", required = true, paramLabel = "DIR",
-                    description = "Where the pictures go.") Path directory) {
-        return draw(PrecisionPlot::draw, csv, directory);
+    int precision(@Mixin Files files) {
+        return draw(PrecisionPlot::draw, files);
     }
 
     @Command(name = "roofline", mixinStandardHelpOptions = true,
             description = "How near the solver's stages come to what the processor can do.")
-    int roofline(@Parameters(paramLabel = "CSV", description = "Results of bench roofline.") Path csv,
-            @Option(names = "--output-dir", required = true, paramLabel = "DIR",
-                    description = "Where the pictures go.") Path directory) {
-        return draw(RooflinePlot::draw, csv, directory);
+    int roofline(@Mixin Files files) {
+        return draw(RooflinePlot::draw, files);
     }
 
     @Command(name = "stability", mixinStandardHelpOptions = true,
             description = "Map of the stable region, one picture per scheme and pair of settings.")
-    int stability(@Parameters(paramLabel = "CSV", description = "Results of bench stability.") Path csv,
-            @Option(names = "--output-dir", required = true, paramLabel = "DIR",
-                    description = "Where the pictures go.") Path directory) {
-        return draw(StabilityPlot::draw, csv, directory);
+    int stability(@Mixin Files files) {
+        return draw(StabilityPlot::draw, files);
     }
 
     @Command(name = "validation", mixinStandardHelpOptions = true,
             description = "Front of the collapsing column against the experiment; density error beside other programs.")
-    int validation(@Parameters(paramLabel = "CSV", description = "Results of bench validation.") Path csv,
-            @Option(names = "--output-dir", required = true, paramLabel = "DIR",
-                    description = "Where the pictures go.") Path directory) {
-        return draw(ValidationPlot::draw, csv, directory);
+    int validation(@Mixin Files files) {
+        return draw(ValidationPlot::draw, files);
     }
 
-    private int draw(Drawing drawing, Path csv, Path directory) {
+    private int draw(Drawing drawing, Files files) {
         try {
-            drawing.draw(csv, directory).forEach(spec.commandLine().getOut()::println);
+            drawing.draw(files.csv, files.directory).forEach(spec.commandLine().getOut()::println);
         } catch (IOException e) {
-            throw new UncheckedIOException(directory + ": cannot be written: " + e.getMessage(), e);
+            throw new UncheckedIOException(files.directory + ": cannot be written: " + e.getMessage(), e);
         }
         return ExitCode.OK;
     }
