@@ -10,25 +10,15 @@ namespace {
 
 template <class Real>
 void compute_density(const FluidView<Real>& fluid) {
-    const Real* const x = fluid.position[0];
-    const Real* const y = fluid.position[1];
-    const Real* const z = fluid.position[2];
     const Real inverse_radius = fluid.inverse_radius;
     for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum[lanes] = {};
-        for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
-            const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int j = neighbour[lane];
-                const Real dx = x[first + lane] - x[j];
-                const Real dy = y[first + lane] - y[j];
-                const Real dz = z[first + lane] - z[j];
-                const Real one_minus_q = 1 - square_root(dx * dx + dy * dy + dz * dz) * inverse_radius;
-                const Real t = one_minus_q > 0 ? one_minus_q : 0;
-                sum[lane] += t * t;
-            }
-        }
+        for_each_neighbour<Real>(fluid, block, [&](int lane, int, const Separation<Real>& d) {
+            const Real one_minus_q = 1 - square_root(d.r2) * inverse_radius;
+            const Real t = one_minus_q > 0 ? one_minus_q : 0;
+            sum[lane] += t * t;
+        });
         for (int lane = 0; lane < lanes; ++lane) {
             const Real density = (sum[lane] + fluid.solid_density[first + lane]) * fluid.density_scale;
             fluid.density[first + lane] = density;
@@ -77,32 +67,21 @@ void density_by_vectors(const FluidView<float>& fluid) {
 
 template <class Real>
 void solve_density_constraint(const FluidView<Real>& fluid) {
-    const Real* const x = fluid.position[0];
-    const Real* const y = fluid.position[1];
-    const Real* const z = fluid.position[2];
     const Real* const c = fluid.compression;
     const Real inverse_radius = fluid.inverse_radius;
     for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum_x[lanes] = {}, sum_y[lanes] = {}, sum_z[lanes] = {}, count[lanes] = {};
-        for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
-            const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int j = neighbour[lane];
-                const Real dx = x[first + lane] - x[j];
-                const Real dy = y[first + lane] - y[j];
-                const Real dz = z[first + lane] - z[j];
-                const Real r2 = dx * dx + dy * dy + dz * dz;
-                const Real inverse_r = 1 / square_root(r2 + tiny<Real>);
-                const Real one_minus_q = 1 - r2 * inverse_r * inverse_radius;
-                const Real t = one_minus_q > 0 ? one_minus_q : 0;
-                const Real s = (c[first + lane] + c[j]) * t * inverse_r;
-                sum_x[lane] += s * dx;
-                sum_y[lane] += s * dy;
-                sum_z[lane] += s * dz;
-                count[lane] += one_minus_q > 0 ? Real(1) : Real(0);
-            }
-        }
+        for_each_neighbour<Real>(fluid, block, [&](int lane, int j, const Separation<Real>& d) {
+            const Real inverse_r = 1 / square_root(d.r2 + tiny<Real>);
+            const Real one_minus_q = 1 - d.r2 * inverse_r * inverse_radius;
+            const Real t = one_minus_q > 0 ? one_minus_q : 0;
+            const Real s = (c[first + lane] + c[j]) * t * inverse_r;
+            sum_x[lane] += s * d.x;
+            sum_y[lane] += s * d.y;
+            sum_z[lane] += s * d.z;
+            count[lane] += one_minus_q > 0 ? Real(1) : Real(0);
+        });
         for (int lane = 0; lane < lanes; ++lane) {
             const Real scale = fluid.inverse_mass[first + lane] * fluid.radius * Real(0.5);
             fluid.correction[0][first + lane] = scale * sum_x[lane];
@@ -162,9 +141,6 @@ void solve_density_constraint(const FluidView<float>& fluid) {
 
 template <class Real>
 void smooth_velocities(const FluidView<Real>& fluid) {
-    const Real* const x = fluid.position[0];
-    const Real* const y = fluid.position[1];
-    const Real* const z = fluid.position[2];
     const Real* const u = fluid.velocity[0];
     const Real* const v = fluid.velocity[1];
     const Real* const w = fluid.velocity[2];
@@ -172,20 +148,13 @@ void smooth_velocities(const FluidView<Real>& fluid) {
     for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum_u[lanes] = {}, sum_v[lanes] = {}, sum_w[lanes] = {};
-        for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
-            const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int j = neighbour[lane];
-                const Real dx = x[first + lane] - x[j];
-                const Real dy = y[first + lane] - y[j];
-                const Real dz = z[first + lane] - z[j];
-                const Real one_minus_q = 1 - square_root(dx * dx + dy * dy + dz * dz) * inverse_radius;
-                const Real t = one_minus_q > 0 ? one_minus_q : 0;
-                sum_u[lane] += t * t * (u[j] - u[first + lane]);
-                sum_v[lane] += t * t * (v[j] - v[first + lane]);
-                sum_w[lane] += t * t * (w[j] - w[first + lane]);
-            }
-        }
+        for_each_neighbour<Real>(fluid, block, [&](int lane, int j, const Separation<Real>& d) {
+            const Real one_minus_q = 1 - square_root(d.r2) * inverse_radius;
+            const Real t = one_minus_q > 0 ? one_minus_q : 0;
+            sum_u[lane] += t * t * (u[j] - u[first + lane]);
+            sum_v[lane] += t * t * (v[j] - v[first + lane]);
+            sum_w[lane] += t * t * (w[j] - w[first + lane]);
+        });
         for (int lane = 0; lane < lanes; ++lane) {
             fluid.velocity_change[0][first + lane] = fluid.density_scale * sum_u[lane];
             fluid.velocity_change[1][first + lane] = fluid.density_scale * sum_v[lane];

@@ -20,6 +20,31 @@ constexpr int lanes = 16;
 template <class Real>
 constexpr Real tiny = Real(1e-30);
 
+/// From particle j to particle i.
+template <class Real>
+struct Separation {
+    Real x, y, z, r2;
+};
+
+/// For the plain loops: calls pair(lane, j, separation) for each entry of a block's rows of neighbours j.
+template <class Real, class View, class Pair>
+void for_each_neighbour(const View& fluid, int block, const Pair& pair) {
+    const Real* const x = fluid.position[0];
+    const Real* const y = fluid.position[1];
+    const Real* const z = fluid.position[2];
+    for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
+        const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
+        for (int lane = 0; lane < lanes; ++lane) {
+            const int i = block * lanes + lane;
+            const int j = neighbour[lane];
+            const Real dx = x[i] - x[j];
+            const Real dy = y[i] - y[j];
+            const Real dz = z[i] - z[j];
+            pair(lane, j, Separation<Real>{dx, dy, dz, dx * dx + dy * dy + dz * dz});
+        }
+    }
+}
+
 /// Calls work(first slot, first row, last row, offset in each row) for each group of `width` slots.
 template <class View, class Work>
 void for_each_group(const View& fluid, const Work& work) {

@@ -31,33 +31,22 @@ Real inverse_response(const DensityView<Real>& fluid, int i, Real gx, Real gy, R
 
 template <class Real>
 void compute_lambda(const DensityView<Real>& fluid) {
-    const Real* const x = fluid.position[0];
-    const Real* const y = fluid.position[1];
-    const Real* const z = fluid.position[2];
     const Real* const w = fluid.inverse_mass;
     const Real inverse_radius = fluid.inverse_radius;
     for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum[lanes] = {}, gx[lanes] = {}, gy[lanes] = {}, gz[lanes] = {}, square[lanes] = {};
-        for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
-            const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int j = neighbour[lane];
-                const Real dx = x[first + lane] - x[j];
-                const Real dy = y[first + lane] - y[j];
-                const Real dz = z[first + lane] - z[j];
-                const Real r2 = dx * dx + dy * dy + dz * dz;
-                const Real inverse_r = 1 / square_root(r2 + tiny<Real>);
-                const Real one_minus_q = 1 - r2 * inverse_r * inverse_radius;
-                const Real t = one_minus_q > 0 ? one_minus_q : 0;
-                const Real g = t * t;
-                sum[lane] += g * t;
-                gx[lane] -= g * inverse_r * dx;
-                gy[lane] -= g * inverse_r * dy;
-                gz[lane] -= g * inverse_r * dz;
-                square[lane] += w[j] * g * g;
-            }
-        }
+        for_each_neighbour<Real>(fluid, block, [&](int lane, int j, const Separation<Real>& d) {
+            const Real inverse_r = 1 / square_root(d.r2 + tiny<Real>);
+            const Real one_minus_q = 1 - d.r2 * inverse_r * inverse_radius;
+            const Real t = one_minus_q > 0 ? one_minus_q : 0;
+            const Real g = t * t;
+            sum[lane] += g * t;
+            gx[lane] -= g * inverse_r * d.x;
+            gy[lane] -= g * inverse_r * d.y;
+            gz[lane] -= g * inverse_r * d.z;
+            square[lane] += w[j] * g * g;
+        });
         for (int lane = 0; lane < lanes; ++lane) {
             const int i = first + lane;
             const Real above = fluid.kernel_scale * (sum[lane] - fluid.rest_sum) + fluid.solid_density[i];
@@ -138,31 +127,20 @@ void compute_lambda(const DensityView<float>& fluid) {
 
 template <class Real>
 void solve_density_constraint(const DensityView<Real>& fluid) {
-    const Real* const x = fluid.position[0];
-    const Real* const y = fluid.position[1];
-    const Real* const z = fluid.position[2];
     const Real* const lambda = fluid.lambda;
     const Real inverse_radius = fluid.inverse_radius;
     for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum_x[lanes] = {}, sum_y[lanes] = {}, sum_z[lanes] = {};
-        for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
-            const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int j = neighbour[lane];
-                const Real dx = x[first + lane] - x[j];
-                const Real dy = y[first + lane] - y[j];
-                const Real dz = z[first + lane] - z[j];
-                const Real r2 = dx * dx + dy * dy + dz * dz;
-                const Real inverse_r = 1 / square_root(r2 + tiny<Real>);
-                const Real one_minus_q = 1 - r2 * inverse_r * inverse_radius;
-                const Real t = one_minus_q > 0 ? one_minus_q : 0;
-                const Real s = (lambda[first + lane] + lambda[j]) * t * t * inverse_r;
-                sum_x[lane] -= s * dx;
-                sum_y[lane] -= s * dy;
-                sum_z[lane] -= s * dz;
-            }
-        }
+        for_each_neighbour<Real>(fluid, block, [&](int lane, int j, const Separation<Real>& d) {
+            const Real inverse_r = 1 / square_root(d.r2 + tiny<Real>);
+            const Real one_minus_q = 1 - d.r2 * inverse_r * inverse_radius;
+            const Real t = one_minus_q > 0 ? one_minus_q : 0;
+            const Real s = (lambda[first + lane] + lambda[j]) * t * t * inverse_r;
+            sum_x[lane] -= s * d.x;
+            sum_y[lane] -= s * d.y;
+            sum_z[lane] -= s * d.z;
+        });
         for (int lane = 0; lane < lanes; ++lane) {
             const Real scale = fluid.inverse_mass[first + lane] * fluid.gradient_scale;
             fluid.correction[0][first + lane] = scale * sum_x[lane];
@@ -202,9 +180,6 @@ void solve_density_constraint(const DensityView<float>& fluid) {
 
 template <class Real>
 void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
-    const Real* const x = fluid.position[0];
-    const Real* const y = fluid.position[1];
-    const Real* const z = fluid.position[2];
     const Real* const u = fluid.velocity[0];
     const Real* const v = fluid.velocity[1];
     const Real* const w = fluid.velocity[2];
@@ -213,28 +188,20 @@ void compute_rate_lambda(const DensityView<Real>& fluid, Real inverse_h) {
     for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real rate[lanes] = {}, gx[lanes] = {}, gy[lanes] = {}, gz[lanes] = {}, square[lanes] = {};
-        for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
-            const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int i = first + lane;
-                const int j = neighbour[lane];
-                const Real dx = x[i] - x[j];
-                const Real dy = y[i] - y[j];
-                const Real dz = z[i] - z[j];
-                const Real r2 = dx * dx + dy * dy + dz * dz;
-                const Real inverse_r = 1 / square_root(r2 + tiny<Real>);
-                const Real one_minus_q = 1 - r2 * inverse_r * inverse_radius;
-                const Real t = one_minus_q > 0 ? one_minus_q : 0;
-                const Real approach = (u[j] - u[i]) * dx + (v[j] - v[i]) * dy + (w[j] - w[i]) * dz;
-                const Real g = t * t;
-                const Real s = g * inverse_r;
-                rate[lane] += s * approach;
-                gx[lane] -= s * dx;
-                gy[lane] -= s * dy;
-                gz[lane] -= s * dz;
-                square[lane] += inverse_mass[j] * g * g;
-            }
-        }
+        for_each_neighbour<Real>(fluid, block, [&](int lane, int j, const Separation<Real>& d) {
+            const int i = first + lane;
+            const Real inverse_r = 1 / square_root(d.r2 + tiny<Real>);
+            const Real one_minus_q = 1 - d.r2 * inverse_r * inverse_radius;
+            const Real t = one_minus_q > 0 ? one_minus_q : 0;
+            const Real approach = (u[j] - u[i]) * d.x + (v[j] - v[i]) * d.y + (w[j] - w[i]) * d.z;
+            const Real g = t * t;
+            const Real s = g * inverse_r;
+            rate[lane] += s * approach;
+            gx[lane] -= s * d.x;
+            gy[lane] -= s * d.y;
+            gz[lane] -= s * d.z;
+            square[lane] += inverse_mass[j] * g * g;
+        });
         for (int lane = 0; lane < lanes; ++lane) {
             const int i = first + lane;
             const Real response =
@@ -283,9 +250,6 @@ void compute_rate_lambda(const DensityView<float>& fluid, float inverse_h) {
 
 template <class Real>
 void smooth_velocities(const DensityView<Real>& fluid) {
-    const Real* const x = fluid.position[0];
-    const Real* const y = fluid.position[1];
-    const Real* const z = fluid.position[2];
     const Real* const u = fluid.velocity[0];
     const Real* const v = fluid.velocity[1];
     const Real* const w = fluid.velocity[2];
@@ -294,23 +258,16 @@ void smooth_velocities(const DensityView<Real>& fluid) {
     for (int block = fluid.first_block; block < fluid.end_block; ++block) {
         const int first = block * lanes;
         Real sum_u[lanes] = {}, sum_v[lanes] = {}, sum_w[lanes] = {};
-        for (int row = fluid.row_begin[block]; row < fluid.row_begin[block + 1]; ++row) {
-            const std::int32_t* const neighbour = fluid.neighbour + row * lanes;
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int i = first + lane;
-                const int j = neighbour[lane];
-                const Real dx = x[i] - x[j];
-                const Real dy = y[i] - y[j];
-                const Real dz = z[i] - z[j];
-                const Real left = 1 - (dx * dx + dy * dy + dz * dz) * inverse_radius_square;
-                const Real t = left > 0 ? left : 0;
-                const Real weights = inverse_mass[i] + inverse_mass[j];
-                const Real s = t * t * t * 2 * inverse_mass[i] / (weights + tiny<Real>);
-                sum_u[lane] += s * (u[j] - u[i]);
-                sum_v[lane] += s * (v[j] - v[i]);
-                sum_w[lane] += s * (w[j] - w[i]);
-            }
-        }
+        for_each_neighbour<Real>(fluid, block, [&](int lane, int j, const Separation<Real>& d) {
+            const int i = first + lane;
+            const Real left = 1 - d.r2 * inverse_radius_square;
+            const Real t = left > 0 ? left : 0;
+            const Real weights = inverse_mass[i] + inverse_mass[j];
+            const Real s = t * t * t * 2 * inverse_mass[i] / (weights + tiny<Real>);
+            sum_u[lane] += s * (u[j] - u[i]);
+            sum_v[lane] += s * (v[j] - v[i]);
+            sum_w[lane] += s * (w[j] - w[i]);
+        });
         for (int lane = 0; lane < lanes; ++lane) {
             fluid.velocity_change[0][first + lane] = fluid.kernel_scale * sum_u[lane];
             fluid.velocity_change[1][first + lane] = fluid.kernel_scale * sum_v[lane];
