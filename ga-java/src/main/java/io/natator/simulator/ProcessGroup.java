@@ -16,9 +16,13 @@ public final class ProcessGroup implements AutoCloseable {
     private final Thread stopAtExit = new Thread(this::stop, "stop-simulators");
     private volatile boolean stopped;
 
-    /** An empty group. */
+    /** An empty group; one that is stopped already where this virtual machine is shutting down. */
     public ProcessGroup() {
-        Runtime.getRuntime().addShutdownHook(stopAtExit);
+        try {
+            Runtime.getRuntime().addShutdownHook(stopAtExit);
+        } catch (IllegalStateException e) {
+            stopped = true;
+        }
     }
 
     /**
