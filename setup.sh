@@ -34,7 +34,7 @@ fail() {
 
 # --- what is needed: tools are probed, so that they may come from anywhere; libraries are Debian packages -------------
 
-readonly libraries=(libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev libhwy-dev)
+readonly libraries=(libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev)
 readonly minimum_cmake=3.25 minimum_java=17
 
 compiler_works() {
