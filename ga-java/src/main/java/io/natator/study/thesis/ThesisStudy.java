@@ -16,6 +16,7 @@ import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 import java.util.Objects;
+import java.util.Optional;
 
 /**
  * The measuring half of the study: what the published gaits and the evolved ones do. Everything is kept in files of the
@@ -59,7 +60,7 @@ public final class ThesisStudy implements AutoCloseable {
 
     /** How many runs are still to be recorded or timed on the processor. */
     public int missingRecordings() {
-        long pictures = pictured().entrySet().stream().filter(picture -> !isRecorded(picture)).count();
+        long pictures = pictured().entrySet().stream().filter(picture -> recorded(picture).isEmpty()).count();
         return motions.missing(catalogue.recorded()).size() + (int) pictures
                 + costs.missing(catalogue.timed()).size();
     }
@@ -83,7 +84,7 @@ public final class ThesisStudy implements AutoCloseable {
     public void record(ExecutionSettings execution, Runnable done) throws InterruptedException {
         motions.record(catalogue.recorded(), execution, done);
         for (Map.Entry<String, SimulationRequest> picture : pictured().entrySet()) {
-            if (!isRecorded(picture)) {
+            if (recorded(picture).isEmpty()) {
                 double seconds = duration == null ? Catalogue.THESIS_SECONDS : duration;
                 Recorded.of(picture.getValue(), seconds / 2, execution).write(recording(picture.getKey()));
                 done.run();
@@ -124,18 +125,19 @@ public final class ThesisStudy implements AutoCloseable {
         return new Findings(data, catalogue, measurements, motions, costs, evolved);
     }
 
-    /** Whether just this is recorded: with more seeds another run may be the best. */
-    private boolean isRecorded(Map.Entry<String, SimulationRequest> picture) {
+    /** The recording of just this, if there is one: with more seeds another run may be the best. */
+    private Optional<Recording> recorded(Map.Entry<String, SimulationRequest> picture) {
         Path file = recording(picture.getKey());
-        return Files.exists(file)
-                && Json.line(Recording.read(file).request().withId(0)).equals(Json.line(picture.getValue().withId(0)));
+        String request = Json.line(picture.getValue().withId(0));
+        return Optional.of(file).filter(Files::exists).map(Recording::read)
+                .filter(found -> Json.line(found.request().withId(0)).equals(request));
     }
 
     /** Recordings that are there, by name. */
     private Map<String, Recording> recordings() {
         Map<String, Recording> found = new LinkedHashMap<>();
-        pictured().entrySet().stream().filter(this::isRecorded)
-                .forEach(picture -> found.put(picture.getKey(), Recording.read(recording(picture.getKey()))));
+        pictured().entrySet().forEach(
+                picture -> recorded(picture).ifPresent(recording -> found.put(picture.getKey(), recording)));
         return found;
     }
 
