@@ -4,13 +4,45 @@ import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.InputStream;
 import java.nio.charset.StandardCharsets;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
 
-/** The end of what a program writes to standard error. */
-public final class ErrorTail {
+/** The end of what a program writes to standard error. Running it reads to the end of that, for a thread of its own. */
+public final class ErrorTail implements Runnable {
 
     private static final int KEPT_BYTES = 4096;
+    private static final long GRACE_MILLISECONDS = 1000;
 
-    private ErrorTail() {
+    private final InputStream stderr;
+    private final CompletableFuture<String> text = new CompletableFuture<>();
+
+    /** That of a program's standard error. */
+    public ErrorTail(InputStream stderr) {
+        this.stderr = stderr;
+    }
+
+    @Override
+    public void run() {
+        try {
+            text.complete(read(stderr));
+        } catch (IOException e) {
+            text.completeExceptionally(e);
+        }
+    }
+
+    /**
+     * What was written in the end; empty if it cannot be read, or does not end within a second.
+     *
+     * @throws InterruptedException if the calling thread is interrupted
+     */
+    public String text() throws InterruptedException {
+        try {
+            return text.get(GRACE_MILLISECONDS, TimeUnit.MILLISECONDS);
+        } catch (ExecutionException | TimeoutException e) {
+            return "";
+        }
     }
 
     /**
@@ -18,7 +50,7 @@ public final class ErrorTail {
      *
      * @throws IOException if the stream cannot be read
      */
-    public static String read(InputStream stderr) throws IOException {
+    static String read(InputStream stderr) throws IOException {
         try (stderr) {
             ByteArrayOutputStream kept = new ByteArrayOutputStream();
             byte[] buffer = new byte[KEPT_BYTES];

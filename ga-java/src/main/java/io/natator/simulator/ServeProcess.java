@@ -10,11 +10,8 @@ import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.BlockingQueue;
-import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.ExecutionException;
 import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.TimeUnit;
-import java.util.concurrent.TimeoutException;
 
 /**
  * A running {@code natator-sim serve}: requests in, answers out, one a line. To be used by one thread at a time. Nothing
@@ -36,7 +33,7 @@ final class ServeProcess implements AutoCloseable {
     private final Process process;
     private final BlockingQueue<Line> answers = new ArrayBlockingQueue<>(QUEUED_LINES);
     private final BlockingQueue<byte[]> requests = new LinkedBlockingQueue<>();
-    private final CompletableFuture<String> errors = new CompletableFuture<>();
+    private final ErrorTail errors;
     private final List<Thread> threads;
     private boolean answered;
 
@@ -55,8 +52,9 @@ final class ServeProcess implements AutoCloseable {
         this.group = group;
         this.process = group.start(List.of(settings.simulator().toString(), "serve", "--backend",
                 settings.backend().argument(), "--device", "" + settings.device()));
+        this.errors = new ErrorTail(process.getErrorStream());
         this.threads = List.of(new Thread(this::write, "serve-input"), new Thread(this::read, "serve-output"),
-                new Thread(this::readErrors, "serve-errors"));
+                new Thread(errors, "serve-errors"));
         for (Thread thread : threads) {
             thread.setDaemon(true);
             thread.start();
@@ -98,20 +96,12 @@ final class ServeProcess implements AutoCloseable {
         if (!process.waitFor(GRACE_MILLISECONDS, TimeUnit.MILLISECONDS)) {
             return ", but the program runs on";
         }
-        String said = lastErrors();
+        String said = errors.text();
         int status = process.exitValue();
         if (!answered && (status == EXIT_BAD_INPUT || status == EXIT_NO_DEVICE) && !said.isEmpty()) {
             throw new RequestRejectedException(said, status == EXIT_BAD_INPUT);
         }
         return "; exit status " + status + (said.isEmpty() ? "" : ", errors " + Answer.shown(said));
-    }
-
-    private String lastErrors() throws InterruptedException {
-        try {
-            return errors.get(GRACE_MILLISECONDS, TimeUnit.MILLISECONDS);
-        } catch (ExecutionException | TimeoutException e) {
-            return "";
-        }
     }
 
     private void write() {
@@ -148,14 +138,6 @@ final class ServeProcess implements AutoCloseable {
             answers.offer(new Line(null, "output not readable: " + e.getMessage()));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        }
-    }
-
-    private void readErrors() {
-        try {
-            errors.complete(ErrorTail.read(process.getErrorStream()));
-        } catch (IOException e) {
-            errors.completeExceptionally(e);
         }
     }
 

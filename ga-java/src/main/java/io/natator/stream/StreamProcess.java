@@ -15,10 +15,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.BlockingQueue;
-import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
-import java.util.concurrent.TimeoutException;
 
 /**
  * A running {@code natator-sim stream}. One thread takes its messages; any thread may send commands or close it.
@@ -36,7 +33,7 @@ public final class StreamProcess implements AutoCloseable {
     private final Process process;
     private final StreamReader reader;
     private final BlockingQueue<byte[]> commands = new ArrayBlockingQueue<>(QUEUED_COMMANDS);
-    private final CompletableFuture<String> errors = new CompletableFuture<>();
+    private final ErrorTail errors;
     private final List<Thread> threads;
     private volatile boolean closed;
     private boolean begun;
@@ -58,7 +55,8 @@ public final class StreamProcess implements AutoCloseable {
             throw new InvalidInputException(e.getMessage(), e);
         }
         reader = new StreamReader(new BufferedInputStream(process.getInputStream(), BUFFER_BYTES));
-        threads = List.of(new Thread(this::write, "stream-input"), new Thread(this::readErrors, "stream-errors"));
+        errors = new ErrorTail(process.getErrorStream());
+        threads = List.of(new Thread(this::write, "stream-input"), new Thread(errors, "stream-errors"));
         for (Thread thread : threads) {
             thread.setDaemon(true);
             thread.start();
@@ -146,9 +144,7 @@ public final class StreamProcess implements AutoCloseable {
 
     private String said() throws IOException {
         try {
-            return errors.get(GRACE_MILLISECONDS, TimeUnit.MILLISECONDS);
-        } catch (ExecutionException | TimeoutException e) {
-            return "";
+            return errors.text();
         } catch (InterruptedException e) {
             throw interrupted();
         }
@@ -174,14 +170,6 @@ public final class StreamProcess implements AutoCloseable {
             // The program has closed its input or has ended: what it says, or does not, tells.
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        }
-    }
-
-    private void readErrors() {
-        try {
-            errors.complete(ErrorTail.read(process.getErrorStream()));
-        } catch (IOException e) {
-            errors.completeExceptionally(e);
         }
     }
 
