@@ -18,7 +18,7 @@ import picocli.CommandLine.Spec;
 
 /** {@code natator plot}: pictures of what {@code natator-sim bench} measured. */
 @Command(name = "plot", mixinStandardHelpOptions = true,
-        description = "Draws the results of natator-sim bench as SVG and PNG.")
+        description = "Draws the results of natator-sim bench as PNG files.")
 final class PlotCommand {
 
     @Spec

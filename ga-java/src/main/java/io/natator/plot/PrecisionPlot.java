@@ -32,12 +32,11 @@ public final class PrecisionPlot {
                 .title(scene + ": run time of 0.25 s against path error").xAxisTitle("run time (s)")
                 .yAxisTitle("path error at 0.25 s (scene units)").build();
         chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
-        // Dashed lines make an SVG of half a megabyte, since each dash becomes a path.
         chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
     }
 
     /**
-     * Draws {@code precision-SCENE.svg} and {@code .png} into a folder for each scene of a study.
+     * Draws {@code precision-SCENE.png} into a folder for each scene of a study.
      *
      * @param csv what {@code natator-sim bench precision} wrote
      * @return the PNG files

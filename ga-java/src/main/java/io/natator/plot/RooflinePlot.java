@@ -35,7 +35,7 @@ public final class RooflinePlot {
     }
 
     /**
-     * Draws {@code roofline-SET.svg} and {@code .png} into a folder for each instruction set.
+     * Draws {@code roofline-SET.png} into a folder for each instruction set.
      *
      * @param csv what {@code natator-sim bench roofline} wrote
      * @return the PNG files

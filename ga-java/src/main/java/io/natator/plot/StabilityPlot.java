@@ -22,7 +22,7 @@ public final class StabilityPlot {
     }
 
     /**
-     * Draws {@code stability-SCHEME-PRECISION-AXIS-AXIS.svg} and {@code .png} into a folder for each map of a study.
+     * Draws {@code stability-SCHEME-PRECISION-AXIS-AXIS.png} into a folder for each map of a study.
      *
      * @param csv what {@code natator-sim bench stability} wrote
      * @return the PNG files

@@ -36,8 +36,8 @@ public final class ValidationPlot {
     }
 
     /**
-     * Draws {@code validation-front-CASE}, {@code validation-density-mean} and {@code validation-density-max}, each as
-     * {@code .svg} and {@code .png}, into a folder.
+     * Draws {@code validation-front-CASE}, {@code validation-density-mean} and {@code validation-density-max} as
+     * PNG files into a folder.
      *
      * @param csv what {@code natator-sim bench validation} wrote; the fronts are in the file beside it
      * @return the PNG files
@@ -129,7 +129,6 @@ public final class ValidationPlot {
     private static XYChart chart(String title, String x, String y) {
         XYChart chart = new XYChartBuilder().width(900).height(600).title(title).xAxisTitle(x).yAxisTitle(y).build();
         chart.getStyler().setChartBackgroundColor(Color.WHITE);
-        // Dashed lines make an SVG of half a megabyte, since each dash becomes a path.
         chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
         return chart;
     }

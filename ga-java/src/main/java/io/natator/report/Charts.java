@@ -23,7 +23,6 @@ public final class Charts {
         XYChart chart = new XYChartBuilder().width(800).height(480).title(title).xAxisTitle(x).yAxisTitle(y).build();
         chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
         chart.getStyler().setYAxisDecimalPattern("0.0###");
-        // Dashed lines make an SVG of half a megabyte, since each dash becomes a path.
         chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
         return chart;
     }

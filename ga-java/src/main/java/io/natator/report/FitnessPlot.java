@@ -1,14 +1,13 @@
 package io.natator.report;
 
 import io.natator.analysis.GenerationSummary;
+import io.natator.plot.Picture;
 import java.awt.BasicStroke;
 import java.awt.Color;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.function.ToDoubleFunction;
-import org.knowm.xchart.BitmapEncoder;
-import org.knowm.xchart.VectorGraphicsEncoder;
 import org.knowm.xchart.XYChart;
 import org.knowm.xchart.XYChartBuilder;
 import org.knowm.xchart.style.Styler;
@@ -24,7 +23,7 @@ public final class FitnessPlot {
     }
 
     /**
-     * Draws {@code fitness.svg} and {@code fitness.png} into a folder.
+     * Draws {@code fitness.png} into a folder.
      *
      * @param title   what the curve shows
      * @param history at least one generation
@@ -34,14 +33,11 @@ public final class FitnessPlot {
         XYChart chart = new XYChartBuilder().width(WIDTH).height(HEIGHT).title(title).xAxisTitle("generation")
                 .yAxisTitle("distance (scene units)").build();
         chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
-        // Dashed lines make an SVG of half a megabyte, since each dash becomes a path.
         chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
         add(chart, "best", history, GenerationSummary::best);
         add(chart, "mean", history, GenerationSummary::mean);
         add(chart, "median", history, GenerationSummary::median);
-        String file = folder.resolve("fitness").toString();
-        VectorGraphicsEncoder.saveVectorGraphic(chart, file, VectorGraphicsEncoder.VectorGraphicsFormat.SVG);
-        BitmapEncoder.saveBitmap(chart, file, BitmapEncoder.BitmapFormat.PNG);
+        Picture.save(chart, folder.resolve("fitness"));
     }
 
     private static void add(XYChart chart, String name, List<GenerationSummary> history,

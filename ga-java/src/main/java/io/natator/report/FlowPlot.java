@@ -1,9 +1,5 @@
 package io.natator.report;
 
-import de.erichseifert.vectorgraphics2d.Document;
-import de.erichseifert.vectorgraphics2d.Processors;
-import de.erichseifert.vectorgraphics2d.VectorGraphics2D;
-import de.erichseifert.vectorgraphics2d.util.PageSize;
 import io.natator.flow.FlowField;
 import io.natator.flow.View;
 import java.awt.BasicStroke;
@@ -16,7 +12,6 @@ import java.awt.geom.Path2D;
 import java.awt.geom.Rectangle2D;
 import java.awt.image.BufferedImage;
 import java.io.IOException;
-import java.io.OutputStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Locale;
@@ -58,7 +53,7 @@ public final class FlowPlot {
     }
 
     /**
-     * Draws SVG and PNG.
+     * Draws a PNG file.
      *
      * @param file path without extension
      * @return the PNG file
@@ -66,13 +61,6 @@ public final class FlowPlot {
     public static Path draw(String title, FlowField field, Path file) throws IOException {
         FlowPlot plot = new FlowPlot(title, field);
         Files.createDirectories(file.toAbsolutePath().getParent());
-        VectorGraphics2D vectors = new VectorGraphics2D();
-        plot.draw(vectors);
-        Document document = Processors.get("svg").getDocument(vectors.getCommands(),
-                new PageSize(plot.width, plot.height));
-        try (OutputStream out = Files.newOutputStream(file.resolveSibling(file.getFileName() + ".svg"))) {
-            document.writeTo(out);
-        }
         BufferedImage image = new BufferedImage(plot.width, plot.height, BufferedImage.TYPE_INT_RGB);
         Graphics2D graphics = image.createGraphics();
         graphics.setRenderingHint(RenderingHints.KEY_ANTIALIASING, RenderingHints.VALUE_ANTIALIAS_ON);

@@ -16,7 +16,7 @@ import java.util.stream.IntStream;
 import org.knowm.xchart.XYChart;
 
 /**
- * How a recorded body moved: the thesis' figures 3.1 to 3.4, each as SVG and PNG. The spine's sideways motion is that in
+ * How a recorded body moved: the thesis' figures 3.1 to 3.4, each as a PNG file. The spine's sideways motion is that in
  * the body's own plane, so that a body which has tipped over still shows how it bends.
  */
 public final class MotionPlots {

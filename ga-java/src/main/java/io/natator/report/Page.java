@@ -8,8 +8,16 @@ import java.util.ArrayList;
 import java.util.Base64;
 import java.util.List;
 import java.util.stream.Collectors;
+import org.commonmark.Extension;
+import org.commonmark.ext.gfm.tables.TablesExtension;
+import org.commonmark.node.Node;
+import org.commonmark.parser.Parser;
+import org.commonmark.renderer.html.HtmlRenderer;
 
-/** A page of text, tables and pictures that is written both as Markdown and as one HTML file with all pictures in it. */
+/**
+ * A page of text, tables and pictures, written as Markdown and as one HTML file that holds its pictures. The HTML is
+ * rendered from the Markdown.
+ */
 public final class Page {
 
     private static final String HTML = """
@@ -17,18 +25,15 @@ public final class Page {
             <html lang="en"><head><meta charset="utf-8"><title>%s</title>
             <style>body{font:16px/1.45 sans-serif;max-width:64em;margin:2em auto;padding:0 1em}
             table{border-collapse:collapse;margin:1em 0;font-size:14px}td,th{border:1px solid #bbb;padding:.2em .5em}
-            td:not(:first-child){text-align:right}img{max-width:100%%}pre{background:#f4f4f4;padding:.6em;overflow:auto}
+            img{max-width:100%%}pre{background:#f4f4f4;padding:.6em;overflow:auto}
             </style></head><body>
             %s</body></html>
             """;
+    private static final List<Extension> TABLES = List.of(TablesExtension.create());
 
     private final Path folder;
     private final String title;
-    private final List<Part> parts = new ArrayList<>();
-
-    /** A part of the page in both forms. */
-    private record Part(String markdown, String html) {
-    }
+    private final List<String> parts = new ArrayList<>();
 
     /**
      * An empty page.
@@ -43,21 +48,17 @@ public final class Page {
 
     /** Adds a heading, 1 being that of the page. */
     public Page heading(int level, String text) {
-        parts.add(new Part("#".repeat(level) + " " + text, "<h" + level + ">" + escaped(text) + "</h" + level + ">"));
-        return this;
+        return add("#".repeat(level) + " " + text);
     }
 
-    /** Adds a paragraph; {@code `code`} is set as such. */
+    /** Adds a paragraph of Markdown. */
     public Page text(String text) {
-        parts.add(new Part(text, "<p>" + marked(text) + "</p>"));
-        return this;
+        return add(text);
     }
 
     /** Adds a list. */
     public Page list(List<String> items) {
-        parts.add(new Part(items.stream().map(item -> "- " + item).collect(Collectors.joining("\n")),
-                items.stream().map(item -> "<li>" + marked(item) + "</li>").collect(Collectors.joining("\n", "<ul>", "</ul>"))));
-        return this;
+        return add(items.stream().map(item -> "- " + item).collect(Collectors.joining("\n")));
     }
 
     /**
@@ -67,43 +68,32 @@ public final class Page {
      * @param rows    one field per column each
      */
     public Page table(List<String> columns, List<List<String>> rows) {
-        String markdown = "| " + String.join(" | ", columns) + " |\n| ---" + " | ---:".repeat(columns.size() - 1) + " |"
-                + rows.stream().map(row -> "\n| " + String.join(" | ", row) + " |").collect(Collectors.joining());
-        String html = "<table><tr>" + cells("th", columns) + "</tr>"
-                + rows.stream().map(row -> "\n<tr>" + cells("td", row) + "</tr>").collect(Collectors.joining()) + "</table>";
-        parts.add(new Part(markdown, html));
-        return this;
+        return add(row(columns) + "\n| ---" + " | ---:".repeat(columns.size() - 1) + " |"
+                + rows.stream().map(fields -> "\n" + row(fields)).collect(Collectors.joining()));
     }
 
-    private static String cells(String tag, List<String> fields) {
-        return fields.stream().map(field -> "<" + tag + ">" + marked(field) + "</" + tag + ">").collect(Collectors.joining());
+    private static String row(List<String> fields) {
+        return "| " + String.join(" | ", fields) + " |";
     }
 
     /**
-     * Adds a picture; what is not there is left out.
+     * Adds a picture; one that is not there is left out.
      *
-     * @param png   its PNG file; an SVG of the same name lies beside it
+     * @param png   its file
      * @param about what it shows
      */
     public Page picture(Path png, String about) {
-        Path svg = png.resolveSibling(png.getFileName().toString().replaceFirst("\\.png$", ".svg"));
-        if (!Files.exists(png) || !Files.exists(svg)) {
-            return this;
-        }
-        String name = folder.relativize(png).toString().replace('\\', '/');
-        try {
-            String data = Base64.getEncoder().encodeToString(Files.readAllBytes(svg));
-            parts.add(new Part("![" + about + "](" + name + ")",
-                    "<p><img alt=\"" + escaped(about) + "\" src=\"data:image/svg+xml;base64," + data + "\"></p>"));
-            return this;
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot read " + svg + ": " + e.getMessage(), e);
-        }
+        return Files.exists(png)
+                ? add("![" + about + "](" + folder.relativize(png).toString().replace('\\', '/') + ")") : this;
     }
 
     /** Adds commands or other text of fixed width. */
     public Page code(String text) {
-        parts.add(new Part("```\n" + text.strip() + "\n```", "<pre>" + escaped(text.strip()) + "</pre>"));
+        return add("```\n" + text.strip() + "\n```");
+    }
+
+    private Page add(String markdown) {
+        parts.add(markdown);
         return this;
     }
 
@@ -112,20 +102,34 @@ public final class Page {
      *
      * @param name of the Markdown file; the HTML file is {@code report.html}
      * @return the Markdown file
+     * @throws IOException if a file cannot be written
      */
     public Path write(String name) throws IOException {
+        String markdown = String.join("\n\n", parts) + "\n";
         Files.createDirectories(folder);
-        Files.writeString(folder.resolve("report.html"), HTML.formatted(escaped(title),
-                parts.stream().map(Part::html).collect(Collectors.joining("\n"))));
-        return Files.writeString(folder.resolve(name),
-                parts.stream().map(Part::markdown).collect(Collectors.joining("\n\n")) + "\n");
+        Files.writeString(folder.resolve("report.html"), HTML.formatted(titleText(), rendered(markdown)));
+        return Files.writeString(folder.resolve(name), markdown);
     }
 
-    private static String escaped(String text) {
-        return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\"", "&quot;");
+    private String titleText() {
+        return title.replace("&", "&amp;").replace("<", "&lt;");
     }
 
-    private static String marked(String text) {
-        return escaped(text).replaceAll("`([^`]*)`", "<code>$1</code>").replaceAll("\\*\\*([^*]*)\\*\\*", "<b>$1</b>");
+    private String rendered(String markdown) {
+        Node document = Parser.builder().extensions(TABLES).build().parse(markdown);
+        return HtmlRenderer.builder().extensions(TABLES)
+                .attributeProviderFactory(context -> (node, tag, attributes) -> {
+                    if (tag.equals("img")) {
+                        attributes.computeIfPresent("src", (key, file) -> embedded(folder.resolve(file)));
+                    }
+                }).build().render(document);
+    }
+
+    private static String embedded(Path png) {
+        try {
+            return "data:image/png;base64," + Base64.getEncoder().encodeToString(Files.readAllBytes(png));
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot read " + png + ": " + e.getMessage(), e);
+        }
     }
 }

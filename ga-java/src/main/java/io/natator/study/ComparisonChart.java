@@ -1,13 +1,12 @@
 package io.natator.study;
 
+import io.natator.plot.Picture;
 import java.awt.BasicStroke;
 import java.awt.Color;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.function.ToDoubleFunction;
-import org.knowm.xchart.BitmapEncoder;
-import org.knowm.xchart.VectorGraphicsEncoder;
 import org.knowm.xchart.XYChart;
 import org.knowm.xchart.XYChartBuilder;
 import org.knowm.xchart.XYSeries;
@@ -29,7 +28,7 @@ final class ComparisonChart {
     }
 
     /**
-     * Draws the comparisons of all intervals into {@code name.png} and {@code name.svg}.
+     * Draws the comparisons of all intervals into {@code name.png}.
      *
      * @param comparisons at least one
      * @throws IOException if a file cannot be written
@@ -40,9 +39,7 @@ final class ComparisonChart {
         for (Interval interval : Interval.values()) {
             drawing.add(interval, comparisons.stream().filter(one -> one.interval() == interval).toList());
         }
-        String file = folder.resolve(name).toString();
-        VectorGraphicsEncoder.saveVectorGraphic(drawing.chart, file, VectorGraphicsEncoder.VectorGraphicsFormat.SVG);
-        BitmapEncoder.saveBitmap(drawing.chart, file, BitmapEncoder.BitmapFormat.PNG);
+        Picture.save(drawing.chart, folder.resolve(name));
     }
 
     private void addDiagonal(List<Comparison> comparisons) {

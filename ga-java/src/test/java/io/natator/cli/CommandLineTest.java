@@ -71,7 +71,6 @@ class CommandLineTest {
         JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
         assertThat(environment.get("simulatorSha256").asText()).matches("[0-9a-f]{64}");
         assertThat(folder.resolve("run/plots/fitness.png")).isNotEmptyFile();
-        assertThat(folder.resolve("run/plots/fitness.svg")).isNotEmptyFile();
     }
 
     @ParameterizedTest

@@ -45,7 +45,8 @@ class PageTest {
                 ```
                 """);
         String html = Files.readString(folder.resolve("report.html"));
-        assertThat(html).contains("<h1>Title &amp; more</h1>", "<b>bold</b> <code>code</code>", "a &lt; b",
-                "src=\"data:image/svg+xml;base64,").doesNotContain("not there").doesNotContain("src=\"plots");
+        assertThat(html).contains("<h1>Title &amp; more</h1>", "<strong>bold</strong> <code>code</code>", "<td>a &lt; b</td>",
+                "<td align=\"right\">1</td>", "src=\"data:image/png;base64,", "<li>one</li>", "<pre><code>run it")
+                .doesNotContain("not there", "src=\"plots");
     }
 }

@@ -25,7 +25,7 @@ final class CurveChart {
     }
 
     /**
-     * Draws SVG and PNG.
+     * Draws a PNG file.
      *
      * @param bands at least one
      * @param file  path without extension
@@ -37,7 +37,6 @@ final class CurveChart {
                 .yAxisTitle("best distance so far (scene units)").build();
         chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
         chart.getStyler().setYAxisDecimalPattern("0.0###");
-        // Dashed lines make an SVG of half a megabyte, since each dash becomes a path.
         chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
         for (int i = 0; i < bands.size(); i++) {
             addBand(chart, bands.get(i), COLOURS[i % COLOURS.length]);

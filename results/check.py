@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Checks what results/ holds: python3 results/check.py [--prune]
+
+Every file must be of a known kind, every link of a page must lead to a file, every picture must be on a page, and all of
+it must stay below 25 MB. --prune deletes files of other kinds and pictures that no page shows. Exit status 1 if anything
+is wrong that --prune did not mend.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+KINDS = {".md", ".csv", ".json", ".jsonl", ".gz", ".png", ".py", ".sh", ".txt"}
+LIMIT = 25_000_000
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+
+
+def listed():
+    """Files in results/ that are committed or would be."""
+    names = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "results"], cwd=ROOT,
+                           check=True, capture_output=True, text=True).stdout.split("\0")
+    return [ROOT / name for name in names if name and (ROOT / name).is_file()]
+
+
+def links(page):
+    """Files that a page links to, but for addresses."""
+    targets = LINK.findall(page.read_text(encoding="utf-8"))
+    return [(page.parent / target).resolve() for target in targets if "://" not in target]
+
+
+def main():
+    prune = sys.argv[1:] == ["--prune"]
+    if sys.argv[1:] and not prune:
+        sys.exit(f"check.py: unknown arguments {sys.argv[1:]}; expected none or --prune")
+    files = listed()
+    pages = [file for file in files if file.suffix == ".md"] + [ROOT / "README.md"]
+    linked = {target for page in pages for target in links(page)}
+    superfluous = [(file, "is of a kind that is not kept") for file in files if file.suffix not in KINDS]
+    superfluous += [(file, "is a picture on no page") for file in files if file.suffix == ".png" and file not in linked]
+    wrong = [f"{page.relative_to(ROOT)}: links to {target}, which is not there"
+             for page in pages for target in links(page) if not target.exists()]
+    for file, why in superfluous:
+        if prune:
+            file.unlink()
+            print(f"deleted {file.relative_to(ROOT)}: {why}")
+        else:
+            wrong.append(f"{file.relative_to(ROOT)}: {why}")
+    size = sum(file.stat().st_size for file in listed())
+    if size > LIMIT:
+        wrong.append(f"results/ has {size / 1e6:.1f} MB; expected at most {LIMIT / 1e6:.0f}")
+    for line in wrong:
+        print(line, file=sys.stderr)
+    print(f"results/: {len(listed())} files, {size / 1e6:.1f} MB, {len(wrong)} faults")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
