@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
@@ -9,6 +10,7 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 /** Options that say how evaluations are carried out. */
+@Section(Topic.COMPUTING)
 final class ExecutionOptions {
 
     @Option(names = "--simulator", paramLabel = "MODE", description = "How evaluations reach the native program: "
@@ -17,7 +19,8 @@ final class ExecutionOptions {
     private SimulatorMode mode;
 
     @Option(names = "--backend", paramLabel = "BACKEND",
-            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: cpu, or the resumed run's.")
+            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: cpu; of a run that is "
+                    + "resumed, its own.")
     private Backend backend;
 
     @Option(names = "--device", paramLabel = "N", defaultValue = "0",

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
 import io.natator.encoding.Gait;
@@ -28,7 +29,10 @@ import picocli.CommandLine.Spec;
 /** {@code natator page}: swims to be looked at anywhere. */
 @Command(name = "page", mixinStandardHelpOptions = true,
         description = {"Simulates the best swimmers and writes one HTML file that replays them, water and all.",
-            "It opens from disk in any browser of today, and loads nothing from anywhere."})
+            "It opens from disk in any browser of today, and loads nothing from anywhere."},
+        footer = {"", "Examples:",
+            "  natator page runs/creature-1-seed-1 --output swim.html",
+            "  natator page runs/one runs/two --best 3 --no-water"})
 final class PageCommand implements Callable<Integer> {
 
     private static final double MEGABYTE = 1e6;
@@ -43,25 +47,31 @@ final class PageCommand implements Callable<Integer> {
             + "thesis/creature-1, or files.")
     private List<String> sources;
 
+    @Section(Topic.SCENE)
     @Option(names = "--gait", paramLabel = "FILE",
             description = "A JSON file with a gait, or a run's best.json, for all of them. A scene without one is at rest.")
     private Path gait;
 
+    @Section(Topic.SCENE)
     @Option(names = "--best", paramLabel = "N", defaultValue = "1",
             description = "So many different gaits of each run, the best first. Default: ${DEFAULT-VALUE}.")
     private int best;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output", paramLabel = "FILE", defaultValue = "swim.html",
             description = "Default: ${DEFAULT-VALUE}.")
     private Path output;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--title", paramLabel = "TEXT", description = "Of the page. Default: what swims.")
     private String title;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--max-size", paramLabel = "MB", defaultValue = "10",
             description = "Leave frames out until the file is no larger. Default: ${DEFAULT-VALUE}.")
     private double maxSize;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--no-water", description = "Only the body.")
     private boolean noWater;
 

@@ -8,6 +8,7 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
@@ -19,7 +20,7 @@ import picocli.CommandLine.Spec;
 /** {@code natator plot}: pictures of what {@code natator-sim bench} measured. */
 @Command(name = "plot", mixinStandardHelpOptions = true,
         description = "Draws the results of natator-sim bench as SVG and PNG.")
-final class PlotCommand {
+final class PlotCommand implements Callable<Integer> {
 
     @Spec
     private CommandSpec spec;
@@ -37,6 +38,12 @@ final class PlotCommand {
 
         @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where the pictures go.")
         private Path directory;
+    }
+
+    /** Without a command: what there is. */
+    @Override
+    public Integer call() {
+        return SectionedHelp.missingCommand(spec);
     }
 
     @Command(name = "precision", mixinStandardHelpOptions = true,

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
@@ -16,11 +17,13 @@ final class QueueOptions {
     private static final int AT_ONCE = 2;
     private static final int AT_ONCE_IN_BATCHES = 32;
 
+    @Section(Topic.COMPUTING)
     @Option(names = "--runs-at-once", paramLabel = "N", description = "Runs under way at the same time; their "
             + "generations share a batch. Default: " + AT_ONCE_IN_BATCHES + " with --simulator batch, else " + AT_ONCE
             + ".")
     private Integer runsAtOnce;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
     private Double stopAfter;
 

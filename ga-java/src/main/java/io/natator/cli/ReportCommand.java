@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.report.GaitReport;
@@ -32,6 +33,7 @@ final class ReportCommand implements Callable<Integer> {
     @Parameters(paramLabel = "RUN", description = "A run folder of evolve.")
     private Path directory;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR", description = "Default: RUN/report.")
     private Path outputDir;
 

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
@@ -10,6 +11,7 @@ import java.nio.file.Path;
 import picocli.CommandLine.Option;
 
 /** Options that change what is simulated. */
+@Section(Topic.SCENE)
 final class SceneOptions {
 
     @Option(names = "--scheme", paramLabel = "SCHEME",
