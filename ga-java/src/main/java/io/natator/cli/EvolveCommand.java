@@ -6,8 +6,10 @@ import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
@@ -145,8 +147,8 @@ final class EvolveCommand implements Callable<Integer> {
     }
 
     static void checkStopAfter(Double seconds) {
-        if (seconds != null && (!(seconds > 0) || Double.isInfinite(seconds))) {
-            throw new InvalidInputException("--stop-after is " + seconds + "; expected a number of seconds above 0");
+        if (seconds != null) {
+            Limits.checkSeconds("--stop-after", seconds);
         }
     }
 
@@ -190,7 +192,8 @@ final class EvolveCommand implements Callable<Integer> {
                 folder = Path.of("runs", name + "-" + number);
             }
         } catch (IOException e) {
-            throw new InvalidInputException("output folder " + folder + " cannot be read: " + e, e);
+            throw new InvalidInputException("output folder " + folder + " cannot be read: "
+                    + FileErrors.reason(folder, e), e);
         }
         return folder;
     }

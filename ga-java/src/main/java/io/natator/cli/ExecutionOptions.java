@@ -3,7 +3,7 @@ package io.natator.cli;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import java.time.Duration;
 import picocli.CommandLine.Mixin;
@@ -49,9 +49,8 @@ final class ExecutionOptions {
      * @param otherwise the backend if none was given
      */
     ExecutionSettings execution(Backend otherwise) {
-        if (timeoutSeconds != null && (!(timeoutSeconds > 0) || Double.isInfinite(timeoutSeconds))) {
-            throw new InvalidInputException("--timeout is " + timeoutSeconds
-                    + "; expected a number of seconds above 0");
+        if (timeoutSeconds != null) {
+            Limits.checkSeconds("--timeout", timeoutSeconds);
         }
         Backend chosen = backend != null ? backend : otherwise;
         return new ExecutionSettings(simulator.path(),

@@ -5,6 +5,7 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
+import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.share.RecordedSwim;
@@ -86,6 +87,7 @@ final class PageCommand implements Callable<Integer> {
         if (!(maxSize > 0) || Double.isInfinite(maxSize)) {
             throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes above 0");
         }
+        ReplayPage.check(output);
         Path simulator = simulatorOption.path();
         List<RecordedSwim> swims = new ArrayList<>();
         for (String source : sources) {
@@ -95,9 +97,10 @@ final class PageCommand implements Callable<Integer> {
         }
         String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
         ReplayPage.Written written = new ReplayPage(heading, swims, !noWater).write(output, (long) (maxSize * MEGABYTE));
-        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s, water to %.0e of a length unit%n",
+        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s%s%n",
                 output, written.bytes() / MEGABYTE, written.framesPerSecond(),
-                written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", written.largestError());
+                written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", written.largestError() == 0 ? ""
+                        : String.format(Locale.ROOT, ", water to %.0e of a length unit", written.largestError()));
         return ExitCode.OK;
     }
 
@@ -126,7 +129,7 @@ final class PageCommand implements Callable<Integer> {
         RecordedSwim swim = new SwimRecorder(simulator).record(swimmer.name(), options);
         double distance = swim.frames().get(swim.frames().size() - 1).distance();
         String name = swimmer.run() == null ? swimmer.name() : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
-        return new RecordedSwim(String.format(Locale.ROOT, "%s: %.3f", name, distance), swim.scene(), swim.json(),
+        return new RecordedSwim(name + ": swims " + Numbers.fixed(distance, 3) + " units", swim.scene(), swim.json(),
                 swim.frames());
     }
 }

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.config.FileErrors;
 import io.natator.plot.PrecisionPlot;
 import io.natator.plot.RooflinePlot;
 import io.natator.plot.StabilityPlot;
@@ -74,7 +75,8 @@ final class PlotCommand implements Callable<Integer> {
         try {
             drawing.draw(files.csv, files.directory).forEach(spec.commandLine().getOut()::println);
         } catch (IOException e) {
-            throw new UncheckedIOException(files.directory + ": cannot be written: " + e.getMessage(), e);
+            throw new UncheckedIOException(files.directory + ": cannot be written: "
+                    + FileErrors.reason(files.directory, e), e);
         }
         return ExitCode.OK;
     }

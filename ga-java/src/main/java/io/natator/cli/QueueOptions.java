@@ -2,7 +2,7 @@ package io.natator.cli;
 
 import io.natator.cli.Section.Topic;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import io.natator.evolution.EvolutionListener;
 import io.natator.run.EvolutionRun;
@@ -37,9 +37,7 @@ final class QueueOptions {
     int atOnce(ExecutionSettings execution) {
         int atOnce = runsAtOnce != null ? runsAtOnce
                 : execution.mode() == SimulatorMode.BATCH ? AT_ONCE_IN_BATCHES : AT_ONCE;
-        if (atOnce < 1) {
-            throw new InvalidInputException("--runs-at-once is " + atOnce + "; expected a whole number from 1");
-        }
+        Limits.checkCount("--runs-at-once", atOnce, Limits.AT_ONCE);
         return atOnce;
     }
 

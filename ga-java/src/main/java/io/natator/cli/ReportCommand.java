@@ -4,6 +4,7 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.report.GaitReport;
 import io.natator.run.EvolutionRun;
 import java.io.IOException;
@@ -45,7 +46,8 @@ final class ReportCommand implements Callable<Integer> {
         try {
             spec.commandLine().getOut().println(new GaitReport(run, folder).write(execution));
         } catch (IOException e) {
-            throw new UncheckedIOException("cannot write the report: " + e.getMessage(), e);
+            throw new UncheckedIOException("cannot write the report to " + folder + ": "
+                    + FileErrors.reason(folder, e), e);
         }
         return ExitCode.OK;
     }

@@ -6,6 +6,7 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SceneInfo;
@@ -41,12 +42,10 @@ final class ViewCommand implements Callable<Integer> {
     private SceneChoice choice;
 
     @Mixin
-    private SimulatorOption simulator;
+    private SceneChanges sceneOptions;
 
-    @Section(Topic.SCENE)
-    @Option(names = "--scheme", paramLabel = "SCHEME",
-            description = "How to solve: flex or conserving. Default: the scene's.")
-    private Scheme scheme;
+    @Mixin
+    private SimulatorOption simulator;
 
     @Section(Topic.SCENE)
     @Option(names = "--gait", paramLabel = "FILE", description = "A JSON file with a gait, or a run's best.json. "
@@ -100,13 +99,18 @@ final class ViewCommand implements Callable<Integer> {
         Gait given = gait == null ? null : GaitFile.read(gait);
         if (runs.isEmpty() || choice.isGiven()) {
             String scene = choice.scene(spec);
-            ObjectNode overrides = Start.patch(null, scheme);
+            ObjectNode overrides = Start.patch(sceneOptions.overrides(), sceneOptions.scheme());
             SceneInfo.of(scene, overrides, program);
             return new Start(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
         }
         EvolutionSettings run = StoredRun.settings(runs.get(0));
         BestGait best = StoredRun.best(runs.get(0));
-        return new Start(run.scene(), Start.patch(run.overrides(), scheme != null ? scheme : run.scheme()),
+        Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.scheme();
+        ObjectNode overrides = Start.patch(MergePatch.both(run.overrides(), sceneOptions.overrides()), scheme);
+        if (sceneOptions.overrides() != null) {
+            SceneInfo.of(run.scene(), overrides, program);
+        }
+        return new Start(run.scene(), overrides,
                 given != null || best == null ? given : best.gait());
     }
 }

@@ -65,7 +65,8 @@ class CommandLineTest {
                 .contains("frequency", "amplitude", "phase", "distance", "speed", "in vacuum",
                         "run folder  " + folder.resolve("run"));
         assertThat(err.toString().lines()).hasSize(4).allSatisfy(line -> assertThat(line)
-                .matches("generation \\d/3  best -?\\d\\.\\d{4}  mean -?\\d\\.\\d{4}  evaluations \\d+  .*/s  left .*"));
+                .matches("generation \\d of 3, mean -?\\d\\.\\d{4}, best -?\\d\\.\\d{4}, evaluations \\d+ of (about )?\\d+, "
+                        + "elapsed \\d+s, left .*"));
         JsonNode best = Json.parse(file("run", "best.json"), JsonNode.class);
         assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
         JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
@@ -200,7 +201,7 @@ class CommandLineTest {
     void aDryRunPlansAndDoesNothing() {
         assertThat(evolve("run", "--dry-run", "--workers", "3")).as(err.toString()).isZero();
 
-        assertThat(out.toString()).contains("evaluations about 44", "process, 3 at once", "time limit 2m02s each",
+        assertThat(out.toString()).contains("evaluations about 50", "process, 3 at once", "time limit 2m02s each",
                 "run folder  " + folder.resolve("run"), "time        at most ");
         assertThat(folder.resolve("run")).doesNotExist();
     }
@@ -209,6 +210,77 @@ class CommandLineTest {
     void aMissingGpuIsOneLine() {
         assertThat(evolve("run", "--backend", "cuda")).isEqualTo(1);
         assertThat(err.toString().strip()).isEqualTo("natator evolve: simulator: no such device here");
+    }
+
+    /** Many more at once than there are processors would only wait for each other. */
+    @Test
+    void aDryRunTriesNoMoreThanTheProcessorsDoAtOnce() {
+        assertThat(evolve("run", "--dry-run", "--workers", "1024")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("process, 1024 at once",
+                Runtime.getRuntime().availableProcessors() + " evaluations take ");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "compare-optimizers --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
+        "compare-optimizers --output-dir NEVER --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
+        "compare-optimizers --output-dir NEVER --cma-es-population 1000000|population is 1000000; expected a whole number"})
+    void absurdNumbersOfOtherCommandsAreRefused(String arguments, String message) {
+        assertThat(natator(arguments.replace("NEVER", folder.resolve("never").toString()).split(" "))).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).contains(message);
+        assertThat(folder.resolve("never")).doesNotExist();
+    }
+
+    @Test
+    void whatFollowsFromTheCheckpointMayBeDamaged() throws IOException {
+        assertThat(evolve("run")).isZero();
+        String best = file("run", "best.json");
+        out.getBuffer().setLength(0);
+        Files.writeString(folder.resolve("run/best.json"), best.substring(0, best.length() / 2));
+        Files.writeString(folder.resolve("run/savings.json"), "{");
+
+        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("best gait of thesis/creature-1 after 3 generations");
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(file("run", "best.json")).isEqualTo(best);
+    }
+
+    @Test
+    void aDamagedCountOfSavingsDoesNotStopARun() throws IOException {
+        assertThat(evolve("whole")).isZero();
+        assertThat(evolve("run")).isZero();
+        String before = file("run", "checkpoint.json");
+        Files.writeString(folder.resolve("run/savings.json"), "[1");
+        Files.delete(folder.resolve("run/checkpoint.json"));
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+
+        assertThat(file("run", "checkpoint.json")).isEqualTo(before);
+        assertThat(file("run", "savings.json")).isEqualTo(file("whole", "savings.json"));
+    }
+
+    @Test
+    void resumingTellsHowFarTheWholeRunIs() throws IOException {
+        assertThat(evolve("run")).isZero();
+        List<String> all = file("run", "evaluations.jsonl").lines().toList();
+        Files.delete(folder.resolve("run/checkpoint.json"));
+        Files.write(folder.resolve("run/evaluations.jsonl"), all.subList(0, all.size() - 3));
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(err.toString().lines().reduce((first, last) -> last).orElseThrow()).startsWith("generation 3 of 3, mean ")
+                .contains(", evaluations " + all.size() + " of " + all.size() + ", ");
+    }
+
+    @Test
+    void anOutputFolderThatCannotBeIsSaidInWords() throws IOException {
+        Files.writeString(folder.resolve("file"), "");
+        assertThat(evolve("file/run")).isEqualTo(2);
+        assertThat(err.toString().strip()).startsWith("natator evolve: output folder " + folder.resolve("file/run")
+                + " cannot be made: ").doesNotContain("java.", "Exception");
     }
 
     @Test
@@ -285,6 +357,10 @@ class CommandLineTest {
         "--fitness speed|expected distance or net",
         "--timeout 0|--timeout is 0.0",
         "--timeout NaN|--timeout is NaN",
+        "--timeout 1e300|--timeout is 1.0E300; expected a number of seconds above 0, up to 100000000",
+        "--stop-after 1e300|--stop-after is 1.0E300; expected a number of seconds above 0, up to 100000000",
+        "--workers 5000|workers is 5000; expected a whole number from 1 to 1024",
+        "--population 2000000000|population is 2000000000; expected a whole number from 2 to 100000",
         "--duration -1|duration is -1.0",
         "--gaussian-deviation 0|gaussian-deviation is 0.0",
         "--operators magic|expected corrected or stock",
