@@ -2,6 +2,7 @@ package io.natator.checkpoint;
 
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.encoding.Encoding;
@@ -67,7 +68,8 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
                         + "--output-dir, or continue the run in it by --resume " + directory);
             }
         } catch (IOException e) {
-            throw new InvalidInputException("output folder " + directory + " cannot be made: " + e, e);
+            throw new InvalidInputException("output folder " + directory + " cannot be made: "
+                    + FileErrors.reason(directory, e), e);
         }
         try {
             AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));

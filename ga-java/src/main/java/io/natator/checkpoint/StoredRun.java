@@ -12,6 +12,8 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 /**
  * What a run folder holds, to be looked at while another process may be adding to it.
@@ -27,6 +29,8 @@ import java.util.List;
 public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
         List<EvaluationRecord> evaluations, Savings savings, List<VacuumRecord> vacuum) {
 
+    private static final Logger LOG = LoggerFactory.getLogger(StoredRun.class);
+
     /** Copies the lists. */
     public StoredRun {
         evaluations = List.copyOf(evaluations);
@@ -39,11 +43,17 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      * @throws InvalidInputException if it is not that of a run, or a file in it is damaged
      */
     public static StoredRun in(Path directory) {
-        return new StoredRun(directory, settings(directory),
-                optional(directory, RunFolder.CHECKPOINT, EvolutionState.class),
-                optional(directory, RunFolder.BEST, BestGait.class),
-                EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS)), savings(directory),
-                vacuumRecords(directory));
+        EvolutionSettings settings = settings(directory);
+        EvolutionState state = state(directory);
+        Savings savings;
+        try {
+            savings = savings(directory);
+        } catch (InvalidInputException e) {
+            LOG.warn("{}; shown without it", e.getMessage());
+            savings = null;
+        }
+        return new StoredRun(directory, settings, state, best(directory, settings, state),
+                EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS)), savings, vacuumRecords(directory));
     }
 
     /** The settings of the run in a folder. */
@@ -77,7 +87,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         if (state == null || !state.isLastOf(settings(directory))) {
             return false;
         }
-        BestGait best = optional(directory, RunFolder.BEST, BestGait.class);
+        BestGait best = best(directory);
         return state.best() == null || best != null && best.vacuum() != null;
     }
 
@@ -93,7 +103,21 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** The best gait so far of the run in a folder, or null. */
     public static BestGait best(Path directory) {
-        return optional(directory, RunFolder.BEST, BestGait.class);
+        return best(directory, settings(directory), state(directory));
+    }
+
+    /** As written, else as it follows from the checkpoint, then without what it does in vacuum. */
+    private static BestGait best(Path directory, EvolutionSettings settings, EvolutionState state) {
+        try {
+            BestGait written = optional(directory, RunFolder.BEST, BestGait.class);
+            if (written != null) {
+                return written;
+            }
+        } catch (InvalidInputException e) {
+            LOG.warn("{}; taken from {} instead", e.getMessage(), RunFolder.CHECKPOINT);
+        }
+        return state == null || state.best() == null ? null : BestGait.of(settings.scene(), state.best(),
+                settings.encoding().forActuators(settings.actuators()).decode(state.best().genes()), null);
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */

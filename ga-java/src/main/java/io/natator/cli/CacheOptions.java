@@ -1,10 +1,12 @@
 package io.natator.cli;
 
 import io.natator.cache.EvaluationCache;
+import io.natator.cli.Section.Topic;
 import io.natator.config.ExecutionSettings;
 import picocli.CommandLine.Option;
 
 /** Whether results of earlier runs are used. */
+@Section(Topic.COMPUTING)
 final class CacheOptions {
 
     @Option(names = "--no-cache", description = "Evaluate everything anew. Otherwise results that an earlier evaluation "

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.study.FlexStudy;
@@ -17,7 +18,8 @@ import picocli.CommandLine.Spec;
 @Command(name = "compare-flex", mixinStandardHelpOptions = true,
         description = {"Runs scenes and variants that NVIDIA Flex 1.2.0 was measured in, and compares the speeds.",
             "Continues where an interrupted study stopped; evaluations of another build or other settings are redone, "
-                + "those of changed scene or creature files are not: remove evaluations.jsonl after changing these."})
+                + "those of changed scene or creature files are not: remove evaluations.jsonl after changing these."},
+        customSynopsis = "natator compare-flex --variants FILE --output-dir DIR [OPTIONS]")
 final class CompareFlexCommand implements Callable<Integer> {
 
     private static final Duration TIMEOUT = Duration.ofMinutes(5);
@@ -28,16 +30,20 @@ final class CompareFlexCommand implements Callable<Integer> {
     @Mixin
     private ExecutionOptions executionOptions;
 
+    @Section(Topic.SCENE)
     @Option(names = "--variants", required = true, paramLabel = "FILE", description = "List of variants as JSON.")
     private Path variants;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where the results go.")
     private Path directory;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--runs", paramLabel = "N", defaultValue = "5",
             description = "Runs per variant and interval, from 1. Default: ${DEFAULT-VALUE}.")
     private int runs;
 
+    @Section(Topic.SCENE)
     @Option(names = "--only", paramLabel = "NAME", description = "Evaluate one variant only.")
     private String only;
 

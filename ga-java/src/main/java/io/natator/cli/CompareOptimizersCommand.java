@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
@@ -29,7 +30,9 @@ import picocli.CommandLine.Spec;
 @Command(name = "compare-optimizers", mixinStandardHelpOptions = true,
         description = {"Runs optimizers on creatures with several seeds, each for the same number of evaluations, and "
             + "draws their best distance against the evaluations.",
-            "The same command continues a study that was stopped."})
+            "The same command continues a study that was stopped."},
+        customSynopsis = "natator compare-optimizers --output-dir DIR [OPTIONS]",
+        footer = {"", "Example:", "  natator compare-optimizers --output-dir runs/study --evaluations 600"})
 final class CompareOptimizersCommand implements Callable<Integer> {
 
     private static final List<String> WITHOUT_OUTCOME =
@@ -50,33 +53,41 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     @Mixin
     private QueueOptions queueOptions;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where runs and results go.")
     private Path directory;
 
+    @Section(Topic.SCENE)
     @Option(names = "--creatures", paramLabel = "N", split = ",", defaultValue = "1,2",
             description = "Creatures of the thesis, 1 to 4. Default: ${DEFAULT-VALUE}.")
     private List<Integer> creatures;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--optimizers", paramLabel = "NAME", split = ",",
             defaultValue = "jgap-corrected,jgap-stock,cma-es,random", description = "Default: ${DEFAULT-VALUE}.")
     private List<String> optimizers;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--seeds", paramLabel = "N", defaultValue = "10",
             description = "Runs of each optimizer on each creature, from 1. Default: ${DEFAULT-VALUE}.")
     private int seeds;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--evaluations", paramLabel = "N", defaultValue = "600",
             description = "Evaluations of each run, from 1. Default: ${DEFAULT-VALUE}.")
     private long evaluations;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--population", paramLabel = "N", defaultValue = "24",
             description = "Chromosomes of JGAP, from 2. Default: ${DEFAULT-VALUE}.")
     private int population;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--cma-es-population", paramLabel = "N",
             description = "Points in a generation of CMA-ES, from 2. Default: 4 + 3 ln n with n genes.")
     private Integer cmaEsPopulation;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
             + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
     private FitnessKind fitness;

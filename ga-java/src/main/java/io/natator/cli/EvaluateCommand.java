@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.ExecutionSettings;
@@ -26,7 +27,11 @@ import picocli.CommandLine.Spec;
 
 /** {@code natator evaluate}: simulates one gait and prints the result as one line of JSON. */
 @Command(name = "evaluate", description = "Simulates one gait and prints the result as JSON.",
-        mixinStandardHelpOptions = true)
+        mixinStandardHelpOptions = true,
+        customSynopsis = "natator evaluate --scene NAME|FILE --gait FILE|GENE... [OPTIONS]",
+        footer = {"", "Examples:",
+            "  natator evaluate --scene thesis/creature-1 --gait runs/one/best.json",
+            "  natator evaluate --scene thesis/creature-1 --gait 1.861 0.973 0.69 0.648"})
 final class EvaluateCommand implements Callable<Integer> {
 
     @Spec
@@ -38,9 +43,11 @@ final class EvaluateCommand implements Callable<Integer> {
     @Mixin
     private ExecutionOptions executionOptions;
 
+    @Section(Topic.SCENE)
     @Option(names = "--scene", required = true, paramLabel = "NAME|FILE", description = "For example thesis/creature-1.")
     private String scene;
 
+    @Section(Topic.SCENE)
     @Option(names = "--gait", required = true, arity = "1..*", paramLabel = "FILE|GENE",
             description = "A JSON file with a gait (or a run's best.json), or genes: frequency, amplitudes, phases but "
                     + "the first (dense); or frequency, first and last amplitude, phase difference (sparse).")

@@ -1,12 +1,15 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.RunFolder;
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
@@ -26,8 +29,12 @@ import picocli.CommandLine.Spec;
 
 /** {@code natator evolve}: evolves the gait of a creature, or continues an interrupted run. */
 @Command(name = "evolve", mixinStandardHelpOptions = true,
-        description = {"Evolves the gait of a creature (thesis 2.6).",
-            "Prints the best gait; keeps everything in a run folder."})
+        description = {"Evolves the gait of a creature.",
+            "Prints the best gait; keeps everything in a run folder."},
+        footer = {"", "Examples:",
+            "  natator evolve --creature 2 --scheme conserving --preset quick",
+            "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
+            "  natator evolve --preset thesis --dry-run"})
 final class EvolveCommand implements Callable<Integer> {
 
     /** Options that do not change what a run computes, so that they may be given when it is continued. */
@@ -50,57 +57,72 @@ final class EvolveCommand implements Callable<Integer> {
     @Mixin
     private SceneChoice choice;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "${sys:natator.preset:-thesis}",
             description = "Population and generations: quick (24 x 8) or thesis (150 x 100). Default: ${DEFAULT-VALUE}.")
     private Preset preset;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--population", paramLabel = "N", description = "Chromosomes selected in each generation, from 2.")
     private Integer population;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--generations", paramLabel = "N", description = "Generations after the random one, from 0.")
     private Integer generations;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--evaluations", paramLabel = "N",
             description = "End after so many evaluations, from 1. Default: what the generations take.")
     private Long evaluations;
 
-    @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap", converter = OptimizerName.class,
+    @Section(Topic.SEARCH)
+    @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
             description = "jgap (the thesis' genetic algorithm), cma-es or random. Default: ${DEFAULT-VALUE}.")
     private OptimizerKind optimizer;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--seed", paramLabel = "N", defaultValue = "1",
             description = "The same seed gives the same run. Default: ${DEFAULT-VALUE}.")
     private long seed;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--operators", paramLabel = "SET", defaultValue = "corrected",
             description = "Genetic operators: corrected, or stock (as JGAP ships them). Default: ${DEFAULT-VALUE}.")
     private OperatorSet operators;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--gaussian-deviation", paramLabel = "X", defaultValue = "0.05",
             description = "Deviation of the Gaussian mutation as a share of a gene's range. Default: ${DEFAULT-VALUE}.")
     private double gaussianDeviation;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
             + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
     private FitnessKind fitness;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--vacuum-check", description = "Run every generation's new best in vacuum too; see vacuum.jsonl.")
     private boolean vacuumCheck;
 
+    @Section(Topic.SEARCH)
     @Option(names = "--encoding", paramLabel = "KIND",
             description = "Genes: dense or sparse. Default: the creature's (2 is sparse, the others dense).")
     private EncodingKind encoding;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR",
             description = "Run folder, new or empty. Default: runs/creature-N-seed-S, numbered if there is one.")
     private Path outputDir;
 
+    @Section(Topic.OTHER)
     @Option(names = "--dry-run", description = "Say what would be done and how long it would take; do nothing.")
     private boolean dryRun;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued by --resume.")
     private Double stopAfter;
 
+    @Section(Topic.OTHER)
     @Option(names = "--resume", paramLabel = "DIR", description = "Continue the run in this folder.")
     private Path resume;
 
@@ -125,8 +147,8 @@ final class EvolveCommand implements Callable<Integer> {
     }
 
     static void checkStopAfter(Double seconds) {
-        if (seconds != null && (!(seconds > 0) || Double.isInfinite(seconds))) {
-            throw new InvalidInputException("--stop-after is " + seconds + "; expected a number of seconds above 0");
+        if (seconds != null) {
+            Limits.checkSeconds("--stop-after", seconds);
         }
     }
 
@@ -170,7 +192,8 @@ final class EvolveCommand implements Callable<Integer> {
                 folder = Path.of("runs", name + "-" + number);
             }
         } catch (IOException e) {
-            throw new InvalidInputException("output folder " + folder + " cannot be read: " + e, e);
+            throw new InvalidInputException("output folder " + folder + " cannot be read: "
+                    + FileErrors.reason(folder, e), e);
         }
         return folder;
     }

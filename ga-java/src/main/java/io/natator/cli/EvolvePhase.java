@@ -17,8 +17,6 @@ import java.util.Locale;
 /** The evolutions of {@code reproduce}: carries them out, or says how long they will take. */
 final class EvolvePhase {
 
-    /** Evaluations of a generation as a share of the population (in the 24 runs of results/thesis: 1.71). */
-    private static final double CHILDREN_PER_SELECTED = 1.7;
     private static final double THESIS_SECONDS = 4;
 
     private final EvolutionPlan plan;
@@ -57,14 +55,14 @@ final class EvolvePhase {
     }
 
     private static long expected(EvolutionSettings settings) {
-        return Math.round(settings.population() * (1 + CHILDREN_PER_SELECTED * settings.generations()));
+        return Math.round(settings.population() * (1 + Pace.CHILDREN_PER_SELECTED * settings.generations()));
     }
 
     /** Says how many evaluations are left and how long they will take, judged by a few short ones. */
     void forecast(PrintWriter out) throws InterruptedException {
         out.printf("%d evolutions, %d of them finished; about %d evaluations left%n", plan.runs().size(),
                 plan.finished().size(), left(plan.runs()));
-        int together = execution.mode() == SimulatorMode.BATCH ? plan.runs().get(0).plan().settings().population() : execution.workers();
+        int together = execution.trials(plan.runs().get(0).plan().settings().population());
         double seconds = 0;
         try (Evaluator evaluator = Evaluator.open(execution)) {
             for (int creature : plan.runs().stream().map(EvolvedRun::creature).distinct().toList()) {

@@ -1,14 +1,16 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import java.time.Duration;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 /** Options that say how evaluations are carried out. */
+@Section(Topic.COMPUTING)
 final class ExecutionOptions {
 
     @Option(names = "--simulator", paramLabel = "MODE", description = "How evaluations reach the native program: "
@@ -17,7 +19,8 @@ final class ExecutionOptions {
     private SimulatorMode mode;
 
     @Option(names = "--backend", paramLabel = "BACKEND",
-            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: cpu, or the resumed run's.")
+            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: cpu; of a run that is "
+                    + "resumed, its own.")
     private Backend backend;
 
     @Option(names = "--device", paramLabel = "N", defaultValue = "0",
@@ -46,9 +49,8 @@ final class ExecutionOptions {
      * @param otherwise the backend if none was given
      */
     ExecutionSettings execution(Backend otherwise) {
-        if (timeoutSeconds != null && (!(timeoutSeconds > 0) || Double.isInfinite(timeoutSeconds))) {
-            throw new InvalidInputException("--timeout is " + timeoutSeconds
-                    + "; expected a number of seconds above 0");
+        if (timeoutSeconds != null) {
+            Limits.checkSeconds("--timeout", timeoutSeconds);
         }
         Backend chosen = backend != null ? backend : otherwise;
         return new ExecutionSettings(simulator.path(),

@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
@@ -24,7 +25,11 @@ import picocli.CommandLine.Spec;
 @Command(name = "export", mixinStandardHelpOptions = true,
         description = {"Simulates a swim and writes it, frame by frame, for another program.",
             "vtp: ParaView; ply: Blender, a file for each frame; usd: USD; csv: one table; npz: numpy. The folder "
-                + "appears when it is whole; metadata.json in it says what was simulated."})
+                + "appears when it is whole; metadata.json in it says what was simulated."},
+        customSynopsis = "natator export --format FORMAT [OPTIONS] RUN|SCENE",
+        footer = {"", "Examples:",
+            "  natator export --format vtp runs/creature-1-seed-1",
+            "  natator export --format usd --gait gait.json --duration 2 thesis/creature-2"})
 final class ExportCommand implements Callable<Integer> {
 
     @Spec
@@ -37,35 +42,45 @@ final class ExportCommand implements Callable<Integer> {
             + "thesis/creature-1, or a file.")
     private String source;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--format", required = true, paramLabel = "FORMAT", description = "vtp, ply, usd, csv or npz.")
     private ExportFormat format;
 
+    @Section(Topic.SCENE)
     @Option(names = "--gait", paramLabel = "FILE",
             description = "A JSON file with a gait, or a run's best.json. A scene without one is at rest.")
     private Path gait;
 
+    @Section(Topic.SCENE)
     @Option(names = "--generation", paramLabel = "N",
             description = "Of a run: the best gait of the generations up to N instead of all.")
     private Integer generation;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR",
             description = "Default: RUN/export-FORMAT, or the scene's name and the format.")
     private Path outputDir;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--force", description = "Replace an earlier export in the output folder.")
     private boolean force;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--every", paramLabel = "N", defaultValue = "1",
             description = "Only every Nth frame, of 60 in a second for the thesis scenes. Default: ${DEFAULT-VALUE}.")
     private int every;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--fields", paramLabel = "FIELD", split = ",", defaultValue = "position,velocity,density",
-            description = "What to write beside positions: velocity, density. Default: ${DEFAULT-VALUE}.")
+            description = "What to write of each particle: position (always), velocity, density. "
+                    + "Default: ${DEFAULT-VALUE}.")
     private List<StreamField> fields;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--no-water", description = "Only the body.")
     private boolean noWater;
 
+    @Section(Topic.COMPUTING)
     @Option(names = "--precision", paramLabel = "PRECISION",
             description = "What the simulator computes in: float (default) or double. Files hold floats.")
     private String precision;

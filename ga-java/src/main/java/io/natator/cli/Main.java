@@ -1,7 +1,10 @@
 package io.natator.cli;
 
+import java.util.concurrent.Callable;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Spec;
 
 /** The {@code natator} program. Results go to standard output, logs and progress to standard error. */
 @Command(name = "natator", description = "Evolves and evaluates gaits of swimming soft bodies.",
@@ -12,9 +15,18 @@ import picocli.CommandLine.Command;
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})
-public final class Main {
+public final class Main implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
 
     private Main() {
+    }
+
+    /** Without a command: what there is. */
+    @Override
+    public Integer call() {
+        return SectionedHelp.missingCommand(spec);
     }
 
     /**
@@ -37,10 +49,12 @@ public final class Main {
     }
 
     static CommandLine commandLine() {
-        return new CommandLine(new Main())
-                .setCaseInsensitiveEnumValuesAllowed(true)
+        CommandLine command = new CommandLine(new Main())
                 .setParameterExceptionHandler(OneLineErrors::badUsage)
                 .setExecutionExceptionHandler(OneLineErrors::failure);
+        EnumNames.install(command);
+        SectionedHelp.install(command);
+        return command;
     }
 
     /** The version in the jar's manifest. */

@@ -10,6 +10,7 @@ import picocli.CommandLine;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.ParseResult;
+import picocli.CommandLine.UnmatchedArgumentException;
 
 /** Tells of every error in one line on standard error, and chooses the exit status. */
 final class OneLineErrors {
@@ -20,8 +21,21 @@ final class OneLineErrors {
     }
 
     static int badUsage(ParameterException error, String[] arguments) {
-        print(error.getCommandLine(), error.getMessage() + "; see --help");
+        CommandLine command = error.getCommandLine();
+        String what = error instanceof UnmatchedArgumentException unmatched
+                ? unknown(unmatched.getUnmatched().get(0), command, error.getMessage()) : error.getMessage();
+        print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
         return ExitCode.USAGE;
+    }
+
+    /** What is unknown, with the nearest known name if one is near. */
+    private static String unknown(String argument, CommandLine command, String otherwise) {
+        if (argument.startsWith("-")) {
+            String name = argument.replaceFirst("=.*", "");
+            return name + " is no option of this command" + Closest.hint(name, command.getCommandSpec().optionsMap().keySet());
+        }
+        return command.getSubcommands().isEmpty() ? otherwise
+                : "'" + argument + "' is no command" + Closest.hint(argument, command.getSubcommands().keySet());
     }
 
     static int failure(Exception error, CommandLine command, ParseResult parsed) {
@@ -33,6 +47,10 @@ final class OneLineErrors {
         if (error instanceof RequestRejectedException rejected) {
             print(command, "simulator: " + error.getMessage());
             return rejected.isBadInput() ? ExitCode.USAGE : ExitCode.SOFTWARE;
+        }
+        if (error instanceof InterruptedException) {
+            print(command, "interrupted");
+            return ExitCode.SOFTWARE;
         }
         boolean foreseen = error instanceof EvolutionFailedException || error instanceof UncheckedIOException;
         print(command, foreseen ? error.getMessage() : "internal error: " + error);

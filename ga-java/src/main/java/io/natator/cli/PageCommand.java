@@ -2,8 +2,10 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
+import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.share.RecordedSwim;
@@ -28,7 +30,10 @@ import picocli.CommandLine.Spec;
 /** {@code natator page}: swims to be looked at anywhere. */
 @Command(name = "page", mixinStandardHelpOptions = true,
         description = {"Simulates the best swimmers and writes one HTML file that replays them, water and all.",
-            "It opens from disk in any browser of today, and loads nothing from anywhere."})
+            "It opens from disk in any browser of today, and loads nothing from anywhere."},
+        footer = {"", "Examples:",
+            "  natator page runs/creature-1-seed-1 --output swim.html",
+            "  natator page runs/one runs/two --best 3 --no-water"})
 final class PageCommand implements Callable<Integer> {
 
     private static final double MEGABYTE = 1e6;
@@ -43,25 +48,31 @@ final class PageCommand implements Callable<Integer> {
             + "thesis/creature-1, or files.")
     private List<String> sources;
 
+    @Section(Topic.SCENE)
     @Option(names = "--gait", paramLabel = "FILE",
             description = "A JSON file with a gait, or a run's best.json, for all of them. A scene without one is at rest.")
     private Path gait;
 
+    @Section(Topic.SCENE)
     @Option(names = "--best", paramLabel = "N", defaultValue = "1",
             description = "So many different gaits of each run, the best first. Default: ${DEFAULT-VALUE}.")
     private int best;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output", paramLabel = "FILE", defaultValue = "swim.html",
             description = "Default: ${DEFAULT-VALUE}.")
     private Path output;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--title", paramLabel = "TEXT", description = "Of the page. Default: what swims.")
     private String title;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--max-size", paramLabel = "MB", defaultValue = "10",
             description = "Leave frames out until the file is no larger. Default: ${DEFAULT-VALUE}.")
     private double maxSize;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--no-water", description = "Only the body.")
     private boolean noWater;
 
@@ -76,6 +87,7 @@ final class PageCommand implements Callable<Integer> {
         if (!(maxSize > 0) || Double.isInfinite(maxSize)) {
             throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes above 0");
         }
+        ReplayPage.check(output);
         Path simulator = simulatorOption.path();
         List<RecordedSwim> swims = new ArrayList<>();
         for (String source : sources) {
@@ -85,9 +97,10 @@ final class PageCommand implements Callable<Integer> {
         }
         String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
         ReplayPage.Written written = new ReplayPage(heading, swims, !noWater).write(output, (long) (maxSize * MEGABYTE));
-        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s, water to %.0e of a length unit%n",
+        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s%s%n",
                 output, written.bytes() / MEGABYTE, written.framesPerSecond(),
-                written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", written.largestError());
+                written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", written.largestError() == 0 ? ""
+                        : String.format(Locale.ROOT, ", water to %.0e of a length unit", written.largestError()));
         return ExitCode.OK;
     }
 
@@ -116,7 +129,7 @@ final class PageCommand implements Callable<Integer> {
         RecordedSwim swim = new SwimRecorder(simulator).record(swimmer.name(), options);
         double distance = swim.frames().get(swim.frames().size() - 1).distance();
         String name = swimmer.run() == null ? swimmer.name() : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
-        return new RecordedSwim(String.format(Locale.ROOT, "%s: %.3f", name, distance), swim.scene(), swim.json(),
+        return new RecordedSwim(name + ": swims " + Numbers.fixed(distance, 3) + " units", swim.scene(), swim.json(),
                 swim.frames());
     }
 }

@@ -33,13 +33,13 @@ final class Plan {
         ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, settings);
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
         Encoding encoding = settings.encoding().forActuators(settings.actuators());
-        Pace pace = new Pace(settings, 0, System::nanoTime);
+        Pace pace = new Pace(settings, System::nanoTime);
         pace.generationStarted(0, settings.population());
         out.println(ShowCommand.settings(settings));
         out.printf(Locale.ROOT, "  scene       %d particles, %d actuators, %.2f s%n", scene.particles(),
                 scene.actuators(), duration);
         out.printf("  genes       %s%n", String.join(", ", encoding.genes().stream().map(GeneRange::name).toList()));
-        out.printf("  evaluations about %d%n", pace.expected());
+        out.printf("  evaluations %s%n", pace.total());
         out.printf(Locale.ROOT, "  simulator   %s, %s, time limit %s each%n",
                 execution.mode().name().toLowerCase(Locale.ROOT), execution.mode() == SimulatorMode.BATCH
                         ? "a generation at once" : execution.workers() + " at once",
@@ -51,7 +51,7 @@ final class Plan {
 
     private void printTime(ExecutionSettings limited, double duration, long evaluations, PrintWriter out)
             throws InterruptedException {
-        int together = execution.mode() == SimulatorMode.BATCH ? settings.population() : execution.workers();
+        int together = execution.trials(settings.population());
         try (Evaluator evaluator = Evaluator.open(limited.withCache(null))) {
             double whole = new EvaluationTime(settings, evaluator).of(together, duration);
             out.printf(Locale.ROOT, "  time        at most %s: %d evaluations take %.2f s, if none ends early%n",

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.config.FileErrors;
 import io.natator.plot.PrecisionPlot;
 import io.natator.plot.RooflinePlot;
 import io.natator.plot.StabilityPlot;
@@ -8,6 +9,7 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
@@ -19,7 +21,7 @@ import picocli.CommandLine.Spec;
 /** {@code natator plot}: pictures of what {@code natator-sim bench} measured. */
 @Command(name = "plot", mixinStandardHelpOptions = true,
         description = "Draws the results of natator-sim bench as PNG files.")
-final class PlotCommand {
+final class PlotCommand implements Callable<Integer> {
 
     @Spec
     private CommandSpec spec;
@@ -37,6 +39,12 @@ final class PlotCommand {
 
         @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where the pictures go.")
         private Path directory;
+    }
+
+    /** Without a command: what there is. */
+    @Override
+    public Integer call() {
+        return SectionedHelp.missingCommand(spec);
     }
 
     @Command(name = "precision", mixinStandardHelpOptions = true,
@@ -67,7 +75,8 @@ final class PlotCommand {
         try {
             drawing.draw(files.csv, files.directory).forEach(spec.commandLine().getOut()::println);
         } catch (IOException e) {
-            throw new UncheckedIOException(files.directory + ": cannot be written: " + e.getMessage(), e);
+            throw new UncheckedIOException(files.directory + ": cannot be written: "
+                    + FileErrors.reason(files.directory, e), e);
         }
         return ExitCode.OK;
     }

@@ -1,7 +1,8 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import io.natator.evolution.EvolutionListener;
 import io.natator.run.EvolutionRun;
@@ -16,11 +17,13 @@ final class QueueOptions {
     private static final int AT_ONCE = 2;
     private static final int AT_ONCE_IN_BATCHES = 32;
 
+    @Section(Topic.COMPUTING)
     @Option(names = "--runs-at-once", paramLabel = "N", description = "Runs under way at the same time; their "
             + "generations share a batch. Default: " + AT_ONCE_IN_BATCHES + " with --simulator batch, else " + AT_ONCE
             + ".")
     private Integer runsAtOnce;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
     private Double stopAfter;
 
@@ -34,9 +37,7 @@ final class QueueOptions {
     int atOnce(ExecutionSettings execution) {
         int atOnce = runsAtOnce != null ? runsAtOnce
                 : execution.mode() == SimulatorMode.BATCH ? AT_ONCE_IN_BATCHES : AT_ONCE;
-        if (atOnce < 1) {
-            throw new InvalidInputException("--runs-at-once is " + atOnce + "; expected a whole number from 1");
-        }
+        Limits.checkCount("--runs-at-once", atOnce, Limits.AT_ONCE);
         return atOnce;
     }
 

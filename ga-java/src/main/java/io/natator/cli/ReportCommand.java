@@ -1,8 +1,10 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.report.GaitReport;
 import io.natator.run.EvolutionRun;
 import java.io.IOException;
@@ -32,6 +34,7 @@ final class ReportCommand implements Callable<Integer> {
     @Parameters(paramLabel = "RUN", description = "A run folder of evolve.")
     private Path directory;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR", description = "Default: RUN/report.")
     private Path outputDir;
 
@@ -43,7 +46,8 @@ final class ReportCommand implements Callable<Integer> {
         try {
             spec.commandLine().getOut().println(new GaitReport(run, folder).write(execution));
         } catch (IOException e) {
-            throw new UncheckedIOException("cannot write the report: " + e.getMessage(), e);
+            throw new UncheckedIOException("cannot write the report to " + folder + ": "
+                    + FileErrors.reason(folder, e), e);
         }
         return ExitCode.OK;
     }

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Scheme;
@@ -20,7 +21,9 @@ import picocli.CommandLine.Spec;
 /** {@code natator reproduce}: the thesis done again, from evolution to the report. */
 @Command(name = "reproduce", mixinStandardHelpOptions = true,
         description = {"Evolves the thesis' creatures in both schemes, measures what came out and writes the report.",
-            "The same command continues where it was stopped."})
+            "The same command continues where it was stopped."},
+        footer = {"", "Examples:", "  natator reproduce --dry-run",
+            "  natator reproduce --phase evolve --backend cuda --compact --stop-after 500"})
 final class ReproduceCommand implements Callable<Integer> {
 
     /** What is to be done. */
@@ -39,47 +42,58 @@ final class ReproduceCommand implements Callable<Integer> {
     @Mixin
     private QueueOptions queueOptions;
 
+    @Section(Topic.SCENE)
     @Option(names = "--creature", paramLabel = "N", split = ",", defaultValue = "1,2,3,4",
             description = "Creatures of the thesis, 1 to 4. Default: ${DEFAULT-VALUE}.")
     private List<Integer> creatures;
 
+    @Section(Topic.SCENE)
     @Option(names = "--scheme", paramLabel = "SCHEME", split = ",", defaultValue = "flex,conserving",
             description = "flex, conserving or both. Default: ${DEFAULT-VALUE}.")
     private List<Scheme> schemes;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--seeds", paramLabel = "N", defaultValue = "3",
             description = "Evolutions of each creature in each scheme, from 1. Default: ${DEFAULT-VALUE}.")
     private int seeds;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--generations", paramLabel = "N", defaultValue = "100",
             description = "Generations after the random one, from 0. Default: ${DEFAULT-VALUE}.")
     private int generations;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--population", paramLabel = "N", defaultValue = "150",
             description = "Chromosomes selected in each generation, from 2. Default: ${DEFAULT-VALUE}.")
     private int population;
 
+    @Section(Topic.SCENE)
     @Option(names = "--duration", paramLabel = "SECONDS",
             description = "Simulated time of an evaluation. Default: the scene's (4).")
     private Double duration;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR", defaultValue = "results/thesis",
             description = "Where runs, measurements and report go. Default: ${DEFAULT-VALUE}.")
     private Path directory;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--phase", paramLabel = "PHASE", defaultValue = "all",
             description = "evolve, measure, report or all. Default: ${DEFAULT-VALUE}.")
     private Phase phase;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--runs", paramLabel = "N", defaultValue = "5",
             description = "Runs of every measured gait, from 1, with starts that differ by 1e-6. "
                     + "Default: ${DEFAULT-VALUE}.")
     private int runs;
 
+    @Section(Topic.OUTPUT)
     @Option(names = "--compact", description = "Drop the single evaluations of finished evolutions, some ten megabytes "
             + "each, which the same seed gives again.")
     private boolean compact;
 
+    @Section(Topic.OTHER)
     @Option(names = "--dry-run", description = "Say what would be done and how long it would take; do nothing.")
     private boolean dryRun;
 

@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.RunFolder;
+import io.natator.cli.Section.Topic;
 import java.nio.file.Path;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
@@ -14,7 +15,8 @@ import picocli.CommandLine.Spec;
 /** {@code natator resume}: continues a run. */
 @Command(name = "resume", mixinStandardHelpOptions = true,
         description = {"Continues a run that was interrupted.",
-            "Its outcome is that of an uninterrupted one, unless it continues on another backend."})
+            "Its outcome is that of an uninterrupted one, unless it continues on another backend."},
+        footer = {"", "Example:", "  natator resume runs/creature-1-seed-1"})
 final class ResumeCommand implements Callable<Integer> {
 
     @Spec
@@ -26,6 +28,7 @@ final class ResumeCommand implements Callable<Integer> {
     @Mixin
     private CacheOptions cacheOptions;
 
+    @Section(Topic.EXTENT)
     @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
     private Double stopAfter;
 

@@ -42,8 +42,8 @@ final class RunLauncher {
     private void evolve(RunFolder folder, ExecutionSettings execution, Evaluator evaluator, Stopper stopper, String how)
             throws InterruptedException {
         EvolutionRun.Outcome outcome;
-        long before = folder.checkpoint() == null ? 0 : folder.checkpoint().evaluations();
-        try (Progress progress = new Progress(folder.settings(), before, err, System.console() != null)) {
+        try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().size(), err,
+                System.console() != null ? System.err : null)) {
             List<EvolutionListener> listeners = new ArrayList<>(List.of(progress));
             if (execution.mode() == SimulatorMode.BATCH) {
                 listeners.add(stopper.beforeLateGenerations());

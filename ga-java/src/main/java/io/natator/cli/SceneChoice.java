@@ -1,11 +1,13 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 
 /** Options that choose one scene. */
+@Section(Topic.SCENE)
 final class SceneChoice {
 
     @Option(names = "--creature", paramLabel = "1..4", description = "Creature of the thesis. Default: 1.")

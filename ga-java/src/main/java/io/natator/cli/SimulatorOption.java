@@ -1,10 +1,12 @@
 package io.natator.cli;
 
+import io.natator.cli.Section.Topic;
 import io.natator.simulator.SimulatorLocator;
 import java.nio.file.Path;
 import picocli.CommandLine.Option;
 
 /** The option that names the native program. */
+@Section(Topic.COMPUTING)
 final class SimulatorOption {
 
     @Option(names = "--simulator-path", paramLabel = "FILE", description = "The native program. Default: the one that "

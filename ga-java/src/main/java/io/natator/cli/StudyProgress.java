@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.config.Numbers;
 import io.natator.run.RunQueue;
 import java.io.PrintWriter;
 import java.nio.file.Path;
@@ -43,7 +44,7 @@ abstract class StudyProgress implements RunQueue.Watcher {
         if ((now - said) / NANOSECONDS >= INTERVAL_SECONDS) {
             said = now;
             double rate = done / ((now - started) / NANOSECONDS);
-            out.printf(Locale.ROOT, "%d of %d runs, %d of %d evaluations, %.1f/s, left %s%n", finished, runs,
+            out.printf(Locale.ROOT, "%d of %d runs, %d of %d evaluations, %.1f evaluations/s, left %s%n", finished, runs,
                     before + done, evaluations, rate,
                     Pace.readable(Math.round(Math.max(evaluations - before - done, 0) / rate)));
             out.flush();
@@ -53,7 +54,7 @@ abstract class StudyProgress implements RunQueue.Watcher {
     @Override
     public synchronized void finished(Path run, double bestDistance) {
         finished++;
-        out.printf(Locale.ROOT, "%s  best %.4f%n", run, bestDistance);
+        out.printf("%s  best %s%n", run, Numbers.fixed(bestDistance, 4));
         out.flush();
     }
 }

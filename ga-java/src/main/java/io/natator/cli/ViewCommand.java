@@ -3,8 +3,10 @@ package io.natator.cli;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SceneInfo;
@@ -27,7 +29,10 @@ import picocli.CommandLine.Spec;
 /** {@code natator view}: shows a scene live in the browser, until it is told to end. */
 @Command(name = "view", mixinStandardHelpOptions = true,
         description = {"Shows a scene live in the browser, and any run's best gaits.",
-            "Ends with Ctrl-C. Only this machine can reach it unless --host is given."})
+            "Ends with Ctrl-C. Only this machine can reach it unless --host is given."},
+        footer = {"", "Examples:",
+            "  natator view --creature 2",
+            "  natator view --run runs/one --run runs/two"})
 final class ViewCommand implements Callable<Integer> {
 
     @Spec
@@ -37,29 +42,33 @@ final class ViewCommand implements Callable<Integer> {
     private SceneChoice choice;
 
     @Mixin
+    private SceneChanges sceneOptions;
+
+    @Mixin
     private SimulatorOption simulator;
 
-    @Option(names = "--scheme", paramLabel = "SCHEME",
-            description = "How to solve: flex or conserving. Default: the scene's.")
-    private Scheme scheme;
-
+    @Section(Topic.SCENE)
     @Option(names = "--gait", paramLabel = "FILE", description = "A JSON file with a gait, or a run's best.json. "
             + "Default: the run's best gait, else what the thesis published for the creature.")
     private Path gait;
 
+    @Section(Topic.SCENE)
     @Option(names = "--run", paramLabel = "DIR", description = "A run folder to be looked at; may be repeated. "
             + "Without a scene, its scene is shown.")
     private List<Path> runs = List.of();
 
+    @Section(Topic.PAGE)
     @Option(names = "--port", paramLabel = "N", defaultValue = "" + ViewServer.DEFAULT_PORT,
             description = "Where to listen; 0 for any port that is free. Default: ${DEFAULT-VALUE}.")
     private int port;
 
+    @Section(Topic.PAGE)
     @Option(names = "--host", paramLabel = "HOST", defaultValue = ViewSettings.LOOPBACK,
             description = "Name or address to listen at; 0.0.0.0 for all of this machine's. Who can reach it can start "
                     + "simulations. Default: ${DEFAULT-VALUE}.")
     private String host;
 
+    @Section(Topic.PAGE)
     @Option(names = "--no-browser", description = "Only print the address.")
     private boolean noBrowser;
 
@@ -90,13 +99,18 @@ final class ViewCommand implements Callable<Integer> {
         Gait given = gait == null ? null : GaitFile.read(gait);
         if (runs.isEmpty() || choice.isGiven()) {
             String scene = choice.scene(spec);
-            ObjectNode overrides = Start.patch(null, scheme);
+            ObjectNode overrides = Start.patch(sceneOptions.overrides(), sceneOptions.scheme());
             SceneInfo.of(scene, overrides, program);
             return new Start(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
         }
         EvolutionSettings run = StoredRun.settings(runs.get(0));
         BestGait best = StoredRun.best(runs.get(0));
-        return new Start(run.scene(), Start.patch(run.overrides(), scheme != null ? scheme : run.scheme()),
+        Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.scheme();
+        ObjectNode overrides = Start.patch(MergePatch.both(run.overrides(), sceneOptions.overrides()), scheme);
+        if (sceneOptions.overrides() != null) {
+            SceneInfo.of(run.scene(), overrides, program);
+        }
+        return new Start(run.scene(), overrides,
                 given != null || best == null ? given : best.gait());
     }
 }

@@ -13,7 +13,7 @@ import com.fasterxml.jackson.databind.JsonNode;
  * @param actuators         number of actuators of the scene's creature
  * @param optimizer         what searches
  * @param population        chromosomes at the start and selected in each generation (thesis: 150); for the other
- *                          optimizers the evaluations of a generation; at least 2
+ *                          optimizers the evaluations of a generation; from 2 to {@link Limits#POPULATION}
  * @param generations       generations bred after the random one, at least 0 (thesis: 100)
  * @param evaluations       simulations after which the run ends, within a generation if need be, at least 1; null for
  *                          as many as the generations take
@@ -45,7 +45,8 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
      * @throws InvalidInputException naming the setting that is out of range
      */
     public EvolutionSettings {
-        require(population >= 2, "population", population, "a whole number from 2");
+        require(population >= 2 && population <= Limits.POPULATION, "population", population,
+                "a whole number from 2 to " + Limits.POPULATION);
         require(generations >= 0, "generations", generations, "a whole number from 0");
         require(evaluations == null || evaluations >= 1, "evaluations", evaluations, "a whole number from 1");
         require(gaussianDeviation > 0 && gaussianDeviation <= 1, "gaussian-deviation", gaussianDeviation,

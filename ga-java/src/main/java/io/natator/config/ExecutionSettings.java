@@ -10,7 +10,7 @@ import java.time.Duration;
  * @param mode      how evaluations reach it
  * @param backend   what it computes on
  * @param device    number of the GPU, from 0
- * @param workers   evaluations at the same time, at least 1; in mode batch the program decides
+ * @param workers   evaluations at the same time, from 1 to {@link Limits#AT_ONCE}; in mode batch the program decides
  * @param timeout   longest time for one attempt at an evaluation, or null to derive it from the scene's cost
  * @param cache     folder of evaluations that need not be done again, or null for none
  */
@@ -23,9 +23,7 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
      * @throws InvalidInputException naming the setting that is out of range
      */
     public ExecutionSettings {
-        if (workers < 1) {
-            throw new InvalidInputException("workers is " + workers + "; expected a whole number from 1");
-        }
+        Limits.checkCount("workers", workers, Limits.AT_ONCE);
         if (device < 0) {
             throw new InvalidInputException("device is " + device + "; expected a whole number from 0");
         }
@@ -38,6 +36,16 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
     /** A process for each evaluation, on the processor, without a cache. */
     public ExecutionSettings(Path simulator, int workers, Duration timeout) {
         this(simulator, SimulatorMode.PROCESS, Backend.CPU, 0, workers, timeout, null);
+    }
+
+    /**
+     * How many evaluations at the same time tell how long many take: a batch, else no more than the processors can do at
+     * once, since others only wait.
+     *
+     * @param population evaluations of a batch
+     */
+    public int trials(int population) {
+        return mode == SimulatorMode.BATCH ? population : Math.min(workers, Runtime.getRuntime().availableProcessors());
     }
 
     /** These settings in another mode. */

@@ -73,13 +73,13 @@ public final class Json {
         } catch (JsonProcessingException e) {
             throw new InvalidInputException(what + " " + file + ": " + reason(e), e);
         } catch (IOException e) {
-            throw new InvalidInputException(what + " " + file + " cannot be read: " + e.getMessage(), e);
+            throw new InvalidInputException(what + " " + file + " cannot be read: " + FileErrors.reason(file, e), e);
         }
     }
 
     /** Why the text was refused, as one line with the field and the place. */
     public static String reason(JsonProcessingException e) {
-        String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON").replaceFirst(" \\(set .*", "");
+        String message = JsonErrors.message(e);
         String field = e instanceof JsonMappingException mapping ? mapping.getPath().stream()
                 .map(JsonMappingException.Reference::getFieldName).filter(Objects::nonNull)
                 .collect(Collectors.joining(".")) : "";

@@ -3,6 +3,7 @@ package io.natator.export;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.stream.StreamFrame;
@@ -69,7 +70,7 @@ public final class Export {
             target.commit();
             return written;
         } catch (IOException e) {
-            throw new UncheckedIOException("no export to " + folder + ": " + e.getMessage(), e);
+            throw new UncheckedIOException("no export to " + folder + ": " + FileErrors.reason(folder, e), e);
         }
     }
 

@@ -1,5 +1,6 @@
 package io.natator.flow;
 
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import java.io.BufferedReader;
 import java.io.IOException;
@@ -50,7 +51,7 @@ public record Snapshot(double time, List<Particle> fluid, List<Particle> body) {
             }
             return new Snapshot(time, fluid, body);
         } catch (IOException e) {
-            throw new InvalidInputException(file + " cannot be read: " + e.getMessage(), e);
+            throw new InvalidInputException(file + " cannot be read: " + FileErrors.reason(file, e), e);
         } catch (NumberFormatException | ArrayIndexOutOfBoundsException e) {
             throw new InvalidInputException(file + ", line " + number + ": expected ten fields", e);
         }

@@ -1,5 +1,6 @@
 package io.natator.plot;
 
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -26,7 +27,7 @@ record ResultTable(List<String> columns, List<List<String>> rows) {
         try {
             lines = Files.readAllLines(file);
         } catch (IOException e) {
-            throw new InvalidInputException(file + ": cannot be read: " + e.getMessage(), e);
+            throw new InvalidInputException(file + ": cannot be read: " + FileErrors.reason(file, e), e);
         }
         List<String> columns = lines.isEmpty() ? List.of() : fields(lines.get(0));
         for (String name : required) {

@@ -1,5 +1,6 @@
 package io.natator.realism;
 
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import java.io.BufferedReader;
 import java.io.IOException;
@@ -46,7 +47,7 @@ public record BodyPath(double[] times, double[][][] particles) {
             return new BodyPath(times.stream().mapToDouble(Double::doubleValue).toArray(),
                     frames.toArray(double[][][]::new));
         } catch (IOException e) {
-            throw new InvalidInputException(file + " cannot be read: " + e.getMessage(), e);
+            throw new InvalidInputException(file + " cannot be read: " + FileErrors.reason(file, e), e);
         } catch (NumberFormatException | ArrayIndexOutOfBoundsException e) {
             throw new InvalidInputException(file + ", line " + number + ": expected six numbers", e);
         }

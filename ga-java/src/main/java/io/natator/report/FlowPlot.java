@@ -79,7 +79,7 @@ public final class FlowPlot {
         graphics.drawString(String.format(Locale.ROOT, "%s, %s, at %.2f s", title, field.view().label(), field.time()),
                 MARGIN, 20);
         graphics.setFont(new Font(Font.SANS_SERIF, Font.PLAIN, 12));
-        graphics.drawString(String.format(Locale.ROOT, "longest arrow %.2f/s; red turns against the clock, blue with it, "
+        graphics.drawString(String.format(Locale.ROOT, "longest arrow %.2f units/s; red turns against the clock, blue with it, "
                 + "darkest %.1f 1/s", fastest, strongest), MARGIN, 38);
         for (int i = 0; i < field.columns(); i++) {
             for (int k = 0; k < field.rows(); k++) {

@@ -8,6 +8,7 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
 import io.natator.flow.FlowField;
 import io.natator.realism.Attitude;
@@ -61,6 +62,7 @@ public final class GaitReport {
                 settings.scheme(), runningOn(settings.overrides()));
         Recording recording = Recorded.of(request, duration / 2, execution);
         Page page = new Page(folder, settings.scene() + ", seed " + settings.seed());
+        progress(page);
         pictures(page, recording);
         numbers(page, recording);
         return page.write("README.md");
@@ -72,6 +74,17 @@ public final class GaitReport {
                 : JsonNodeFactory.instance.objectNode();
         patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
         return patch;
+    }
+
+    /** Whoever reads of a run that is not finished is told so first. */
+    private void progress(Page page) {
+        if (!run.state().isLastOf(run.settings())) {
+            page.text("**This run is not finished.** Done are generation " + run.state().generation()
+                    + (run.settings().generations() == EvolutionSettings.NO_LIMIT ? ""
+                            : " of " + run.settings().generations())
+                    + " and " + run.state().evaluations() + " evaluations; this is the best gait so far. It goes on by `natator "
+                    + "resume " + run.directory() + "`.");
+        }
     }
 
     private void pictures(Page page, Recording recording) throws IOException {
@@ -109,10 +122,10 @@ public final class GaitReport {
         rows.add(List.of("frequency (1/s)", number(gait.frequency())));
         rows.add(List.of("amplitudes", numbers(gait.amplitude())));
         rows.add(List.of("phases", numbers(gait.phase())));
-        rows.add(List.of("speed in fluid (scene units/s)", number(best.speed())));
+        rows.add(List.of("speed in fluid (units/s)", number(best.speed())));
         rows.add(List.of("speed in fluid (body lengths/s)", number(best.speed() / length)));
         if (best.vacuum() != null) {
-            rows.add(List.of("speed in vacuum (scene units/s)", number(best.vacuum().speed())));
+            rows.add(List.of("speed in vacuum (units/s)", number(best.vacuum().speed())));
         }
         for (ModeFit fit : fits(recording)) {
             rows.add(List.of("e against " + fit.mode().label() + " fish (α, β)", String.format(Locale.ROOT,
@@ -121,14 +134,14 @@ public final class GaitReport {
         rows.add(List.of("turned at the end, θ ρ ω (degrees)", String.format(Locale.ROOT, "%.1f %.1f %.1f",
                 Math.toDegrees(end.roll()), Math.toDegrees(end.yaw()), Math.toDegrees(end.pitch()))));
         page.heading(2, "Numbers").table(List.of("", "value"), rows);
-        page.text("e by thesis 2.8: 0 is the same motion, 1/3 is none; α scales the simulated spine; the body's roll is "
+        page.text("e is how far the motion is from the fish's: 0 is the same motion, 1/3 is none; α scales the simulated spine; the body's roll is "
                 + "taken out. Nearest: **"
                 + nearest(recording).mode().label() + "** (of " + FishMode.values().length + ").");
         page.heading(2, "Command").code("java -jar ga-java/target/natator.jar report " + run.directory());
     }
 
     private static String number(double value) {
-        return String.format(Locale.ROOT, "%.4f", value);
+        return Numbers.fixed(value, 4);
     }
 
     private static String numbers(List<Double> values) {

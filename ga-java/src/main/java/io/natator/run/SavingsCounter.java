@@ -3,14 +3,19 @@ package io.natator.run;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.Savings;
 import io.natator.checkpoint.StoredRun;
+import io.natator.config.InvalidInputException;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.simulator.SimulationResult;
 import java.util.function.LongSupplier;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 /** Counts what a run does not have to simulate, and writes it into its folder after each generation. */
 final class SavingsCounter implements EvolutionListener {
+
+    private static final Logger LOG = LoggerFactory.getLogger(SavingsCounter.class);
 
     private final RunFolder folder;
     private final double duration;
@@ -30,10 +35,20 @@ final class SavingsCounter implements EvolutionListener {
         this.folder = folder;
         this.duration = duration;
         this.found = found;
-        Savings before = StoredRun.savings(folder.directory());
+        Savings before = savings(folder);
         this.foundBefore = before == null ? 0 : before.fromCache();
         if (folder.checkpoint() != null) {
             folder.recorded().subList(0, (int) folder.checkpoint().evaluations()).forEach(this::evaluated);
+        }
+    }
+
+    /** Of the run so far; a damaged file of them costs only how many results came from the cache. */
+    private static Savings savings(RunFolder folder) {
+        try {
+            return StoredRun.savings(folder.directory());
+        } catch (InvalidInputException e) {
+            LOG.warn("{}; counted anew, without the results that came from the cache", e.getMessage());
+            return null;
         }
     }
 

@@ -2,15 +2,15 @@ package io.natator.share;
 
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardCopyOption;
 import java.util.Base64;
 import java.util.List;
 import java.util.Locale;
+import java.util.Map;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 
 /** One HTML file that replays swims: scripts, styles and data are all in it, and it makes no request. */
@@ -18,6 +18,8 @@ public final class ReplayPage {
 
     private static final int[] EVERY = {1, 2, 3, 4, 5, 6, 8, 10, 12};
     private static final double MEGABYTE = 1e6;
+    /** Where something is put into the page; in one go, so that what is put there stays as it is. */
+    private static final Pattern PART = Pattern.compile("\\{\\{(title|style|modules|swims)}}");
 
     private final String title;
     private final List<RecordedSwim> swims;
@@ -51,15 +53,16 @@ public final class ReplayPage {
      * Writes the page with as many frames as fit.
      *
      * @param maxBytes what the file may have
-     * @throws InvalidInputException if too few frames would fit to be watched
+     * @throws InvalidInputException if too few frames would fit to be watched, or no file can be of that name
      * @throws UncheckedIOException  if the file cannot be written
      */
     public Written write(Path file, long maxBytes) {
+        OutputFile output = OutputFile.of(file);
         byte[] html = null;
         for (int every : EVERY) {
             html = html(every).getBytes(StandardCharsets.UTF_8);
             if (html.length <= maxBytes) {
-                save(file, html);
+                output.write(html);
                 return new Written(html.length, framesPerSecond(every), every > 1, largestError());
             }
         }
@@ -67,16 +70,6 @@ public final class ReplayPage {
         throw new InvalidInputException(String.format(Locale.ROOT, "the page has %.1f MB even with %.0f frames a second; "
                 + "expected at most %.1f MB: a larger --max-size, fewer swims, a shorter --duration, or --no-water",
                 html.length / MEGABYTE, framesPerSecond(last), maxBytes / MEGABYTE));
-    }
-
-    private static void save(Path file, byte[] html) {
-        Path fresh = file.resolveSibling(file.getFileName() + ".new");
-        try {
-            Files.write(fresh, html);
-            Files.move(fresh, file, StandardCopyOption.REPLACE_EXISTING);
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot write " + file + ": " + e.getMessage(), e);
-        }
     }
 
     private double framesPerSecond(int every) {
@@ -99,11 +92,20 @@ public final class ReplayPage {
                 .collect(Collectors.joining("\n"));
         String modules = base64(Zlib.compressed(
                 Json.line(PageModules.of("natator/replay.js")).getBytes(StandardCharsets.UTF_8)));
-        return PageModules.resource("natator/replay.html")
-                .replace("{{title}}", escaped(title))
-                .replace("{{style}}", PageModules.resource("natator/theme.css") + PageModules.resource("natator/style.css"))
-                .replace("{{modules}}", modules)
-                .replace("{{swims}}", swimText);
+        Map<String, String> parts = Map.of("title", escaped(title), "style",
+                PageModules.resource("natator/theme.css") + PageModules.resource("natator/style.css"), "modules", modules,
+                "swims", swimText);
+        return PART.matcher(PageModules.resource("natator/replay.html"))
+                .replaceAll(part -> Matcher.quoteReplacement(parts.get(part.group(1))));
+    }
+
+    /**
+     * Whether {@link #write} can make this file, before there is anything to write.
+     *
+     * @throws InvalidInputException if it cannot
+     */
+    public static void check(Path file) {
+        OutputFile.of(file);
     }
 
     private static String base64(byte[] content) {

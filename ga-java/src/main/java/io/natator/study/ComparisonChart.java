@@ -22,8 +22,8 @@ final class ComparisonChart {
     private final XYChart chart;
 
     private ComparisonChart(String title) {
-        chart = new XYChartBuilder().width(SIZE).height(SIZE).title(title).xAxisTitle("NVIDIA Flex 1.2.0 (1/s)")
-                .yAxisTitle("Natator (1/s)").build();
+        chart = new XYChartBuilder().width(SIZE).height(SIZE).title(title).xAxisTitle("NVIDIA Flex 1.2.0 (units/s)")
+                .yAxisTitle("Natator (units/s)").build();
         chart.getStyler().setLegendPosition(Styler.LegendPosition.InsideNW).setChartBackgroundColor(Color.WHITE);
     }
 

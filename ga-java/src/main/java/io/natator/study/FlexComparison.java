@@ -81,7 +81,7 @@ final class FlexComparison {
     }
 
     private static String outcome(SimulationResult result) {
-        return result.status() == SimulationResult.Status.OK ? String.format(Locale.ROOT, "%.4f/s", result.speed())
+        return result.status() == SimulationResult.Status.OK ? String.format(Locale.ROOT, "%.4f units/s", result.speed())
                 : result.status() + (result.error() == null ? "" : ", " + result.error());
     }
 

@@ -2,7 +2,9 @@ package io.natator.study;
 
 import io.natator.checkpoint.Environment;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.Json;
 import io.natator.simulator.Evaluator;
 import java.io.IOException;
@@ -35,13 +37,12 @@ public record FlexStudy(Path variantsFile, Path directory, int runs) {
             throw new InvalidInputException("--only is " + only + "; expected one of "
                     + variants.stream().map(Variant::name).toList());
         }
-        if (runs < 1) {
-            throw new InvalidInputException("--runs is " + runs + "; expected a whole number from 1");
-        }
+        Limits.checkCount("--runs", runs, Limits.REPETITIONS);
         try {
             Files.createDirectories(directory);
         } catch (IOException e) {
-            throw new InvalidInputException("--output-dir " + directory + " cannot be made: " + e, e);
+            throw new InvalidInputException("--output-dir " + directory + " cannot be made: "
+                    + FileErrors.reason(directory, e), e);
         }
         Environment environment = Environment.present(execution);
         List<Comparison> comparisons;

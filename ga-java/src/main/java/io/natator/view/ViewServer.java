@@ -18,6 +18,8 @@ import io.natator.simulator.ProgramInfo;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.net.InetAddress;
+import java.net.NetworkInterface;
+import java.net.SocketException;
 import java.net.URI;
 import java.net.UnknownHostException;
 import java.util.HashSet;
@@ -73,6 +75,7 @@ public final class ViewServer implements AutoCloseable {
             sendUncompressed();
         } catch (JavalinBindException e) {
             close();
+            checkHost(settings.host());
             throw new UncheckedIOException(unavailable(settings), new IOException(e));
         }
     }
@@ -81,6 +84,21 @@ public final class ViewServer implements AutoCloseable {
     private void sendUncompressed() {
         ServletContextHandler context = javalin.jettyServer().server().getDescendant(ServletContextHandler.class);
         WebSocketServerComponents.getWebSocketComponents(context).getExtensionRegistry().unregister("permessage-deflate");
+    }
+
+    private static void checkHost(String host) {
+        try {
+            InetAddress address = InetAddress.getByName(host);
+            if (!address.isAnyLocalAddress() && NetworkInterface.getByInetAddress(address) == null) {
+                throw new InvalidInputException("--host is " + host + ", " + address.getHostAddress()
+                        + "; expected a name or address of this machine");
+            }
+        } catch (UnknownHostException e) {
+            throw new InvalidInputException("--host is " + host + ", an unknown name; expected a name or address of this "
+                    + "machine", e);
+        } catch (SocketException e) {
+            LOG.debug("network interfaces not known", e);
+        }
     }
 
     private static String unavailable(ViewSettings settings) {

@@ -65,7 +65,8 @@ class CommandLineTest {
                 .contains("frequency", "amplitude", "phase", "distance", "speed", "in vacuum",
                         "run folder  " + folder.resolve("run"));
         assertThat(err.toString().lines()).hasSize(4).allSatisfy(line -> assertThat(line)
-                .matches("generation \\d/3  best -?\\d\\.\\d{4}  mean -?\\d\\.\\d{4}  evaluations \\d+  .*/s  left .*"));
+                .matches("generation \\d of 3, mean -?\\d\\.\\d{4}, best -?\\d\\.\\d{4}, evaluations \\d+ of (about )?\\d+, "
+                        + "elapsed \\d+s, left .*"));
         JsonNode best = Json.parse(file("run", "best.json"), JsonNode.class);
         assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
         JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
@@ -199,7 +200,7 @@ class CommandLineTest {
     void aDryRunPlansAndDoesNothing() {
         assertThat(evolve("run", "--dry-run", "--workers", "3")).as(err.toString()).isZero();
 
-        assertThat(out.toString()).contains("evaluations about 44", "process, 3 at once", "time limit 2m02s each",
+        assertThat(out.toString()).contains("evaluations about 50", "process, 3 at once", "time limit 2m02s each",
                 "run folder  " + folder.resolve("run"), "time        at most ");
         assertThat(folder.resolve("run")).doesNotExist();
     }
@@ -208,6 +209,77 @@ class CommandLineTest {
     void aMissingGpuIsOneLine() {
         assertThat(evolve("run", "--backend", "cuda")).isEqualTo(1);
         assertThat(err.toString().strip()).isEqualTo("natator evolve: simulator: no such device here");
+    }
+
+    /** Many more at once than there are processors would only wait for each other. */
+    @Test
+    void aDryRunTriesNoMoreThanTheProcessorsDoAtOnce() {
+        assertThat(evolve("run", "--dry-run", "--workers", "1024")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("process, 1024 at once",
+                Runtime.getRuntime().availableProcessors() + " evaluations take ");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "compare-optimizers --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
+        "compare-optimizers --output-dir NEVER --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
+        "compare-optimizers --output-dir NEVER --cma-es-population 1000000|population is 1000000; expected a whole number"})
+    void absurdNumbersOfOtherCommandsAreRefused(String arguments, String message) {
+        assertThat(natator(arguments.replace("NEVER", folder.resolve("never").toString()).split(" "))).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).contains(message);
+        assertThat(folder.resolve("never")).doesNotExist();
+    }
+
+    @Test
+    void whatFollowsFromTheCheckpointMayBeDamaged() throws IOException {
+        assertThat(evolve("run")).isZero();
+        String best = file("run", "best.json");
+        out.getBuffer().setLength(0);
+        Files.writeString(folder.resolve("run/best.json"), best.substring(0, best.length() / 2));
+        Files.writeString(folder.resolve("run/savings.json"), "{");
+
+        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("best gait of thesis/creature-1 after 3 generations");
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(file("run", "best.json")).isEqualTo(best);
+    }
+
+    @Test
+    void aDamagedCountOfSavingsDoesNotStopARun() throws IOException {
+        assertThat(evolve("whole")).isZero();
+        assertThat(evolve("run")).isZero();
+        String before = file("run", "checkpoint.json");
+        Files.writeString(folder.resolve("run/savings.json"), "[1");
+        Files.delete(folder.resolve("run/checkpoint.json"));
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+
+        assertThat(file("run", "checkpoint.json")).isEqualTo(before);
+        assertThat(file("run", "savings.json")).isEqualTo(file("whole", "savings.json"));
+    }
+
+    @Test
+    void resumingTellsHowFarTheWholeRunIs() throws IOException {
+        assertThat(evolve("run")).isZero();
+        List<String> all = file("run", "evaluations.jsonl").lines().toList();
+        Files.delete(folder.resolve("run/checkpoint.json"));
+        Files.write(folder.resolve("run/evaluations.jsonl"), all.subList(0, all.size() - 3));
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(err.toString().lines().reduce((first, last) -> last).orElseThrow()).startsWith("generation 3 of 3, mean ")
+                .contains(", evaluations " + all.size() + " of " + all.size() + ", ");
+    }
+
+    @Test
+    void anOutputFolderThatCannotBeIsSaidInWords() throws IOException {
+        Files.writeString(folder.resolve("file"), "");
+        assertThat(evolve("file/run")).isEqualTo(2);
+        assertThat(err.toString().strip()).startsWith("natator evolve: output folder " + folder.resolve("file/run")
+                + " cannot be made: ").doesNotContain("java.", "Exception");
     }
 
     @Test
@@ -278,22 +350,27 @@ class CommandLineTest {
         "--device -1|device is -1",
         "--evaluations 0|evaluations is 0",
         "--stop-after 0|--stop-after is 0.0",
-        "--simulator thread|expected one of",
-        "--backend opencl|expected one of",
-        "--optimizer best|expected one of",
-        "--fitness speed|expected one of",
+        "--simulator thread|expected process, resident or batch but was 'thread'",
+        "--backend opencl|expected cpu, cuda or auto but was 'opencl'",
+        "--optimizer cma|expected jgap, cma-es or random but was 'cma'; did you mean cma-es?",
+        "--fitness speed|expected distance or net",
         "--timeout 0|--timeout is 0.0",
         "--timeout NaN|--timeout is NaN",
+        "--timeout 1e300|--timeout is 1.0E300; expected a number of seconds above 0, up to 100000000",
+        "--stop-after 1e300|--stop-after is 1.0E300; expected a number of seconds above 0, up to 100000000",
+        "--workers 5000|workers is 5000; expected a whole number from 1 to 1024",
+        "--population 2000000000|population is 2000000000; expected a whole number from 2 to 100000",
         "--duration -1|duration is -1.0",
         "--gaussian-deviation 0|gaussian-deviation is 0.0",
-        "--operators magic|expected one of",
-        "--encoding magic|expected one of",
+        "--operators magic|expected corrected or stock",
+        "--encoding magic|expected dense or sparse",
+        "--preset quik|expected quick or thesis but was 'quik'; did you mean quick?",
         "--scene no/such|expected a named scene or a file",
         "--scene no/such.json|expected a named scene or an existing file",
         "--overrides no-such.json|no-such.json does not exist",
         "--overrides {\"solver\":|--overrides: ",
         "--seed|Missing required parameter for option '--seed'",
-        "--sed 3|Unknown options: '--sed'",
+        "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help",
         "--resume no/such/folder|no/such/folder is not a run folder"})
     void badUsageIsOneLineAndStatus2(String arguments, String message) {
         List<String> all = new ArrayList<>(List.of("evolve"));

@@ -53,7 +53,8 @@ class PageCommandTest {
         assertThat(natator("page", run.toString(), "--best", "2", "--no-water", "--output", page.toString()))
                 .as(err.toString()).isZero();
 
-        assertThat(Files.readString(page).split("class=\"swim\" data-title=\"run: ", -1)).hasSize(3);
+        assertThat(out.toString()).contains(" frames a second\n").doesNotContain("water");
+        assertThat(Files.readString(page).split("class=\"swim\" data-title=\"run: swims ", -1)).hasSize(3);
     }
 
     @Test
@@ -61,6 +62,8 @@ class PageCommandTest {
         assertThat(natator("page", "thesis/creature-1", "--best", "0")).isEqualTo(2);
         assertThat(natator("page", "thesis/creature-1", "--max-size", "0")).isEqualTo(2);
         assertThat(natator("page", "no/such", "--duration", "0.1")).isEqualTo(2);
-        assertThat(err.toString()).contains("--best is 0; expected").contains("--max-size is 0.0; expected").contains("no/such");
+        assertThat(natator("page", "thesis/creature-1", "--output", folder.toString())).isEqualTo(2);
+        assertThat(err.toString()).contains("output file is " + folder + ", which is a folder; expected the name of a file")
+                .contains("--best is 0; expected").contains("--max-size is 0.0; expected").contains("no/such");
     }
 }

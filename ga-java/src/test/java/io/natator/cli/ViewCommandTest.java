@@ -134,6 +134,24 @@ class ViewCommandTest {
     }
 
     @Test
+    void theSceneCanBeChanged() throws IOException, InterruptedException {
+        JsonNode start = start(start("--creature", "2", "--overrides", "{\"solver\":{\"substeps\":2}}", "--scheme", "flex"));
+
+        assertThat(start.get("overrides").toString()).isEqualTo("{\"solver\":{\"substeps\":2},\"scheme\":\"flex\"}");
+    }
+
+    @Test
+    void aRunsSceneCanBeChangedToo() throws IOException, InterruptedException {
+        Path run = folder.resolve("run");
+        Commands.evolve(FakeSimulator.in(folder), run);
+
+        JsonNode start = start(start("--run", run.toString(), "--overrides", "{\"solver\":{\"substeps\":2}}"));
+
+        assertThat(start.get("overrides").toString())
+                .isEqualTo("{\"solver\":{\"substeps\":2},\"scheme\":\"conserving\"}");
+    }
+
+    @Test
     void ofARunTheBestSwims() throws IOException, InterruptedException {
         Path run = folder.resolve("run");
         Commands.evolve(FakeSimulator.in(folder), run);
@@ -153,7 +171,10 @@ class ViewCommandTest {
         "--scene no/such.json|2|natator view: --scene is no/such.json; expected a named scene or an existing file",
         "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
         "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
-        "--host no-such-host.invalid|1|natator view: cannot listen at port 0 of no-such-host.invalid; ",
+        "--host no-such-host.invalid|2|natator view: --host is no-such-host.invalid, an unknown name; expected a name or "
+            + "address of this machine",
+        "--host 192.0.2.1|2|natator view: --host is 192.0.2.1, 192.0.2.1; expected a name or address of this machine",
+        "--overrides {\"solver\":{\"substep\":1}}|2|natator view: scene thesis/creature-1: ",
         "--port TAKEN|1|natator view: cannot listen at port "})
     void whatIsWrongIsOneLine(String arguments, int status, String message) throws IOException {
         StringWriter err = new StringWriter();

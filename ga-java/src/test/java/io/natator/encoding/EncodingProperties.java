@@ -2,21 +2,19 @@ package io.natator.encoding;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.RandomCases;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Random;
-import net.jqwik.api.ForAll;
-import net.jqwik.api.Property;
-import net.jqwik.api.constraints.IntRange;
+import java.util.random.RandomGenerator;
 
 class EncodingProperties {
 
-    @Property(tries = 300)
-    void everyGenomeGivesAGaitWithinTheThesisRanges(@ForAll @IntRange(min = 2, max = 12) int actuators,
-            @ForAll boolean dense, @ForAll Random random) {
-        Encoding encoding = dense ? new DenseEncoding(actuators) : new SparseEncoding(actuators);
+    @RandomCases(300)
+    void everyGenomeGivesAGaitWithinTheThesisRanges(RandomCases.Case one) {
+        int actuators = one.whole(2, 12);
+        Encoding encoding = one.random().nextBoolean() ? new DenseEncoding(actuators) : new SparseEncoding(actuators);
 
-        Gait gait = encoding.decode(genome(encoding, random));
+        Gait gait = encoding.decode(genome(encoding, one.random()));
 
         assertThat(gait.frequency()).isBetween(0.5, 2.0);
         assertThat(gait.amplitude()).hasSize(actuators).allSatisfy(a -> assertThat(a).isBetween(0.0, 1.0));
@@ -25,7 +23,7 @@ class EncodingProperties {
     }
 
     /** Genes at their bounds are likelier than by chance, since mistakes sit there. */
-    private static List<Double> genome(Encoding encoding, Random random) {
+    private static List<Double> genome(Encoding encoding, RandomGenerator random) {
         List<Double> genes = new ArrayList<>();
         for (GeneRange range : encoding.genes()) {
             double inside = range.lower() + random.nextDouble() * range.width();

@@ -3,13 +3,11 @@ package io.natator.evolution;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.RandomCases;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.stream.DoubleStream;
 import java.util.stream.Stream;
-import net.jqwik.api.ForAll;
-import net.jqwik.api.Property;
-import net.jqwik.api.constraints.DoubleRange;
 import org.jgap.Gene;
 import org.jgap.GeneticOperator;
 import org.jgap.IChromosome;
@@ -97,9 +95,9 @@ class GaussianMutationTest {
         }
     }
 
-    @Property(tries = 500)
-    void reflectionStaysInRange(@ForAll @DoubleRange(min = -50, max = 50) double value) {
-        assertThat(GaussianMutation.reflect(value, 0.5, 2.0)).isBetween(0.5, 2.0);
+    @RandomCases(500)
+    void reflectionStaysInRange(RandomCases.Case one) {
+        assertThat(GaussianMutation.reflect(one.number(-50, 50), 0.5, 2.0)).isBetween(0.5, 2.0);
     }
 
     @Test

@@ -4,15 +4,13 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.RandomCases;
 import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.List;
-import net.jqwik.api.ForAll;
-import net.jqwik.api.Property;
-import net.jqwik.api.constraints.DoubleRange;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -46,8 +44,9 @@ class SwimmingTest {
     }
 
     /** A straight body at rest lies on its line of best fit, head first, whatever its heading. */
-    @Property(tries = 50)
-    void aStraightBodyHasNoLateralMotion(@ForAll @DoubleRange(min = -3.1, max = 3.1) double heading) {
+    @RandomCases(50)
+    void aStraightBodyHasNoLateralMotion(RandomCases.Case one) {
+        double heading = one.number(-3.1, 3.1);
         Swimming swimming = new Swimming(SyntheticSwimmer.path((x, t) -> 0, heading, 0.3));
 
         assertThat(swimming.envelope(0.7)).isCloseTo(0, within(1e-12));
@@ -111,10 +110,11 @@ class SwimmingTest {
     }
 
     /** A body turned by known angles, one after the other about x, y and z, says them. */
-    @Property(tries = 100)
-    void attitudeIsFound(@ForAll @DoubleRange(min = -1.5, max = 1.5) double roll,
-            @ForAll @DoubleRange(min = -1.5, max = 1.5) double yaw,
-            @ForAll @DoubleRange(min = -1.5, max = 1.5) double pitch) {
+    @RandomCases(100)
+    void attitudeIsFound(RandomCases.Case one) {
+        double roll = one.number(-1.5, 1.5);
+        double yaw = one.number(-1.5, 1.5);
+        double pitch = one.number(-1.5, 1.5);
         double[][] start = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {1, 1, 2}};
         double[][] now = new double[start.length][];
         for (int i = 0; i < start.length; i++) {

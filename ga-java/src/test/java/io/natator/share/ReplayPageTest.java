@@ -89,6 +89,18 @@ class ReplayPageTest {
         return all;
     }
 
+    /** What the user calls a page is text, also if it looks like a place of ours. */
+    @Test
+    void aTitleStaysAsItIs() throws IOException {
+        Path file = folder.resolve("page.html");
+        new ReplayPage("{{swims}} $1 \\ {{modules}}", List.of(swim("{{style}}", 10, 4)), true).write(file, 10_000_000);
+
+        String html = Files.readString(file);
+        assertThat(html).contains("<title>{{swims}} $1 \\ {{modules}}</title>", "data-title=\"{{style}}\"");
+        assertThat(SWIM.matcher(html).results()).hasSize(1);
+        assertThat(MODULES.matcher(html).results()).hasSize(1);
+    }
+
     @Test
     void placesComeBackWithinTheStatedError() throws IOException {
         RecordedSwim swim = swim("swim", 20, 5);

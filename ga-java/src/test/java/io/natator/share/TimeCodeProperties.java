@@ -2,24 +2,22 @@ package io.natator.share;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-import java.util.Random;
-import net.jqwik.api.EdgeCasesMode;
-import net.jqwik.api.ForAll;
-import net.jqwik.api.Property;
-import net.jqwik.api.constraints.DoubleRange;
-import net.jqwik.api.constraints.IntRange;
+import io.natator.RandomCases;
 
 /** Tables and numbers come back from their codes. */
 class TimeCodeProperties {
 
-    @Property(edgeCases = EdgeCasesMode.NONE)
-    void aTableComesBack(@ForAll @IntRange(min = 1, max = 4) int bytes, @ForAll @IntRange(min = 1, max = 5) int times,
-            @ForAll @IntRange(min = 0, max = 7) int numbers, @ForAll TimeCode.Expectation expectation, @ForAll long seed) {
-        Random random = new Random(seed);
+    @RandomCases(1000)
+    void aTableComesBack(RandomCases.Case one) {
+        int bytes = one.whole(1, 4);
+        int times = one.whole(1, 5);
+        int numbers = one.whole(0, 7);
+        TimeCode.Expectation[] expectations = TimeCode.Expectation.values();
+        TimeCode.Expectation expectation = expectations[one.whole(0, expectations.length - 1)];
         int[][] rows = new int[times][numbers];
         for (int[] row : rows) {
             for (int i = 0; i < numbers; i++) {
-                row[i] = random.nextInt() & (bytes == 4 ? -1 : (1 << 8 * bytes) - 1);
+                row[i] = one.random().nextInt() & (bytes == 4 ? -1 : (1 << 8 * bytes) - 1);
             }
         }
 
@@ -29,10 +27,12 @@ class TimeCodeProperties {
         assertThat(TimeCode.decode(code, times, numbers, bytes, expectation)).isDeepEqualTo(rows);
     }
 
-    @Property
-    void aNumberComesBackWithinHalfAStep(@ForAll @DoubleRange(min = -10, max = 10) double low,
-            @ForAll @DoubleRange(min = 0, max = 5) double range, @ForAll @DoubleRange(min = 0, max = 1) double share,
-            @ForAll @IntRange(min = 1, max = 24) int bits) {
+    @RandomCases(1000)
+    void aNumberComesBackWithinHalfAStep(RandomCases.Case one) {
+        double low = one.number(-10, 10);
+        double range = one.number(0, 5);
+        double share = one.number(0, 1);
+        int bits = one.whole(1, 24);
         Quantiser steps = Quantiser.over(low, low + range, bits);
         double value = low + share * range;
 

@@ -2,7 +2,7 @@ package io.natator.study.optimizer;
 
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import java.nio.file.Path;
@@ -31,9 +31,7 @@ public final class OptimizerStudy {
      */
     public OptimizerStudy(Map<String, EvolutionSettings> scenes, List<Contestant> contestants, int seeds,
             Integer cmaEsPopulation, Path directory) {
-        if (seeds < 1) {
-            throw new InvalidInputException("--seeds is " + seeds + "; expected a whole number from 1");
-        }
+        Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
         this.directory = directory;
         for (int seed = 1; seed <= seeds; seed++) {
             for (Map.Entry<String, EvolutionSettings> scene : scenes.entrySet()) {

@@ -4,6 +4,7 @@ import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.Scheme;
 import io.natator.run.PlannedRun;
 import io.natator.simulator.SceneInfo;
@@ -37,9 +38,7 @@ public final class EvolutionPlan {
      */
     public EvolutionPlan(List<Integer> creatures, List<Scheme> schemes, int seeds, int population, int generations,
             Double duration, Backend backend, Path simulator, Path directory) throws InterruptedException {
-        if (seeds < 1) {
-            throw new InvalidInputException("--seeds is " + seeds + "; expected a whole number from 1");
-        }
+        Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
         for (int creature : creatures) {
             String scene = ThesisData.scene(creature);
             int actuators = SceneInfo.of(scene, null, simulator).actuators();

@@ -2,7 +2,7 @@ package io.natator.study.thesis;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
 import io.natator.report.Recorded;
@@ -41,9 +41,7 @@ public final class ThesisStudy implements AutoCloseable {
      * @param duration simulated seconds, or null for the scenes' own
      */
     public ThesisStudy(Path directory, EvolutionPlan plan, int runs, Double duration) {
-        if (runs < 1) {
-            throw new InvalidInputException("--runs is " + runs + "; expected a whole number from 1");
-        }
+        Limits.checkCount("--runs", runs, Limits.REPETITIONS);
         this.directory = directory;
         this.duration = duration;
         this.evolved = plan.finished();

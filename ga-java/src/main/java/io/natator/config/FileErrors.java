@@ -1,0 +1,26 @@
+package io.natator.config;
+
+import java.io.IOException;
+import java.nio.file.AccessDeniedException;
+import java.nio.file.FileAlreadyExistsException;
+import java.nio.file.FileSystemException;
+import java.nio.file.NoSuchFileException;
+import java.nio.file.Path;
+
+/** What went wrong with a file, in words: Java's own messages are often but its name. */
+public final class FileErrors {
+
+    private FileErrors() {
+    }
+
+    /** Why, without the file's name where the error is about the file itself. */
+    public static String reason(Path file, IOException e) {
+        String why = e instanceof AccessDeniedException ? "permission denied"
+                : e instanceof NoSuchFileException ? "no such file or folder"
+                : e instanceof FileAlreadyExistsException ? "is a file, not a folder"
+                : e instanceof FileSystemException system && system.getReason() != null ? system.getReason()
+                : String.valueOf(e.getMessage());
+        String about = e instanceof FileSystemException system ? system.getFile() : null;
+        return about == null || about.equals(file.toString()) || why.contains(about) ? why : about + ": " + why;
+    }
+}

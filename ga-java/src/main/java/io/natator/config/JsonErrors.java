@@ -1,0 +1,66 @@
+package io.natator.config;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.exc.InvalidFormatException;
+import com.fasterxml.jackson.databind.exc.MismatchedInputException;
+import com.fasterxml.jackson.databind.exc.UnrecognizedPropertyException;
+import com.fasterxml.jackson.databind.exc.ValueInstantiationException;
+import java.util.Arrays;
+import java.util.Collection;
+import java.util.Locale;
+import java.util.stream.Collectors;
+
+/** What is wrong with a JSON text, without the names that classes and settings have in this program. */
+final class JsonErrors {
+
+    private static final int LONGEST = 60;
+
+    private JsonErrors() {
+    }
+
+    /** One line, without the place. */
+    static String message(JsonProcessingException e) {
+        if (e instanceof UnrecognizedPropertyException unknown) {
+            return "unknown key; expected some of " + unknown.getKnownPropertyIds().stream().map(String::valueOf)
+                    .collect(Collectors.joining(", "));
+        }
+        if (e instanceof ValueInstantiationException) {
+            return e.getCause() instanceof InvalidInputException || e.getCause() instanceof IllegalArgumentException
+                    ? e.getCause().getMessage() : "expected an object with all its keys";
+        }
+        String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON");
+        if (e instanceof MismatchedInputException mismatch && mismatch.getTargetType() != null
+                && !message.startsWith("Trailing token") && !message.startsWith("no value")) {
+            return "expected " + described(mismatch.getTargetType())
+                    + (e instanceof InvalidFormatException invalid ? ", not " + shortened(invalid.getValue()) : "");
+        }
+        return message.replaceFirst(" \\(set .*", "").replaceAll(" ?\\((start marker )?at \\[Source:.*", "")
+                .replaceAll(" \\(bound as [^)]*\\).*", "");
+    }
+
+    private static String shortened(Object value) {
+        String text = String.valueOf(value);
+        return "'" + (text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text) + "'";
+    }
+
+    private static String described(Class<?> type) {
+        if (type.isEnum()) {
+            return "one of " + Arrays.stream(type.getEnumConstants())
+                    .map(one -> ((Enum<?>) one).name().toLowerCase(Locale.ROOT).replace('_', '-'))
+                    .collect(Collectors.joining(", "));
+        }
+        if (type == int.class || type == long.class || type == Integer.class || type == Long.class) {
+            return "a whole number";
+        }
+        if (type.isPrimitive() && type != boolean.class || Number.class.isAssignableFrom(type)) {
+            return "a number";
+        }
+        if (type == boolean.class || type == Boolean.class) {
+            return "true or false";
+        }
+        if (type == String.class) {
+            return "a text";
+        }
+        return type.isArray() || Collection.class.isAssignableFrom(type) ? "a list" : "an object";
+    }
+}

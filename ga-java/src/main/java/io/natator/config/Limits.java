@@ -1,0 +1,41 @@
+package io.natator.config;
+
+/** What a number that the user gives may be; far above all use, so that a slip of the keyboard is refused at once. */
+public final class Limits {
+
+    /** Evaluations, or runs, at the same time. */
+    public static final int AT_ONCE = 1024;
+    /** Chromosomes of a generation. */
+    public static final int POPULATION = 100_000;
+    /** Seeds, or repetitions, of a study. */
+    public static final int REPETITIONS = 10_000;
+    /** A time by the clock, three years in seconds. */
+    public static final double SECONDS = 1e8;
+
+    private Limits() {
+    }
+
+    /**
+     * Checks a whole number.
+     *
+     * @param name as the user knows it
+     * @throws InvalidInputException if it is below 1 or above the limit
+     */
+    public static void checkCount(String name, long value, long most) {
+        if (value < 1 || value > most) {
+            throw new InvalidInputException(name + " is " + value + "; expected a whole number from 1 to " + most);
+        }
+    }
+
+    /**
+     * Checks a time by the clock.
+     *
+     * @throws InvalidInputException if it is not above 0, or beyond {@link #SECONDS}
+     */
+    public static void checkSeconds(String name, double value) {
+        if (!(value > 0 && value <= SECONDS)) {
+            throw new InvalidInputException(name + " is " + value + "; expected a number of seconds above 0"
+                    + (value > SECONDS ? ", up to " + (long) SECONDS : ""));
+        }
+    }
+}

@@ -1,0 +1,16 @@
+package io.natator.config;
+
+import java.util.Locale;
+
+/** Numbers for people. */
+public final class Numbers {
+
+    private Numbers() {
+    }
+
+    /** With so many decimals; what rounds to nothing has no sign. */
+    public static String fixed(double value, int decimals) {
+        String text = String.format(Locale.ROOT, "%." + decimals + "f", value);
+        return text.matches("-0(\\.0*)?") ? text.substring(1) : text;
+    }
+}

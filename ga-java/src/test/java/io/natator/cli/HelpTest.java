@@ -1,0 +1,85 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.util.List;
+import java.util.stream.Stream;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.MethodSource;
+import picocli.CommandLine;
+import picocli.CommandLine.Model.OptionSpec;
+
+class HelpTest {
+
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    private int natator(String... arguments) {
+        return Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true))
+                .execute(arguments);
+    }
+
+    private static Stream<CommandLine> commands() {
+        return Stream.concat(Main.commandLine().getSubcommands().values().stream(),
+                Main.commandLine().getSubcommands().get("plot").getSubcommands().values().stream());
+    }
+
+    @ParameterizedTest
+    @MethodSource("commands")
+    void everyOptionIsListedOnceAndLongHelpHasHeadings(CommandLine command) {
+        String help = command.getUsageMessage();
+
+        List<OptionSpec> options = command.getCommandSpec().options();
+        assertThat(options).allSatisfy(option -> assertThat(help.split("(?m)^ +(-., )?" + option.longestName() + "(?![\\w-])"))
+                .as(option.longestName()).hasSize(2));
+        if (options.size() > 8) {
+            assertThat(help).contains("[OPTIONS]", "\nHow it is computed:\n", "natator "
+                    + command.getCommandName() + " ");
+            assertThat(help.contains("\nWhat swims:\n"))
+                    .isEqualTo(options.stream().anyMatch(option -> option.longestName().matches("--(gait|scheme|variants)")));
+        }
+        assertThat(help).doesNotContainPattern("\\([Tt]hesis \\d|eq\\. \\d");
+    }
+
+    @Test
+    void evolveHasItsOptionsInGroupsAndExamples() {
+        assertThat(natator("evolve", "--help")).isZero();
+
+        assertThat(out.toString()).containsSubsequence("What swims:", "--creature", "How its gait is searched for:",
+                "--fitness", "How much is done:", "--generations", "How it is computed:", "--workers",
+                "What is written, and where:", "--output-dir", "Other options:", "--resume", "Examples:",
+                "natator evolve --creature 2");
+    }
+
+    @ParameterizedTest
+    @CsvSource({"'',Usage: natator [", "plot,Usage: natator plot ["})
+    void withoutACommandTheHelpSaysWhichThereAre(String command, String start) {
+        assertThat(command.isEmpty() ? natator() : natator(command)).isEqualTo(2);
+
+        assertThat(err.toString()).startsWith(start).contains("Commands:");
+        assertThat(out.toString()).isEmpty();
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "evolv|natator: 'evolv' is no command; did you mean evolve? See natator --help",
+        "resum|natator: 'resum' is no command; did you mean resume? See natator --help",
+        "swim|natator: 'swim' is no command; see natator --help",
+        "plot precison|natator plot: 'precison' is no command; did you mean precision? See natator plot --help",
+        "view --crature=2|natator view: --crature is no option of this command; did you mean --creature? See natator view --help",
+        "view --zzz|natator view: --zzz is no option of this command; see natator view --help",
+        "reproduce --phase mesure|natator reproduce: Invalid value for option '--phase': expected evolve, measure, report "
+            + "or all but was 'mesure'; did you mean measure? See natator reproduce --help",
+        "reproduce --scheme FLEX,conservin|natator reproduce: Invalid value for option '--scheme' (SCHEME): expected flex "
+            + "or conserving but was 'conservin'; did you mean conserving? See natator reproduce --help",
+        "export thesis/tank --format npz --fields positio|natator export: Invalid value for option '--fields' (FIELD): "
+            + "expected position, velocity or density but was 'positio'; did you mean position? See natator export --help"})
+    void whatWasProbablyMeantIsNamed(String arguments, String line) {
+        assertThat(natator(arguments.split(" "))).isEqualTo(2);
+        assertThat(err.toString().strip()).isEqualTo(line);
+    }
+}

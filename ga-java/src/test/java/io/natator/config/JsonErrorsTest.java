@@ -1,0 +1,53 @@
+package io.natator.config;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.catchThrowableOfType;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.encoding.Gait;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+class JsonErrorsTest {
+
+    private static String reason(String json, Class<?> type) {
+        return Json.reason(catchThrowableOfType(JsonProcessingException.class,
+                () -> Json.parse(json.replace('\'', '"'), type)));
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "{'frequency':'fast'}|frequency: expected a number, not 'fast' (line 1, column 14)",
+        "{'frequency':{}}|frequency: expected a number",
+        "{'frequency':null}|frequency: expected a number",
+        "{'amplitude':3}|amplitude: expected a list",
+        "{'amplitude':['x']}|amplitude: expected a number, not 'x'",
+        "{'frequency':1,'amplitude':[1],'phase':[0],'speed':1}|speed: unknown key; expected some of frequency, amplitude, phase",
+        "[]|expected an object",
+        "{'frequency':1|Unexpected end-of-input",
+        "{'frequency':1,'amplitude':[1],'phase':[0]} {}|Trailing token (of type START_OBJECT) found after value",
+        "{'frequency':|Unexpected end-of-input",
+        "nonsense|Unrecognized token 'nonsense'"})
+    void whatIsWrongIsSaidWithoutOurInnards(String json, String start) {
+        assertThat(reason(json, Gait.class)).startsWith(start).contains("(line 1, column ")
+                .doesNotContain("java.", "natator", "JsonToken", "Feature", "Source", "deserialize", "construct");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "{'backend':'gpu'}|backend: expected one of cpu, cuda, auto, not 'gpu'",
+        "{'population':1.5}|population: expected a whole number",
+        "{'vacuumCheck':'perhaps'}|vacuumCheck: expected true or false, not 'perhaps'",
+        "{'scene':'x','encoding':'dense','actuators':2,'population':1,'generations':1,'seed':1,'operators':'stock',"
+            + "'gaussianDeviation':0.05}|population is 1; expected a whole number from 2 to 100000"})
+    void settingsToo(String json, String start) {
+        assertThat(reason(json, EvolutionSettings.class)).startsWith(start);
+    }
+
+    @ParameterizedTest
+    @CsvSource({"[1]", "3"})
+    void anObjectIsExpected(String json) {
+        assertThat(reason(json, ObjectNode.class)).startsWith("expected an object");
+    }
+}

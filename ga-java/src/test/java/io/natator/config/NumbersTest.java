@@ -1,0 +1,16 @@
+package io.natator.config;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+class NumbersTest {
+
+    @ParameterizedTest
+    @CsvSource({"-0.00004,4,0.0000", "-0.00006,4,-0.0001", "-0.0,4,0.0000", "-0.4,0,0", "-0.6,0,-1", "1.23456,3,1.235",
+        "NaN,2,NaN", "-10.001,2,-10.00"})
+    void whatRoundsToNothingHasNoSign(double value, int decimals, String text) {
+        assertThat(Numbers.fixed(value, decimals)).isEqualTo(text);
+    }
+}
