@@ -45,7 +45,7 @@ export class LiveCharts {
 
   #draw(which, views) {
     const [name, chart] = this.#charts[which];
-    const text = this.#text(name, views[0]);
+    const text = views.map(view => this.#text(name, view)).join(' | ');
     if (this.#outputs.get(name).textContent !== text) {
       this.#outputs.get(name).textContent = text;
     }
