@@ -185,6 +185,19 @@ class StreamSocketTest {
     }
 
     @Test
+    void aSettingIsAnsweredInShort() throws InterruptedException {
+        StreamClient page = openStarted(true);
+
+        page.send("{'do':'overrides','overrides':{'solver':{'damping':2}}}");
+
+        JsonNode change = page.await("SCEN");
+        assertThat(change.get("restarted").booleanValue()).isFalse();
+        assertThat(change.get("definition").get("solver").get("damping").asInt()).isEqualTo(2);
+        assertThat(change.has("mass")).isFalse();
+        assertThat(change.toString().length()).isLessThan(4000);
+    }
+
+    @Test
     void aKilledSimulatorIsReplaced() throws InterruptedException {
         StreamClient page = openStarted(false);
         page.send("{'do':'overrides','overrides':{'solver':{'gravity':[0,-0.5,0]}},'id':1}");
