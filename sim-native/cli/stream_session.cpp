@@ -118,7 +118,9 @@ void StreamSession<Real>::apply(const stream::NewScene& scene) {
 template <class Real>
 void StreamSession<Real>::scene_changed(bool restarted) {
     const stream::SceneHead head{.number = ++scene_, .restarted = restarted, .fields = settings_.fields};
-    print(stream_message("SCEN", stream_scene(simulation_, head)));
+    ordered_json body = stream_scene(simulation_, head);
+    print(stream_message("SCEN", restarted ? body : stream_scene_change(last_scene_, body)));
+    last_scene_ = std::move(body);
     if (!restarted) return;
     due_ = !simulation_.instability();
     dropped_ = 0;

@@ -58,6 +58,7 @@ private:
     int credit_ = 0;             ///< frames that may be sent
     bool due_ = false;           ///< the present frame is still to be offered
     std::uint32_t scene_ = 0;    ///< number of the last SCEN
+    nlohmann::ordered_json last_scene_;  ///< the whole of it, also where only changes were sent
     std::uint32_t dropped_ = 0;  ///< frames since the start
     double wall_seconds_ = 0;    ///< of the frames since the last one sent
     int wall_frames_ = 0;

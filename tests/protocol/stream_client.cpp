@@ -14,7 +14,7 @@
 namespace natator::test {
 namespace {
 
-constexpr int patience = 60'000;  // ms
+constexpr int patience = 600'000;  // ms; only failures wait so long
 
 /// Both ends are closed in other children.
 std::pair<int, int> make_pipe() {
@@ -120,7 +120,7 @@ std::size_t StreamClient::try_send(const std::string& text) {
 bool StreamClient::read(char* to, std::size_t size) {
     for (std::size_t done = 0; done < size;) {
         pollfd file{output_, POLLIN, 0};
-        if (::poll(&file, 1, patience) == 0) throw std::runtime_error("no message for a minute");
+        if (::poll(&file, 1, patience) == 0) throw std::runtime_error("no message for ten minutes");
         const ssize_t count = ::read(output_, to + done, size - done);
         if (count < 0) throw std::runtime_error("messages cannot be read");
         if (count == 0 && done == 0) return false;
@@ -138,8 +138,17 @@ std::optional<StreamMessage> StreamClient::next() {
     StreamMessage message{std::string(head, 4), std::string(length, '\0')};
     if (length % 4 != 0) throw std::runtime_error("message whose length is not a multiple of 4");
     if (length > 0 && !read(message.body.data(), length)) throw std::runtime_error("head without a body");
-    if (message.letters == "SCEN") scene_ = message.value();
+    if (message.letters == "SCEN") take_scene(message.value());
     return message;
+}
+
+/// One that goes on tells only what has changed.
+void StreamClient::take_scene(const nlohmann::json& body) {
+    if (body.at("restarted") == true) {
+        scene_ = body;
+    } else {
+        scene_.update(body);
+    }
 }
 
 nlohmann::json StreamClient::expect(const std::string& letters) {

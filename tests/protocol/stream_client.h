@@ -29,7 +29,7 @@ struct StreamFrame {
     StreamFrame(const std::string& body, const nlohmann::json& scene);
 };
 
-/// A running `natator-sim stream`, killed at the latest when this goes out of scope. Waiting for more than a minute
+/// A running `natator-sim stream`, killed at the latest when this goes out of scope. Waiting for more than ten minutes
 /// throws std::runtime_error.
 class StreamClient {
 public:
@@ -54,7 +54,7 @@ public:
     /// The messages that `ask` passed over, since the last call.
     std::vector<StreamMessage> passed();
 
-    const nlohmann::json& scene() const { return scene_; }  ///< the last SCEN
+    const nlohmann::json& scene() const { return scene_; }  ///< the last SCEN, completed by those before
 
     void close_input();
     void close_output();
@@ -63,6 +63,7 @@ public:
 
 private:
     bool read(char* to, std::size_t size);
+    void take_scene(const nlohmann::json& body);
 
     pid_t pid_ = 0;
     int input_ = -1, output_ = -1;

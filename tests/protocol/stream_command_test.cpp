@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "stream_runs.h"
 
@@ -134,6 +135,34 @@ TEST(StreamCommandTest, OverridesGoOnOrRestart) {
     const StreamFrame start = take_start(client);
     EXPECT_EQ(start.number, 0u);
     EXPECT_EQ(start.scene, 4u);
+}
+
+/// What a slider sends is answered by what it changes, not by the masses and muscles of the whole scene.
+TEST(StreamCommandTest, AChangeThatGoesOnIsToldInShort) {
+    StreamClient client(paused_in(water));
+    EXPECT_GT(client.expect("SCEN").dump().size(), 50'000u);
+    take_start(client);
+    const json whole = client.scene();
+    client.ask({{"do", "overrides"}, {"overrides", {{"solver", {{"viscosity", 3}}}}}});
+    const std::vector<StreamMessage> told = client.passed();
+    ASSERT_EQ(told.size(), 1u);
+    const json change = told[0].value();
+    EXPECT_LT(change.dump().size(), 4'000u);
+    std::set<std::string> keys;
+    for (const auto& [key, value] : change.items()) keys.insert(key);
+    EXPECT_EQ(keys, (std::set<std::string>{"definition", "number", "overrides", "restarted"}));
+    EXPECT_EQ(client.scene()["definition"]["solver"]["viscosity"], 3);
+    EXPECT_EQ(client.scene()["mass"], whole["mass"]);
+
+    json other = json::parse(gait);
+    other["frequency"] = 0.75;
+    client.ask({{"do", "gait"}, {"gait", other}});
+    EXPECT_LT(client.passed().at(0).body.size(), 300u);
+    client.ask({{"do", "reset"}});
+    json again = client.passed().at(0).value();
+    EXPECT_EQ(again["mass"], whole["mass"]);
+    EXPECT_EQ(again["gait"]["frequency"], 0.75);
+    EXPECT_EQ(take_start(client).number, 0u);
 }
 
 TEST(StreamCommandTest, AnotherSceneRestarts) {

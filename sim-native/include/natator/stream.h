@@ -80,6 +80,9 @@ std::string stream_message(std::string_view letters, const nlohmann::ordered_jso
 template <class Real>
 nlohmann::ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::SceneHead& head);
 
+/// The body of a SCEN that goes on: its number, and what differs from the one before. Both are bodies of `stream_scene`.
+nlohmann::ordered_json stream_scene_change(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);
+
 /// The FRAM of the present state, as bytes.
 template <class Real>
 std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHead& head);

@@ -128,7 +128,7 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     const Model& model = simulation.model();
     const SolverParameters& solver = model.parameters;
     ordered_json body;
-    body["protocol"] = 1;
+    body["protocol"] = 2;
     body["program"] = {{"version", NATATOR_VERSION}, {"instructionSet", to_string(instruction_set())}};
     body["number"] = head.number;
     body["restarted"] = head.restarted;
@@ -155,6 +155,13 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     body["joints"] = scene.creature ? scene.creature->joints : std::vector<int>{};
     body["actuators"] = model.actuators;
     body["muscles"] = muscles_json(model);
+    return body;
+}
+
+ordered_json stream_scene_change(const ordered_json& before, const ordered_json& now) {
+    ordered_json body;
+    for (const auto& [key, value] : now.items())
+        if (key == "number" || key == "restarted" || before.at(key) != value) body[key] = value;
     return body;
 }
 

@@ -52,8 +52,9 @@ choose_fault() {
         # Most fail at the first attempt, one in eight of these also at the second.
         local faults=(none crash garbage half exit silent wrong-id nan killed crash half garbage killed)
         fault=${faults[$(($2 * 7919 % 13))]}
-        (($2 % 151 == 75)) && fault=hang
-        (($2 % 97 == 50)) && fault=deaf
+        # These cost the caller its time limit and its patience.
+        (($2 % 400 == 75)) && fault=hang
+        (($2 % 400 == 250)) && fault=deaf
         if [[ $fault != none ]]; then
             if first "$2"; then
                 : >"$here/fault-$2"
@@ -82,8 +83,8 @@ answer() {
     silent) exit 0 ;;
     garbage) echo "*** buffer overflow ***" ;;
     half) printf '{"id":%s,"status":"ok","fitn' "$id"; exit 0 ;;
-    hang) sleep 60 ;;
-    deaf) exec 1>&-; sleep 60 ;;
+    hang) sleep 3600 ;;
+    deaf) exec 1>&-; sleep 3600 ;;
     loud) yes ;;
     loud-line) yes | tr -d '\n' ;;
     loud-errors) yes "a long story" | head -c 3000000 >&2; ok "$id" 0.5 ;;
@@ -92,7 +93,7 @@ answer() {
     nan) ok "$id" NaN ;;
     infinite) ok "$id" 1e999 ;;
     two-lines) ok "$id" "$distance"; ok "$id" "$distance" ;;
-    held-open) sleep 5 & sleep 0.5; ok "$id" 0.5 ;;
+    held-open) sleep 3600 & sleep 0.5; ok "$id" 0.5 ;;
     once)
         if first "$id"; then kill -KILL $$; fi
         ok "$id" "$distance"
@@ -129,6 +130,7 @@ describe() {
 
 mode=$1
 [[ -e $here/slow ]] && slow=$(<"$here/slow")
+[[ -e $here/most ]] && most=$(<"$here/most")
 case $mode in
 info)
     if [[ $2 = --json ]]; then
@@ -149,6 +151,10 @@ serve)
         exit 4
     fi
     [[ ! -e $here/dies-at-start ]] || exit 1
-    while IFS= read -r request; do answer "$request"; done
+    while IFS= read -r request; do
+        # As many answers as the file "most" says; then it waits to be ended.
+        [[ -z $most ]] || ((most-- > 0)) || sleep 3600
+        answer "$request"
+    done
     ;;
 esac

@@ -97,10 +97,11 @@ final class PageCommand implements Callable<Integer> {
         }
         String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
         ReplayPage.Written written = new ReplayPage(heading, swims, !noWater).write(output, (long) (maxSize * MEGABYTE));
-        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s%s%n",
-                output, written.bytes() / MEGABYTE, written.framesPerSecond(),
-                written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", written.largestError() == 0 ? ""
-                        : String.format(Locale.ROOT, ", water to %.0e of a length unit", written.largestError()));
+        String precision = written.largestError() > 0
+                ? String.format(Locale.ROOT, "water to %.0e of a length unit", written.largestError()) : "no water";
+        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s, %s%n", output,
+                written.bytes() / MEGABYTE, written.framesPerSecond(),
+                written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", precision);
         return ExitCode.OK;
     }
 

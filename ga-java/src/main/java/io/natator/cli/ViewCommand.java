@@ -49,7 +49,7 @@ final class ViewCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--gait", paramLabel = "FILE", description = "A JSON file with a gait, or a run's best.json. "
-            + "Default: the run's best gait, else what the thesis published for the creature.")
+            + "Default: the best gait of the first run in the scene, else what the thesis published for the creature.")
     private Path gait;
 
     @Section(Topic.SCENE)
@@ -83,6 +83,12 @@ final class ViewCommand implements Callable<Integer> {
         PrintWriter out = spec.commandLine().getOut();
         Stopper stopper = new Stopper(told::countDown, null, () -> { });
         try (ViewServer server = new ViewServer(settings)) {
+            if (server.isOpenToOthers()) {
+                PrintWriter err = spec.commandLine().getErr();
+                err.println("warning: --host " + host + ": whoever can reach this address can watch, and start up to "
+                        + ViewServer.MOST_SIMULATIONS + " simulations on this machine; nobody is asked who they are");
+                err.flush();
+            }
             out.println(server.address());
             out.flush();
             if (!noBrowser) {
@@ -95,22 +101,27 @@ final class ViewCommand implements Callable<Integer> {
         return ExitCode.OK;
     }
 
+    /** A run's best gait in its scene; without a run, or beside runs of other scenes, the scene that was chosen. */
     private Start start(Path program) throws InterruptedException {
         Gait given = gait == null ? null : GaitFile.read(gait);
-        if (runs.isEmpty() || choice.isGiven()) {
-            String scene = choice.scene(spec);
-            ObjectNode overrides = Start.patch(sceneOptions.overrides(), sceneOptions.scheme());
-            SceneInfo.of(scene, overrides, program);
-            return new Start(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
+        String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
+        for (Path folder : runs) {
+            EvolutionSettings run = StoredRun.settings(folder);
+            if (scene == null || scene.equals(SceneOptions.scene(run.scene()))) {
+                return start(run, given, StoredRun.best(folder), program);
+            }
         }
-        EvolutionSettings run = StoredRun.settings(runs.get(0));
-        BestGait best = StoredRun.best(runs.get(0));
+        ObjectNode overrides = Start.patch(sceneOptions.overrides(), sceneOptions.scheme());
+        SceneInfo.of(scene, overrides, program);
+        return new Start(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
+    }
+
+    private Start start(EvolutionSettings run, Gait given, BestGait best, Path program) throws InterruptedException {
         Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.scheme();
         ObjectNode overrides = Start.patch(MergePatch.both(run.overrides(), sceneOptions.overrides()), scheme);
         if (sceneOptions.overrides() != null) {
             SceneInfo.of(run.scene(), overrides, program);
         }
-        return new Start(run.scene(), overrides,
-                given != null || best == null ? given : best.gait());
+        return new Start(run.scene(), overrides, given != null || best == null ? given : best.gait());
     }
 }

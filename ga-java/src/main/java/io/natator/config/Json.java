@@ -4,6 +4,7 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.core.StreamReadFeature;
 import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.JsonMappingException;
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectMapper;
 import com.fasterxml.jackson.databind.exc.MismatchedInputException;
 import com.fasterxml.jackson.databind.json.JsonMapper;
@@ -57,6 +58,15 @@ public final class Json {
             throw MismatchedInputException.from(null, type, "no value");
         }
         return value;
+    }
+
+    /**
+     * Reads one value that was parsed before.
+     *
+     * @throws JsonProcessingException if it is not such a value
+     */
+    public static <T> T tree(JsonNode node, Class<T> type) throws JsonProcessingException {
+        return MAPPER.treeToValue(node, type);
     }
 
     /**

@@ -13,7 +13,7 @@ import java.util.concurrent.TimeoutException;
 public final class ErrorTail implements Runnable {
 
     private static final int KEPT_BYTES = 4096;
-    private static final long GRACE_MILLISECONDS = 1000;
+    private static final long GRACE_MILLISECONDS = 5000;
 
     private final InputStream stderr;
     private final CompletableFuture<String> text = new CompletableFuture<>();

@@ -27,7 +27,7 @@ final class ServeProcess implements AutoCloseable {
     /** Answers that wait to be taken; a program that writes more than it was asked for blocks itself. */
     private static final int QUEUED_LINES = 4096;
     private static final byte[] CLOSE = new byte[0];
-    private static final long GRACE_MILLISECONDS = 1000;
+    private static final long GRACE_MILLISECONDS = 5000;
 
     private final ProcessGroup group;
     private final Process process;

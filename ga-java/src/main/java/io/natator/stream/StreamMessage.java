@@ -10,7 +10,7 @@ public sealed interface StreamMessage {
      * {@code SCEN}: what the frames after it are about.
      *
      * @param scene its content
-     * @param json  the same as the simulator wrote it, one line
+     * @param json  as the simulator wrote it, one line: only what has changed, if the scene goes on
      */
     record Scene(StreamScene scene, String json) implements StreamMessage {
     }

@@ -27,7 +27,7 @@ public final class StreamProcess implements AutoCloseable {
     static final int QUEUED_COMMANDS = 1024;
     private static final int EXIT_BAD_INPUT = 2;
     private static final int BUFFER_BYTES = 1 << 16;
-    private static final long GRACE_MILLISECONDS = 1000;
+    private static final long GRACE_MILLISECONDS = 5000;
 
     private final ProcessGroup group = new ProcessGroup();
     private final Process process;

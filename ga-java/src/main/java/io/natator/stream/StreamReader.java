@@ -3,6 +3,7 @@ package io.natator.stream;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.NullNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.io.InputStream;
@@ -23,6 +24,8 @@ public final class StreamReader {
 
     private final InputStream in;
     private final byte[] head = new byte[HEAD_BYTES];
+    /** All that is known of the scene: the last {@code SCEN}, over those before it that it goes on from. */
+    private ObjectNode sceneBody;
     private StreamScene scene;
 
     /** A reader that takes from {@code in} no byte more than the messages that it returns. */
@@ -59,7 +62,15 @@ public final class StreamReader {
     }
 
     private StreamMessage scene(String json) throws StreamException {
-        scene = StreamScene.parse(json);
+        if (!(object("SCEN", json) instanceof ObjectNode body)) {
+            throw new StreamException("SCEN: expected a JSON object, found " + shown(json));
+        }
+        if (sceneBody != null && body.path("restarted").isBoolean() && !body.get("restarted").booleanValue()) {
+            sceneBody.setAll(body);
+        } else {
+            sceneBody = body;
+        }
+        scene = StreamScene.of(sceneBody);
         return new StreamMessage.Scene(scene, json);
     }
 

@@ -4,11 +4,12 @@ import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.Json;
 import java.util.List;
 
 /**
- * The body of a {@code SCEN}: all that stays the same until the next one. Lengths in the scene's unit.
+ * A {@code SCEN}: all that stays the same until the next one. Lengths in the scene's unit.
  *
  * @param protocol          {@value #PROTOCOL}
  * @param program           version and instruction set of the simulator
@@ -53,7 +54,7 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         @JsonProperty(required = true) List<Muscle> muscles) {
 
     /** The version of the protocol that is read here. */
-    public static final int PROTOCOL = 1;
+    public static final int PROTOCOL = 2;
     /** Keeps the size of a frame within what one array can hold. */
     static final int MAX_PARTICLES = 10_000_000;
     static final int MAX_ACTUATORS = 100_000;
@@ -85,14 +86,16 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
     }
 
     /**
-     * Reads and checks the body of a {@code SCEN}.
+     * Reads and checks a scene.
+     *
+     * @param body of its {@code SCEN}, with what those before it say where that one is short
      *
      * @throws StreamException if it is not JSON, lacks a key, or contradicts itself
      */
-    static StreamScene parse(String json) throws StreamException {
+    static StreamScene of(ObjectNode body) throws StreamException {
         StreamScene scene;
         try {
-            scene = Json.parse(json, StreamScene.class);
+            scene = Json.tree(body, StreamScene.class);
         } catch (JsonProcessingException e) {
             throw new StreamException("SCEN: " + Json.reason(e), e);
         }

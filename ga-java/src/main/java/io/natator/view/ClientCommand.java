@@ -20,7 +20,8 @@ record ClientCommand(String what, ObjectNode content) {
     /** What comes first and starts a simulator; the only command that is for the server. */
     static final String START = "start";
     private static final String FILE_ENDING = ".json";
-    private static final Pattern NAME = Pattern.compile("\\w[\\w-]*(/\\w[\\w-]*)*");
+    /** Nothing is tried twice (possessive quantifiers), so that a long name takes no stack. */
+    private static final Pattern NAME = Pattern.compile("\\w[\\w-]*+(?:/\\w[\\w-]*+)*+");
 
     /**
      * Reads the text.

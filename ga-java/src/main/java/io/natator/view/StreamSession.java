@@ -8,6 +8,7 @@ import io.natator.stream.StreamMessage;
 import io.natator.stream.StreamProcess;
 import java.io.IOException;
 import java.nio.file.Path;
+import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.Deque;
 import java.util.LinkedHashMap;
@@ -21,6 +22,8 @@ import java.util.function.Consumer;
 import org.eclipse.jetty.websocket.api.Callback;
 import org.eclipse.jetty.websocket.api.Session;
 import org.eclipse.jetty.websocket.api.StatusCode;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 /**
  * One socket and its simulator. Commands go up as they come, messages go down one by one: the next one is read from the
@@ -29,6 +32,7 @@ import org.eclipse.jetty.websocket.api.StatusCode;
  */
 final class StreamSession implements AutoCloseable {
 
+    private static final Logger LOG = LoggerFactory.getLogger(StreamSession.class);
     private static final int MOST_RESTARTS = 3;
     private static final long WITHIN_NANOSECONDS = 60_000_000_000L;
     private static final long ANALYSIS_NANOSECONDS = 1_000_000_000L;
@@ -77,13 +81,21 @@ final class StreamSession implements AutoCloseable {
             command.check(files);
             pass(command);
         } catch (InvalidInputException e) {
-            Map<String, Object> answer = new LinkedHashMap<>();
-            answer.put("id", id);
-            answer.put("error", e.getMessage());
-            sendUnlessGone("ANSW", answer);
+            refuse(id, e.getMessage());
+        } catch (RuntimeException | StackOverflowError e) {
+            // One bad command is not to cost the page its simulation.
+            LOG.error("command: {}", e, e);
+            refuse(id, "internal error");
         } catch (StreamException e) {
             socket.close(StatusCode.POLICY_VIOLATION, shortened(e.getMessage()), Callback.NOOP);
         }
+    }
+
+    private void refuse(JsonNode id, String error) {
+        Map<String, Object> answer = new LinkedHashMap<>();
+        answer.put("id", id);
+        answer.put("error", error);
+        sendUnlessGone("ANSW", answer);
     }
 
     private synchronized void pass(ClientCommand command) throws StreamException {
@@ -277,6 +289,11 @@ final class StreamSession implements AutoCloseable {
     /** Process id of the simulator, for those who watch it; −1 without one. */
     synchronized long pid() {
         return course == null ? -1 : process.pid();
+    }
+
+    /** How long its page may take nothing; zero for any time. */
+    Duration mostSilence() {
+        return socket.getIdleTimeout();
     }
 
     /** Ends the simulator. The socket is the caller's. */

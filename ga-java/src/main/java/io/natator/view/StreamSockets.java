@@ -3,6 +3,8 @@ package io.natator.view;
 import io.javalin.websocket.WsConfig;
 import io.javalin.websocket.WsContext;
 import java.nio.file.Path;
+import java.util.Collection;
+import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
@@ -17,7 +19,7 @@ final class StreamSockets implements AutoCloseable {
 
     static final int MOST_SESSIONS = 4;
     /** A page that is loaded anew opens its socket before the end of the old one is noticed. */
-    private static final long PATIENCE_SECONDS = 1;
+    private static final long PATIENCE_SECONDS = 5;
     private static final long PING_SECONDS = 15;
 
     private final Path simulator;
@@ -49,6 +51,11 @@ final class StreamSockets implements AutoCloseable {
                 message.closeSession(StatusCode.BAD_DATA, "expected text"));
         socket.onClose(this::end);
         socket.onError(this::end);
+    }
+
+    /** Those that are open. */
+    Collection<StreamSession> sessions() {
+        return List.copyOf(sessions.values());
     }
 
     private void open(WsContext context) throws InterruptedException {

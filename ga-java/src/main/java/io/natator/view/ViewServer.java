@@ -22,6 +22,8 @@ import java.net.NetworkInterface;
 import java.net.SocketException;
 import java.net.URI;
 import java.net.UnknownHostException;
+import java.time.Duration;
+import java.util.Collection;
 import java.util.HashSet;
 import java.util.Map;
 import java.util.Set;
@@ -40,8 +42,16 @@ public final class ViewServer implements AutoCloseable {
 
     /** Where it listens unless told otherwise. */
     public static final int DEFAULT_PORT = 6287;
+    /** How many simulations it runs at a time. */
+    public static final int MOST_SIMULATIONS = StreamSockets.MOST_SESSIONS;
     private static final Logger LOG = LoggerFactory.getLogger(ViewServer.class);
     private static final int MOST_MESSAGE_BYTES = 64 << 10;
+    /**
+     * How long a page may take nothing: for ever. One that is stopped (in a debugger, or put to sleep by its browser) would
+     * else lose its simulation, which stands still meanwhile and costs memory alone. A page that has gone closes its socket;
+     * where a network swallows that, TCP gives up the pings that nobody acknowledges, after about a quarter of an hour.
+     */
+    private static final Duration MOST_SILENCE = Duration.ZERO;
     private static final JarFiles APP = new JarFiles("io/natator/view/app");
     private static final String WEBJAR = "META-INF/resources/webjars/three/0.181.1";
     private static final JarFiles THREE = new JarFiles(WEBJAR + "/build");
@@ -128,6 +138,10 @@ public final class ViewServer implements AutoCloseable {
         config.jetty.host = settings.host();
         config.jetty.port = settings.port();
         config.jetty.modifyWebSocketServletFactory(ViewServer::limit);
+        config.router.javaLangErrorHandler((response, e) -> {
+            LOG.error("internal error: {}", e, e);
+            response.setStatus(HttpStatus.INTERNAL_SERVER_ERROR.getCode());
+        });
         route(config.routes);
     }
 
@@ -135,6 +149,7 @@ public final class ViewServer implements AutoCloseable {
         factory.setMaxTextMessageSize(MOST_MESSAGE_BYTES);
         factory.setMaxBinaryMessageSize(MOST_MESSAGE_BYTES);
         factory.setMaxFrameSize(MOST_MESSAGE_BYTES);
+        factory.setIdleTimeout(MOST_SILENCE);
     }
 
     private void route(RoutesConfig routes) {
@@ -191,6 +206,20 @@ public final class ViewServer implements AutoCloseable {
             throw new NotFoundResponse("no such run");
         }
         return RunAnswer.of(number, StoredRun.in(settings.runs().get(number)));
+    }
+
+    /** Whether machines other than this one can reach it. */
+    public boolean isOpenToOthers() {
+        try {
+            return !InetAddress.getByName(settings.host()).isLoopbackAddress();
+        } catch (UnknownHostException e) {
+            return true;
+        }
+    }
+
+    /** The pages that watch, for tests. */
+    Collection<StreamSession> sessions() {
+        return sockets.sessions();
     }
 
     /** What to open in the browser. */

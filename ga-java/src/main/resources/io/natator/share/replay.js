@@ -129,7 +129,7 @@ class Player {
         this.#stage.setFrame(this.frame);
         this.#meter.drawn(this.frame.time);
       }
-      this.#stage.draw(now);
+      this.#stage.draw(now, this.#isPaused);
       this.#meter.update(now);
       if (now - this.#lastSlow > SLOW_MS) {
         this.#lastSlow = now;

@@ -36,7 +36,7 @@ class CachedEvaluatorTest {
 
     @BeforeEach
     void fake() {
-        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(20));
+        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
     }
 
     /** How many of the requests the simulator is asked for. */

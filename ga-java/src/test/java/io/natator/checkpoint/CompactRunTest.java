@@ -27,7 +27,7 @@ class CompactRunTest {
     void aCompactRunIsStillFinishedAndHasItsResults() throws Exception {
         Path directory = folder.resolve("run");
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 3);
-        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(9));
+        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
         try (RunFolder run = RunFolder.create(directory, settings);
                 Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
             assertThatThrownBy(() -> CompactRun.compact(directory)).isInstanceOf(InvalidInputException.class)

@@ -104,8 +104,8 @@ class CommandLineTest {
 
     @Test
     void stopsInTimeAndContinues() throws IOException {
-        Files.writeString(folder.resolve("slow"), "0.1");
-        assertThat(evolve("run", "--workers", "1", "--stop-after", "1.5")).isZero();
+        Files.writeString(folder.resolve("slow"), "0.4");
+        assertThat(evolve("run", "--workers", "1", "--stop-after", "5")).isZero();
         assertThat(err.toString()).endsWith("time is up; continue by: natator resume " + folder.resolve("run") + "\n");
         assertThat(file("run", "evaluations.jsonl").lines()).hasSizeBetween(1, 20);
         Files.delete(folder.resolve("slow"));
@@ -121,7 +121,9 @@ class CommandLineTest {
     /** The fake has no GPU, but auto is another backend than cpu all the same. */
     @Test
     void aRunCanMoveToAnotherBackendAndSaysSo() throws IOException {
+        Files.writeString(folder.resolve("slow"), "0.5");
         assertThat(evolve("run", "--stop-after", "0.3")).isZero();
+        Files.delete(folder.resolve("slow"));
         err.getBuffer().setLength(0);
 
         assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto")).isZero();
@@ -141,9 +143,11 @@ class CommandLineTest {
             "--seeds", "2", "--evaluations", "30", "--population", "6", "--simulator", "batch"};
         List<String> piece = new ArrayList<>(List.of(study));
         piece.addAll(List.of("--stop-after", "0.3"));
+        Files.writeString(folder.resolve("slow"), "0.5");
         assertThat(natator(piece.toArray(String[]::new))).as(err.toString()).isZero();
         assertThat(out.toString()).contains("of 8 runs finished; the same command continues");
 
+        Files.delete(folder.resolve("slow"));
         assertThat(natator(study)).as(err.toString()).isZero();
         assertThat(file("study", "README.md")).contains("8 of 8 runs are finished", "| jgap-corrected | 6 | 2 |",
                 "| jgap-stock | 6 | 2 |", "| cma-es | 8 | 2 |", "| random | 6 | 2 |");

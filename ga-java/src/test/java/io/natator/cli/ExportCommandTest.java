@@ -27,7 +27,7 @@ import org.junit.jupiter.params.provider.EnumSource;
 import picocli.CommandLine;
 
 /** What {@code natator export} does with its arguments and when things go wrong; what the simulator says is a file. */
-@Timeout(value = 120, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class ExportCommandTest {
 
     @TempDir
@@ -216,7 +216,7 @@ class ExportCommandTest {
     /** Killed at some moment as by kill -9: nothing has the name of the export; the next one takes its place. */
     @Test
     void aKilledExportLeavesNothingThatLooksComplete() throws IOException, InterruptedException {
-        Path simulator = simulator(frames(50), "sleep 60");
+        Path simulator = simulator(frames(50), "sleep 3600");
         Path target = folder.resolve("out");
         Process process = new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-cp",
                 System.getProperty("java.class.path"), Main.class.getName(), "export", "test/pool", "--format", "vtp",

@@ -28,7 +28,7 @@ import picocli.CommandLine;
  * Exports of the real simulator, read back by pyvista, plyfile, USD and numpy in {@code tests/readers/check_export.py},
  * which compares every number with the simulator's own stream.
  */
-@Timeout(value = 180, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class ExportReadersTest {
 
     private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();

@@ -31,7 +31,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine;
 
 /** {@code natator view} from the command line to its end; the simulator is the real one. */
-@Timeout(value = 120, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class ViewCommandTest {
 
     private static final String SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize().toString();
@@ -49,6 +49,10 @@ class ViewCommandTest {
 
     /** Starts the program and reads the address that it prints. */
     private URI start(String... arguments) throws IOException {
+        return startAt("127\\.0\\.0\\.1", arguments);
+    }
+
+    private URI startAt(String host, String... arguments) throws IOException {
         List<String> command = new ArrayList<>(List.of(
                 Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-XX:TieredStopAtLevel=1",
                 "-XX:-UsePerfData", "-XX:+UseSerialGC", "-cp", System.getProperty("java.class.path"),
@@ -57,7 +61,7 @@ class ViewCommandTest {
         program = new ProcessBuilder(command).redirectError(folder.resolve("errors").toFile()).start();
         BufferedReader out = program.inputReader();
         String address = out.readLine();
-        assertThat(address).as(Files.readString(folder.resolve("errors"))).matches("http://127\\.0\\.0\\.1:\\d+/");
+        assertThat(address).as(Files.readString(folder.resolve("errors"))).matches("http://" + host + ":\\d+/");
         return URI.create(address);
     }
 
@@ -79,9 +83,11 @@ class ViewCommandTest {
 
         program.destroy();
 
-        assertThat(program.waitFor(10, TimeUnit.SECONDS)).as("it ends in time").isTrue();
+        assertThat(program.waitFor(5, TimeUnit.MINUTES)).as("it ends in time").isTrue();
         assertThat(program.exitValue()).isEqualTo(128 + 15);
-        assertThat(simulators).noneMatch(ProcessHandle::isAlive);
+        for (ProcessHandle simulator : simulators) {
+            simulator.onExit().orTimeout(5, TimeUnit.MINUTES).join();
+        }
         assertThat(Files.readString(folder.resolve("errors"))).isEmpty();
     }
 
@@ -120,7 +126,7 @@ class ViewCommandTest {
                     }
                 }).join();
         socket.sendText("{\"do\":\"start\",\"scene\":\"" + scene + "\"}", true).join();
-        return heard.orTimeout(60, TimeUnit.SECONDS).join();
+        return heard.orTimeout(5, TimeUnit.MINUTES).join();
     }
 
     @Test
@@ -161,6 +167,29 @@ class ViewCommandTest {
         JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class);
         assertThat(start.get("gait")).isEqualTo(best.get("gait"));
         assertThat(start.get("overrides").toString()).isEqualTo("{\"scheme\":\"conserving\"}");
+    }
+
+    /** Also where its scene is named; beside another scene it is only there to be looked at. */
+    @ParameterizedTest
+    @CsvSource({"1, true", "2, false"})
+    void ofARunInTheNamedSceneTheBestSwims(int creature, boolean isIts) throws IOException, InterruptedException {
+        Path run = folder.resolve("run");
+        Commands.evolve(FakeSimulator.in(folder), run);
+
+        JsonNode start = start(start("--creature", "" + creature, "--run", run.toString()));
+
+        JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class).get("gait");
+        assertThat(start.get("scene").textValue()).isEqualTo("thesis/creature-" + creature);
+        assertThat(start.get("gait").equals(best)).isEqualTo(isIts);
+        assertThat(start.get("overrides").toString()).isEqualTo(isIts ? "{\"scheme\":\"conserving\"}" : "null");
+    }
+
+    @Test
+    void whoOpensItToOthersIsWarned() throws IOException {
+        startAt("[^/]+", "--creature", "1", "--host", "0.0.0.0");
+
+        assertThat(Files.readString(folder.resolve("errors"))).isEqualTo("warning: --host 0.0.0.0: whoever can reach this "
+                + "address can watch, and start up to 4 simulations on this machine; nobody is asked who they are\n");
     }
 
     @ParameterizedTest

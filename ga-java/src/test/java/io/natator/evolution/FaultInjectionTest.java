@@ -1,6 +1,7 @@
 package io.natator.evolution;
 
 import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
+import static io.natator.simulator.Processes.assertThatOpenFilesAreAtMost;
 import static io.natator.simulator.Processes.openFiles;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
@@ -25,6 +26,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicInteger;
+import java.util.function.IntConsumer;
 import java.util.stream.LongStream;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
@@ -34,7 +36,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 /** Evolutions whose simulator fails all the time. */
-@Timeout(value = 120, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class FaultInjectionTest {
 
     private static final Path REAL = Path.of(System.getProperty("natator.simulator")).normalize();
@@ -42,13 +44,16 @@ class FaultInjectionTest {
     @TempDir
     private Path folder;
 
-    private static List<EvaluationRecord> evolve(EvolutionSettings settings, ExecutionSettings execution) {
+    /** {@code then} is told how many evaluations there have been. */
+    private static List<EvaluationRecord> evolve(EvolutionSettings settings, ExecutionSettings execution,
+            IntConsumer then) {
         List<EvaluationRecord> evaluations = new ArrayList<>();
         try (Evaluator evaluator = Evaluator.open(execution)) {
             new Evolution(settings, evaluator, List.of(new EvolutionListener() {
                 @Override
                 public void evaluated(EvaluationRecord evaluation) {
                     evaluations.add(evaluation);
+                    then.accept(evaluations.size());
                 }
             }), List.of()).run(null);
         }
@@ -73,10 +78,10 @@ class FaultInjectionTest {
         EvolutionSettings settings = EvolutionSettings.of("fault/chaos", EncodingKind.DENSE, 2)
                 .withSize(100, EvolutionSettings.NO_LIMIT).withEvaluations(count);
         ExecutionSettings execution =
-                new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMillis(1500)).withMode(mode);
+                new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(10)).withMode(mode);
         long filesBefore = openFiles();
 
-        List<EvaluationRecord> evaluations = evolve(settings, execution);
+        List<EvaluationRecord> evaluations = evolve(settings, execution, done -> { });
 
         assertThat(evaluations).extracting(one -> one.result().id())
                 .containsExactlyElementsOf(LongStream.range(0, count).boxed().toList());
@@ -100,7 +105,7 @@ class FaultInjectionTest {
                     .as("injected faults").isGreaterThanOrEqualTo(faults);
         }
         assertThatNoChildIsLeft();
-        assertThat(openFiles()).isLessThanOrEqualTo(filesBefore + 4);
+        assertThatOpenFilesAreAtMost(filesBefore + 4);
     }
 
     /** What survives has the bits of an evaluation in peace; what was killed twice says so. */
@@ -109,23 +114,14 @@ class FaultInjectionTest {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
                 .withSize(40, EvolutionSettings.NO_LIMIT).withEvaluations(160L).withScene(null, 0.05, null);
         ExecutionSettings execution =
-                new ExecutionSettings(REAL, 2, Duration.ofSeconds(60)).withMode(SimulatorMode.RESIDENT);
+                new ExecutionSettings(REAL, 2, Duration.ofMinutes(5)).withMode(SimulatorMode.RESIDENT);
         long filesBefore = openFiles();
         AtomicInteger kills = new AtomicInteger();
-        Thread killer = new Thread(() -> killNowAndThen(kills));
-        killer.start();
-
-        List<EvaluationRecord> evaluations;
-        try {
-            evaluations = evolve(settings, execution);
-        } finally {
-            killer.interrupt();
-            killer.join();
-        }
+        List<EvaluationRecord> evaluations = evolve(settings, execution, count -> killNowAndThen(count, kills));
         assertThat(evaluations).hasSize(160);
         assertThat(kills.get()).as("processes killed").isGreaterThan(10);
         assertThatNoChildIsLeft();
-        assertThat(openFiles()).isLessThanOrEqualTo(filesBefore + 4);
+        assertThatOpenFilesAreAtMost(filesBefore + 4);
         List<SimulationRequest> requests = evaluations.stream()
                 .map(one -> new SimulationRequest(one.result().id(), settings.scene(), one.gait(), 0.05, null, null))
                 .toList();
@@ -144,18 +140,14 @@ class FaultInjectionTest {
         }
     }
 
-    private static void killNowAndThen(AtomicInteger kills) {
-        try {
-            for (int i = 0;; i++) {
-                Thread.sleep(50 + i * 37 % 30);
-                ProcessHandle.current().children().skip(i % 2).findFirst().ifPresent(child -> {
-                    if (child.destroyForcibly()) {
-                        kills.incrementAndGet();
-                    }
-                });
-            }
-        } catch (InterruptedException e) {
-            // Enough.
+    /** After every fourth evaluation, one process or the other, whatever it is doing. */
+    private static void killNowAndThen(int evaluations, AtomicInteger kills) {
+        if (evaluations % 4 == 0) {
+            ProcessHandle.current().children().skip(evaluations / 4 % 2).findFirst().ifPresent(child -> {
+                if (child.destroyForcibly()) {
+                    kills.incrementAndGet();
+                }
+            });
         }
     }
 }

@@ -43,7 +43,7 @@ class EvolutionRunTest {
 
     @BeforeEach
     void fake() {
-        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(20));
+        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
     }
 
     /** Runs in a folder of this name; gives the number of simulations. */

@@ -18,8 +18,11 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
-@Timeout(value = 60, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class BatchSimulatorTest {
+
+    /** For an answer, s; reached by failures only. */
+    private static final double PATIENCE = 300;
 
     @TempDir
     private Path folder;
@@ -44,7 +47,7 @@ class BatchSimulatorTest {
 
     @Test
     void answersAllUnderTheirIds() throws InterruptedException {
-        List<SimulationResult> results = evaluate(requests(300, "thesis/creature-1"), 20);
+        List<SimulationResult> results = evaluate(requests(300, "thesis/creature-1"), PATIENCE);
 
         assertThat(results).extracting(SimulationResult::id)
                 .containsExactlyElementsOf(LongStream.range(0, 300).boxed().toList());
@@ -57,7 +60,7 @@ class BatchSimulatorTest {
         List<SimulationRequest> requests = new ArrayList<>(requests(40, "thesis/creature-1"));
         requests.set(17, FakeSimulator.request(17, "fault/killed"));
 
-        List<SimulationResult> results = evaluate(requests, 20);
+        List<SimulationResult> results = evaluate(requests, PATIENCE);
 
         assertThat(results).hasSize(40);
         for (SimulationResult result : results) {
@@ -71,7 +74,7 @@ class BatchSimulatorTest {
         List<SimulationRequest> requests = new ArrayList<>(requests(4, "thesis/creature-1"));
         requests.set(2, FakeSimulator.request(2, "fault/hang"));
 
-        assertThat(evaluate(requests, 1)).extracting(SimulationResult::status)
+        assertThat(evaluate(requests, 10)).extracting(SimulationResult::status)
                 .containsExactly(Status.OK, Status.OK, Status.FAILED, Status.OK);
     }
 
@@ -79,14 +82,14 @@ class BatchSimulatorTest {
     void aProgramThatNeverAnswersIsGivenUp() throws InterruptedException, IOException {
         Files.createFile(folder.resolve("dies-at-start"));
 
-        List<SimulationResult> results = evaluate(requests(1000, "thesis/creature-1"), 20);
+        List<SimulationResult> results = evaluate(requests(1000, "thesis/creature-1"), PATIENCE);
 
         assertThat(results).hasSize(1000).allSatisfy(result -> assertThat(result.error()).contains("exit status 1"));
     }
 
     @Test
     void aRejectedRequestEndsItsCallOnly() throws InterruptedException {
-        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, 20))) {
+        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "fault/rejected")))
                     .isInstanceOf(RequestRejectedException.class).hasMessageContaining("gait.frequency is 70");
             assertThat(evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")).status())
@@ -97,7 +100,7 @@ class BatchSimulatorTest {
     @Test
     void aMissingDeviceIsToldOf() {
         try (Evaluator evaluator = new BatchSimulator(
-                FakeSimulator.execution(folder, 20).withBackend(Backend.CUDA))) {
+                FakeSimulator.execution(folder, PATIENCE).withBackend(Backend.CUDA))) {
             assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
                     .isInstanceOf(RequestRejectedException.class).hasMessage("no such device here");
         }
@@ -105,7 +108,7 @@ class BatchSimulatorTest {
 
     @Test
     void closingFreesWhoWaits() throws InterruptedException {
-        Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, 60));
+        Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE));
         List<Exception> outcomes = new ArrayList<>();
         Thread caller = new Thread(() -> {
             try {
@@ -115,10 +118,10 @@ class BatchSimulatorTest {
             }
         });
         caller.start();
-        Thread.sleep(200);
+        Processes.awaitChild();
 
         evaluator.close();
-        caller.join(5000);
+        caller.join();
 
         assertThat(outcomes).hasSize(1);
     }
@@ -127,7 +130,7 @@ class BatchSimulatorTest {
     void callersShareTheProcessAndGetTheirOwn() throws InterruptedException {
         List<Thread> callers = new ArrayList<>();
         List<List<SimulationResult>> all = new ArrayList<>();
-        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, 20))) {
+        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             for (int i = 0; i < 8; i++) {
                 List<SimulationResult> own = new ArrayList<>();
                 all.add(own);

@@ -1,6 +1,7 @@
 package io.natator.simulator;
 
 import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
+import static io.natator.simulator.Processes.assertThatOpenFilesAreAtMost;
 import static io.natator.simulator.Processes.openFiles;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -20,8 +21,11 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-@Timeout(value = 60, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class ProcessSimulatorTest {
+
+    /** For an answer, s; reached by failures only. */
+    private static final double PATIENCE = 300;
 
     @TempDir
     private Path folder;
@@ -34,7 +38,7 @@ class ProcessSimulatorTest {
 
     @Test
     void readsAResultAndIgnoresUnknownFields() throws InterruptedException {
-        SimulationResult result = evaluate("thesis/creature-1", 20);
+        SimulationResult result = evaluate("thesis/creature-1", PATIENCE);
 
         assertThat(result).isEqualTo(new SimulationResult(7L, Status.OK, -1.3925, "completed", 4.0, 240, "flex",
                 "float", "0000000052ffdd20", null, null));
@@ -44,7 +48,7 @@ class ProcessSimulatorTest {
 
     @Test
     void readsAnUnstableResult() throws InterruptedException {
-        SimulationResult result = evaluate("fault/unstable", 20);
+        SimulationResult result = evaluate("fault/unstable", PATIENCE);
 
         assertThat(result.status()).isEqualTo(Status.UNSTABLE);
         assertThat(result.distance()).isNull();
@@ -60,7 +64,7 @@ class ProcessSimulatorTest {
         "fault/infinite|no finite distance", "fault/two-lines|no valid result",
         "fault/held-open|output still open"})
     void aFaultyAnswerIsAFailedResultWithTheReason(String scene, String reason) throws InterruptedException {
-        SimulationResult result = evaluate(scene, 20);
+        SimulationResult result = evaluate(scene, PATIENCE);
 
         assertThat(result.status()).isEqualTo(Status.FAILED);
         assertThat(result.error()).contains(reason).doesNotContain("\n");
@@ -70,20 +74,17 @@ class ProcessSimulatorTest {
 
     @Test
     void aHangingProcessIsKilledWithItsChildren() throws InterruptedException {
-        long before = System.nanoTime();
-
         SimulationResult result = evaluate("fault/hang", 0.4);
 
         assertThat(result.status()).isEqualTo(Status.FAILED);
         assertThat(result.error()).isEqualTo("no answer within 0.4 s");
-        assertThat(Duration.ofNanos(System.nanoTime() - before)).isLessThan(Duration.ofSeconds(10));
         assertThatNoChildIsLeft();
     }
 
     /** A request larger than a pipe holds, to a program that does not read it. */
     @Test
     void aProgramThatDoesNotReadCannotBlockTheCaller() throws InterruptedException, IOException {
-        Path deaf = Files.writeString(folder.resolve("deaf.sh"), "#!/bin/sh\nsleep 60\n");
+        Path deaf = Files.writeString(folder.resolve("deaf.sh"), "#!/bin/sh\nsleep 3600\n");
         assertThat(deaf.toFile().setExecutable(true)).isTrue();
         ObjectNode large = JsonNodeFactory.instance.objectNode().put("note", "x".repeat(1 << 20));
         SimulationRequest request = new SimulationRequest(1, "a", null, null, null, large);
@@ -96,39 +97,39 @@ class ProcessSimulatorTest {
 
     @Test
     void triesOnceMore() throws InterruptedException {
-        assertThat(evaluate("fault/once", 20).status()).isEqualTo(Status.OK);
+        assertThat(evaluate("fault/once", PATIENCE).status()).isEqualTo(Status.OK);
         assertThat(folder.resolve("seen-7")).exists();
     }
 
     @Test
     void drainsWhatTheProgramLogs() throws InterruptedException {
-        assertThat(evaluate("fault/loud-errors", 20).distance()).isEqualTo(0.5);
+        assertThat(evaluate("fault/loud-errors", PATIENCE).distance()).isEqualTo(0.5);
     }
 
     @Test
     void aRejectedRequestIsNotTriedAgainButToldOf() {
-        assertThatThrownBy(() -> evaluate("fault/rejected", 20))
+        assertThatThrownBy(() -> evaluate("fault/rejected", PATIENCE))
                 .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isTrue())
                 .hasMessage("gait.frequency is 70; expected a number up to 60");
     }
 
     @Test
     void aMissingDeviceIsNoBadInput() {
-        assertThatThrownBy(() -> evaluate("fault/no-device", 20))
+        assertThatThrownBy(() -> evaluate("fault/no-device", PATIENCE))
                 .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse());
     }
 
     @Test
     void aProgramThatCannotStartIsAFailedResult() throws InterruptedException, IOException {
         Path program = Files.writeString(folder.resolve("program"), "not a program");
-        try (Simulator simulator = new ProcessSimulator(new ExecutionSettings(program, 1, Duration.ofSeconds(5)))) {
+        try (Simulator simulator = new ProcessSimulator(new ExecutionSettings(program, 1, Duration.ofMinutes(5)))) {
             assertThat(simulator.evaluate(FakeSimulator.request(1, "a")).error()).startsWith("cannot start " + program);
         }
     }
 
     @Test
     void interruptionKillsTheProcess() throws InterruptedException {
-        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, 60))) {
+        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             Thread caller = new Thread(() -> {
                 try {
                     simulator.evaluate(FakeSimulator.request(1, "fault/hang"));
@@ -137,24 +138,22 @@ class ProcessSimulatorTest {
                 }
             });
             caller.start();
-            Thread.sleep(300);
+            Processes.awaitChild();
             caller.interrupt();
-            caller.join(5000);
-
-            assertThat(caller.isAlive()).isFalse();
+            caller.join();
         }
         assertThatNoChildIsLeft();
     }
 
     @Test
     void manyCallsLeakNeitherProcessesNorFileHandles() throws InterruptedException, IOException {
-        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, 20))) {
+        try (Simulator simulator = new ProcessSimulator(FakeSimulator.execution(folder, PATIENCE))) {
             simulator.evaluate(FakeSimulator.request(0, "fault/half"));
             long before = openFiles();
             for (int i = 1; i <= 20; i++) {
                 simulator.evaluate(FakeSimulator.request(i, i % 2 == 0 ? "fault/half" : "thesis/creature-1"));
             }
-            assertThat(openFiles()).isLessThanOrEqualTo(before + 3);
+            assertThatOpenFilesAreAtMost(before + 3);
         }
         assertThatNoChildIsLeft();
     }

@@ -78,7 +78,7 @@ class ProtocolTest {
     @ParameterizedTest
     @ValueSource(strings = {"thesis/creature-1", "fault/unstable", "fault/rejected"})
     void answersFitTheSchema(String scene) throws Exception {
-        try (NativeProgram program = new NativeProgram(FakeSimulator.in(folder), Duration.ofSeconds(20))) {
+        try (NativeProgram program = new NativeProgram(FakeSimulator.in(folder), Duration.ofMinutes(5))) {
             String answer = program.call(List.of("evaluate"),
                     Json.line(FakeSimulator.request(5, scene)) + "\n").text();
             assertThat(check("result.schema.json", answer)).as(answer).isEmpty();

@@ -29,7 +29,7 @@ class RealProtocolTest {
                 Json.parse(overrides, JsonNode.class));
 
         String answer;
-        try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofSeconds(60))) {
+        try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
             answer = program.call(List.of("evaluate"), Json.line(request) + "\n").text();
         }
 

@@ -21,7 +21,7 @@ public final class StreamBytes {
     /** A scene of {@value #PARTICLES} particles, the last of which is held in place. */
     public static ObjectNode scene() {
         String json = """
-                {"protocol":1,"program":{"version":"0.1.0","instructionSet":"portable"},"number":1,"restarted":true,
+                {"protocol":2,"program":{"version":"0.1.0","instructionSet":"portable"},"number":1,"restarted":true,
                  "scene":"test/pool","overrides":null,"gait":{"frequency":1,"amplitude":[0.5],"phase":[0]},
                  "scheme":"flex","precision":"float","definition":{"name":"pool"},"timeStep":0.0125,"duration":4,
                  "radius":0.15,"solidRestDistance":0.15,"fluidRestDistance":0.1,"planes":[[0,1,0,0]],

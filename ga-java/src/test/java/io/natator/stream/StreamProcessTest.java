@@ -20,7 +20,7 @@ import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
 /** The life of the program; what it says is a file. */
-@Timeout(value = 60, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class StreamProcessTest {
 
     private static final StreamOptions OPTIONS = StreamOptions.live("test/pool", null, null, false);
@@ -61,7 +61,7 @@ class StreamProcessTest {
     @Test
     void commandsArriveOneALine() throws IOException, InterruptedException {
         Path script = program(scene(), "read first; read second; echo \"$first\" \"$second\" >heard; "
-                + "printf 'ANSW\\023\\0\\0\\0'; printf '{\"id\":1,\"ok\":true} '; sleep 60");
+                + "printf 'ANSW\\023\\0\\0\\0'; printf '{\"id\":1,\"ok\":true} '; sleep 3600");
         try (StreamProcess process = new StreamProcess(script, OPTIONS)) {
             process.next();
             process.grant(2);
@@ -115,7 +115,7 @@ class StreamProcessTest {
 
     @Test
     void aProgramThatClosesItsOutputIsToldOf() throws IOException, InterruptedException {
-        try (StreamProcess process = new StreamProcess(program(scene(), "exec >&-; sleep 60"), OPTIONS)) {
+        try (StreamProcess process = new StreamProcess(program(scene(), "exec >&-; sleep 3600"), OPTIONS)) {
             process.next();
             assertThatThrownBy(process::next).isInstanceOf(StreamException.class)
                     .hasMessage("simulator closed its output, but runs on");
@@ -125,7 +125,7 @@ class StreamProcessTest {
     @Test
     void closingEndsAWaitAndAllDescendants() throws IOException, InterruptedException, ExecutionException,
             TimeoutException {
-        StreamProcess process = new StreamProcess(program(scene(), "sleep 60 & sleep 60"), OPTIONS);
+        StreamProcess process = new StreamProcess(program(scene(), "sleep 3600 & sleep 3600"), OPTIONS);
         process.next();
         CompletableFuture<StreamMessage> next = CompletableFuture.supplyAsync(() -> {
             try {
@@ -134,16 +134,15 @@ class StreamProcessTest {
                 throw new IllegalStateException(e);
             }
         });
-        Thread.sleep(100);
         process.close();
 
-        assertThat(next.get(10, TimeUnit.SECONDS)).isNull();
+        assertThat(next.get()).isNull();
     }
 
     @Test
     void aProgramThatReadsNoCommandsCostsNoMemory() throws IOException, InterruptedException {
         String command = "{\"do\":\"" + "x".repeat(1000) + "\"}";
-        try (StreamProcess process = new StreamProcess(program(scene(), "sleep 60"), OPTIONS)) {
+        try (StreamProcess process = new StreamProcess(program(scene(), "sleep 3600"), OPTIONS)) {
             process.next();
             assertThatThrownBy(() -> {
                 for (int i = 0; i < 10 * StreamProcess.QUEUED_COMMANDS; i++) {

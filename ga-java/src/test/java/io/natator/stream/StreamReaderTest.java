@@ -181,6 +181,33 @@ class StreamReaderTest {
     }
 
     @Test
+    void aSceneThatGoesOnTellsOnlyWhatHasChanged() throws IOException {
+        StreamReader reader = reader(new StreamBytes().json("SCEN", StreamBytes.scene())
+                .json("SCEN", "{\"number\":2,\"restarted\":false,\"duration\":9}").frame(2, 1));
+
+        StreamScene first = ((StreamMessage.Scene) reader.next()).scene();
+        StreamMessage.Scene second = (StreamMessage.Scene) reader.next();
+
+        assertThat(second.scene().duration()).isEqualTo(9);
+        assertThat(second.scene().restarted()).isFalse();
+        assertThat(second.scene().mass()).isEqualTo(first.mass());
+        assertThat(second.json()).isEqualTo("{\"number\":2,\"restarted\":false,\"duration\":9}");
+        assertThat(((StreamMessage.Frame) reader.next()).decode().frame()).isOne();
+    }
+
+    @Test
+    void aSceneThatStartsAnewOwesNothingToTheOneBefore() {
+        ObjectNode other = StreamBytes.scene();
+        other.remove("mass");
+        StreamReader reader = reader(new StreamBytes().json("SCEN", StreamBytes.scene()).json("SCEN", other));
+
+        assertThatThrownBy(() -> {
+            reader.next();
+            reader.next();
+        }).isInstanceOf(StreamException.class).hasMessageContaining("mass");
+    }
+
+    @Test
     void textThatIsNoAnswerIsToldOf() {
         assertThatAllOfItThrows(new StreamBytes().json("ANSW", "[7]"), "ANSW: expected a JSON object, found \"[7]\"");
         assertThatAllOfItThrows(new StreamBytes().json("ANSW", "{}"),
@@ -192,7 +219,7 @@ class StreamReaderTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "protocol|2|protocol is 2; expected 1",
+        "protocol|1|protocol is 1; expected 2",
         "timeStep|0|timeStep is 0.0; expected seconds above 0",
         "particles|-1|particles is -1; expected 0 to 10000000",
         "particles|9|mass has 8 numbers; expected 9",

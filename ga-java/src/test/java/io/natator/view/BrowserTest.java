@@ -7,6 +7,7 @@ import com.microsoft.playwright.Browser.NewContextOptions;
 import com.microsoft.playwright.ConsoleMessage;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
+import com.microsoft.playwright.assertions.PlaywrightAssertions;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
@@ -35,8 +36,8 @@ abstract class BrowserTest {
     static final int WIDTH = 1280;
     static final int HEIGHT = 800;
     private static final Path SCREENSHOTS = Path.of("target", "screenshots");
-    /** Much is drawn by one processor that also simulates. */
-    private static final double PATIENCE_MILLISECONDS = 60_000;
+    /** Much is drawn by one processor that also simulates, and does other work besides: only failures wait so long. */
+    private static final double PATIENCE_MILLISECONDS = 600_000;
 
     private final List<String> complaints = new ArrayList<>();
     private final List<String> addresses = new ArrayList<>();
@@ -57,6 +58,8 @@ abstract class BrowserTest {
         }
         context = CHROMIUM.browser().newContext(options);
         context.setDefaultTimeout(PATIENCE_MILLISECONDS);
+        context.setDefaultNavigationTimeout(PATIENCE_MILLISECONDS);
+        PlaywrightAssertions.setDefaultAssertionTimeout(PATIENCE_MILLISECONDS);
         context.onConsoleMessage(this::note);
         context.onWebError(error -> complaints.add(error.error()));
         context.onRequest(request -> addresses.add(request.url()));

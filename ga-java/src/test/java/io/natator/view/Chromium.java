@@ -26,6 +26,9 @@ final class Chromium implements BeforeAllCallback {
     private static final List<String> ARGUMENTS = List.of("--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader",
             "--disable-background-networking", "--disable-component-update", "--disable-sync");
 
+    /** Of its start, which only failures take so long for. */
+    private static final double PATIENCE_MILLISECONDS = 600_000;
+
     private Browser browser;
 
     /** The running browser and what drives it. */
@@ -36,7 +39,7 @@ final class Chromium implements BeforeAllCallback {
             Playwright playwright = Playwright.create(
                     new Playwright.CreateOptions().setEnv(Map.of("PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD", "1")));
             return new Running(playwright, playwright.chromium().launch(
-                    new LaunchOptions().setExecutablePath(installed()).setArgs(ARGUMENTS)));
+                    new LaunchOptions().setExecutablePath(installed()).setArgs(ARGUMENTS).setTimeout(PATIENCE_MILLISECONDS)));
         }
 
         @Override

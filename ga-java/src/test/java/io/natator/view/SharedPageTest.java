@@ -16,7 +16,7 @@ import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
 /** The file that {@code natator page} writes, opened from disk. */
-@Timeout(value = 180, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class SharedPageTest extends BrowserTest {
 
     private static final double SECONDS = 1;

@@ -22,7 +22,7 @@ import java.util.concurrent.TimeUnit;
 final class StreamClient implements WebSocket.Listener, AutoCloseable {
 
     static final HttpClient HTTP = HttpClient.newHttpClient();
-    private static final long PATIENCE_SECONDS = 60;
+    private static final long PATIENCE_SECONDS = 600;
 
     private final BlockingQueue<JsonNode> texts = new LinkedBlockingQueue<>();
     private final BlockingQueue<ByteBuffer> frames = new LinkedBlockingQueue<>();

@@ -14,7 +14,7 @@ final class ViewFixture {
     /** Without water: it starts and steps in no time. */
     static final String SCENE = "thesis/creature-1-vacuum";
     static final String GAIT = "{'frequency':1.5,'amplitude':[0.9,0.6],'phase':[0,0.6]}";
-    private static final int PATIENCE_SECONDS = 60;
+    private static final int PATIENCE_SECONDS = 600;
 
     private ViewFixture() {
     }

@@ -28,7 +28,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 /** The page of {@code natator view} in a real browser, with the real simulator. */
-@Timeout(value = 180, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class ViewPageTest extends BrowserTest {
 
     /** An empty picture has its background's few colours. */
@@ -173,8 +173,74 @@ class ViewPageTest extends BrowserTest {
         get("frequency-number").fill("-7");
         get("frequency-number").press("Enter");
 
-        assertThat(get("frequency-error")).containsText("frequency");
+        assertThat(get("frequency-error")).containsText("-7 is not used; expected 0.01 to 60 /s");
         assertThat(number("natator.scene().gait.frequency")).isEqualTo(1.5);
+    }
+
+    /** What is refused leaves no trace in the next change. */
+    @Test
+    void afterARefusalTheRestCanBeChanged() throws IOException {
+        openAtRest();
+        get("frequency-number").fill("99");
+        get("frequency-number").press("Enter");
+        assertThat(get("frequency-error")).hasText("Frequency: 99 is not used; expected 0.01 to 60 /s");
+        get("amplitude-1-number").fill("3");
+        get("amplitude-1-number").press("Enter");
+        assertThat(get("actuator-error")).hasText("amplitude of actuator 1: 3 is not used; expected 0 to 2");
+
+        get("amplitude-1").fill("0.2");
+
+        await("natator.scene().gait.amplitude[0] === 0.2");
+        assertThat(gait().get("frequency").asDouble()).isEqualTo(1.5);
+        assertThat(get("frequency-number")).hasValue("1.5");
+        assertThat(get("frequency-error")).isHidden();
+        get("frequency-number").fill("2.5");
+        get("frequency-number").press("Enter");
+        await("natator.scene().gait.frequency === 2.5");
+    }
+
+    /** Slows the page down, so that it draws with less detail; notes each picture that it shows black. */
+    private static final String SLOW_AND_WATCHED = """
+            () => {
+              const sample = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+              window.black = 0;
+              const next = () => {
+                const until = performance.now() + 25;
+                while (performance.now() < until && !window.isQuick) { }
+                sample.drawImage(document.querySelector('.picture canvas'), 0, 0, 30, 30);
+                const {data} = sample.getImageData(0, 0, 30, 30);
+                window.black += data.every((value, i) => i % 4 === 3 || value < 8) ? 1 : 0;
+                requestAnimationFrame(next);
+              };
+              requestAnimationFrame(next);
+            }""";
+
+    @Test
+    void lessDetailIsNoBlackFlash() {
+        open(water);
+        get("drawing").selectOption("webgl");
+        awaitDrawings(3);
+        page.evaluate(SLOW_AND_WATCHED);
+
+        await("natator.share() < 0.8");
+
+        assertThat(number("window.black")).as("black pictures").isZero();
+    }
+
+    @Test
+    void aPausedPictureGetsAllItsDetail() {
+        open(water);
+        get("drawing").selectOption("webgl");
+        page.evaluate(SLOW_AND_WATCHED);
+        await("natator.share() < 1");
+
+        get("run").click();
+
+        await("natator.share() === 1");
+        page.evaluate("() => { window.isQuick = true; }");
+        BufferedImage still = stillPicture(get("picture-a"));
+        assertThat(number("natator.share()")).isOne();
+        assertThat(colours(still)).isGreaterThan(LEAST_COLOURS);
     }
 
     @Test
@@ -210,6 +276,8 @@ class ViewPageTest extends BrowserTest {
     void aKilledSimulatorIsReportedAndGoesOn() {
         open(vacuum);
         await("natator.frame() > 60");
+        // Slowly from here on, so that the next one is seen at its start.
+        get("rate").selectOption("0.1");
 
         ViewFixture.simulator().destroyForcibly();
 
@@ -217,6 +285,46 @@ class ViewPageTest extends BrowserTest {
         assertThat(get("banner")).containsText("started again");
         await("natator.frame() < 60 && natator.frame() > 10");
         assertThat(get("status")).hasAttribute("data-state", "open");
+    }
+
+    @Test
+    void oneThatIsLostForGoodIsStartedAgainByAButton() throws InterruptedException {
+        open(vacuum);
+        for (int i = 0; i < 4; i++) {
+            ViewFixture.await("a simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
+            ProcessHandle simulator = ViewFixture.simulator();
+            simulator.destroyForcibly();
+            ViewFixture.await("its end", () -> !simulator.isAlive());
+        }
+        assertThat(get("banner-again")).isVisible();
+        assertThat(ViewFixture.simulators(ProcessHandle.current())).isEmpty();
+
+        get("banner-again").click();
+
+        assertThat(get("banner")).isHidden();
+        ViewFixture.await("another simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
+        double frame = number("natator.frame()");
+        await("natator.frame() !== " + frame);
+    }
+
+    /** Nothing is cut off, and nothing has to be scrolled for. */
+    @ParameterizedTest
+    @CsvSource({"1400, 900", "1280, 720", "1920, 1080"})
+    void allOfItFitsTheWindow(int width, int height) {
+        page.setViewportSize(width, height);
+        open(vacuum);
+        await("document.querySelector('[data-chart=envelope]').textContent !== ''");
+
+        assertThat(number("document.documentElement.scrollHeight")).isLessThanOrEqualTo(height);
+        assertThat(number("document.documentElement.scrollWidth")).isLessThanOrEqualTo(width);
+        Object cut = page.evaluate("""
+                () => [...document.querySelectorAll('.charts figcaption, .charts figcaption *, .charts canvas')]
+                    .filter(one => one.scrollWidth > one.clientWidth + 1 && getComputedStyle(one).display !== 'inline'
+                        || one.getBoundingClientRect().right > one.closest('figure').getBoundingClientRect().right
+                        || one.getBoundingClientRect().bottom > innerHeight)
+                    .map(one => one.outerHTML)""");
+        assertThat((List<?>) cut).isEmpty();
+        assertThat(get("picture-a").boundingBox().height).isGreaterThan(250);
     }
 
     @Test
@@ -295,6 +403,68 @@ class ViewPageTest extends BrowserTest {
         assertThat(ViewFixture.simulators(ProcessHandle.current())).hasSize(2);
         assertThat(colours(picture(get("picture-b")))).isGreaterThan(100);
         get("compare").click();
+        assertThat(get("stage-b")).isHidden();
+        assertThat(get("run")).hasText("Pause");
+        double frame = number("natator.frame()");
+        await("natator.frame() > " + (frame + 5));
+    }
+
+    /** One swims in water, which takes longer; the other one waits. */
+    @Test
+    void twoSwimInStep() {
+        open(vacuum);
+        get("compare").click();
+        await("natator.views[1].frame() > 5");
+        choose("which-1");
+        get("vacuum").uncheck();
+        await("natator.views[1].scene()?.fluid[1] > 1000 && natator.views[1].frame() > 5");
+
+        Object apart = page.evaluate("""
+                () => new Promise(done => {
+                  let most = 0, count = 40;
+                  const next = () => {
+                    most = Math.max(most, Math.abs(natator.views[0].time() - natator.views[1].time()));
+                    count-- > 0 ? requestAnimationFrame(next) : done(most);
+                  };
+                  requestAnimationFrame(next);
+                })""");
+        assertThat(((Number) apart).doubleValue()).as("simulated seconds between them").isLessThan(1e-9);
+        get("run").click();
+        assertThat(get("run")).hasText("Run");
+        get("reset").click();
+        await("natator.views[0].frame() === 0 && natator.views[1].frame() === 0");
+        for (int i = 1; i <= 3; i++) {
+            get("step").click();
+            await("natator.views[0].frame() === " + i + " && natator.views[1].frame() === " + i);
+        }
+        assertThat(get("time-b")).hasText("0.05 s");
+        assertThat(get("time-a")).hasText("0.05 s");
+        get("run").click();
+        await("natator.views[0].frame() > 10 && natator.views[1].frame() > 10");
+    }
+
+    @Test
+    void generationsAreComparedByName() {
+        open(vacuum);
+        assertThat(get("run-chosen")).containsText("What swims is not of this run");
+        get("chart-fitness").focus();
+        page.keyboard().press("Home");
+        assertThat(get("stage-a").locator("figcaption")).containsText("my-run, generation 0");
+
+        get("run-compare").click();
+        assertThat(get("stage-b").locator("figcaption")).containsText("my-run, generation 0");
+        assertThat(get("stage-a").locator("figcaption")).containsText("creature-1-vacuum, gait of your own");
+
+        choose("which-0");
+        get("chart-fitness").focus();
+        page.keyboard().press("Home");
+        assertThat(get("stage-a").locator("figcaption")).containsText("my-run, generation 0");
+        get("compare").click();
+        page.reload();
+        awaitSwimming();
+        assertThat(get("run-chosen")).containsText("Generation 0");
+        get("run-compare").click();
+        assertThat(get("run-error")).hasText("This gait swims already: choose another generation first.");
         assertThat(get("stage-b")).isHidden();
     }
 

@@ -30,7 +30,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 /** What is served, and to whom. */
-@Timeout(value = 120, unit = TimeUnit.SECONDS)
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
 class ViewServerTest {
 
     @TempDir
@@ -190,6 +190,14 @@ class ViewServerTest {
         String answer = raw("GET " + path + " HTTP/1.1", "Host: localhost");
 
         assertThat(answer).containsPattern("^HTTP/1.1 40[04] ").doesNotContain("root:", "configuration", "\"name\"");
+    }
+
+    /** A long path once took all of the stack. */
+    @ParameterizedTest
+    @ValueSource(strings = {"/app/", "/three/", "/three/addons/"})
+    void aLongPathIsNotFound(String folder) throws IOException {
+        assertThat(raw("GET " + folder + "a/".repeat(3000) + "b.js HTTP/1.1", "Host: localhost"))
+                .startsWith("HTTP/1.1 404 ");
     }
 
     @ParameterizedTest

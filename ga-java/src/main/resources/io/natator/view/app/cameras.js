@@ -121,10 +121,13 @@ export class CameraRig {
     this.#wantedTarget.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
     let distance;
     if (mode === 'follow') {
-      const across = Math.min(size[0], 3.1);
-      distance = Math.max(0.55 * across / (slope * aspect), 0.36 * across / slope);
       if (this.#hasBody) {
+        const across = Math.min(size[0], 3.1);
+        distance = Math.max(0.55 * across / (slope * aspect), 0.36 * across / slope);
         this.#wantedTarget.copy(this.#body);
+      } else {
+        // All of the tank: the ball around it.
+        distance = Math.hypot(...size) / 2 / Math.sin(Math.atan(slope * Math.min(1, aspect)));
       }
     } else {
       const high = mode === 'side' ? size[1] : size[2];

@@ -18,6 +18,7 @@ export class Connection {
   #nextId = 1;
   #granted = 0;
   #frames = [];
+  #scene = null;
   #retryMs = FIRST_RETRY_MS;
   #timer = 0;
   #closed = false;
@@ -99,9 +100,7 @@ export class Connection {
     const message = JSON.parse(data);
     switch (message.type) {
       case 'SCEN':
-        this.#frames.length = 0;
-        this.#grant();
-        this.#handlers.scene(message.body);
+        this.#scened(message.body);
         break;
       case 'ANSW':
         this.#answered(message.body);
@@ -121,6 +120,16 @@ export class Connection {
       default:
         console.warn('unknown message', message.type);
     }
+  }
+
+  /** One that goes on tells only what has changed; the frames before it are of the same particles. */
+  #scened(body) {
+    if (body.restarted) {
+      this.#frames.length = 0;
+      this.#grant();
+    }
+    this.#scene = body.restarted ? body : {...this.#scene, ...body};
+    this.#handlers.scene(this.#scene);
   }
 
   #answered(answer) {

@@ -3,8 +3,9 @@
 import {byId, make} from './element.js';
 import {Slider, sliderRow} from './sliders.js';
 
-/** Ranges in which gaits are looked for. */
-const FREQUENCY = {id: 'frequency', label: 'Frequency', title: '1/s', min: 0.5, max: 2, step: 0.01};
+/** Ranges in which gaits are looked for, and those that the simulator accepts. */
+const FREQUENCY = {id: 'frequency', label: 'Frequency', title: 'beats per second', unit: '/s', min: 0.5, max: 2, step: 0.01,
+  accepts: [0.01, 60]};
 
 /** A gait of any actuators that swims a little: a wave from head to tail. */
 export function waveGait(actuators) {
@@ -18,6 +19,13 @@ export function waveGait(actuators) {
 /** Whether a scene (SCEN) has muscles, and a gait that does not move them. */
 export function isAtRest({actuators, gait}) {
   return actuators > 0 && (gait === null || gait.amplitude.every(one => one === 0));
+}
+
+/** Whether two gaits, of which either may be null, move muscles in the same way. */
+export function isSameGait(one, other) {
+  const isSame = (a, b) => a.length === b.length && a.every((value, i) => Math.abs(value - b[i]) < 1e-9);
+  return one !== null && other !== null && isSame([one.frequency, one.power ?? 1], [other.frequency, other.power ?? 1])
+      && isSame(one.amplitude, other.amplitude) && isSame(one.phase, other.phase);
 }
 
 /** Any gait within the ranges. */
@@ -85,7 +93,7 @@ export class GaitControls {
     this.#phase = [];
     this.#frequency = null;
     if (actuators === 0) {
-      this.#place.replaceChildren(make('p', {className: 'hint', textContent: 'Nothing here can be moved.'}));
+      this.#place.replaceChildren(make('p', {className: 'hint', textContent: 'No muscles in this scene.'}));
       return;
     }
     const {slider, row} = sliderRow(FREQUENCY, value => this.#send({frequency: value}));
@@ -100,17 +108,24 @@ export class GaitControls {
 
   #actuatorRow(i, actuators, error) {
     const end = actuators > 1 && i === 0 ? ' head' : actuators > 1 && i === actuators - 1 ? ' tail' : '';
-    const slider = (name, list) => {
-      const setting = {id: `${name}-${i + 1}`, label: `${name} of actuator ${i + 1}`, min: 0, max: 1, step: 0.005};
+    const slider = (name, list, most) => {
+      const setting = {id: `${name}-${i + 1}`, label: `${name} of actuator ${i + 1}`, min: 0, max: 1, step: 0.005, accepts: [0, most]};
       list[i] = new Slider(setting, error, value => this.#send({[name]: this.#gait[name].with(i, value)}));
       return make('td', {}, make('div', {className: 'pair'}, ...list[i].inputs));
     };
     return make('tr', {}, make('th', {scope: 'row', textContent: `${i + 1}${end}`}),
-        slider('amplitude', this.#amplitude), slider('phase', this.#phase));
+        slider('amplitude', this.#amplitude, 2), slider('phase', this.#phase, 1));
   }
 
-  #send(change) {
-    this.#gait = {...this.#gait, ...change};
-    return this.#onChange(this.#gait);
+  /** What is refused is not kept: the next change is one of the gait that is in force. */
+  async #send(change) {
+    const before = this.#gait;
+    const gait = {...before, ...change};
+    this.#gait = gait;
+    const error = await this.#onChange(gait);
+    if (typeof error === 'string' && this.#gait === gait) {
+      this.#gait = before;
+    }
+    return error;
   }
 }

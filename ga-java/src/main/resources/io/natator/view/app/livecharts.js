@@ -24,7 +24,7 @@ export class LiveCharts {
       ['density', new TimeChart(byId('chart-density'), ['densityMean', 'densityMax'], 0.5)],
     ];
     byId('envelope-key').replaceChildren(...modes.flatMap(({name}, i) => [
-      make('i', {className: `key s${i + 2} dash`}), `${name} `,
+      make('span', {}, make('i', {className: `key s${i + 2} dash`}), name), ' ',
     ]));
     this.#outputs = new Map([...document.querySelectorAll('[data-chart]')].map(one => [one.dataset.chart, one]));
   }
@@ -45,7 +45,7 @@ export class LiveCharts {
 
   #draw(which, views) {
     const [name, chart] = this.#charts[which];
-    const text = this.#text(name, views[0]);
+    const text = views.map(view => this.#text(name, view)).join(' | ');
     if (this.#outputs.get(name).textContent !== text) {
       this.#outputs.get(name).textContent = text;
     }
@@ -59,7 +59,7 @@ export class LiveCharts {
   #text(name, {history, analysis}) {
     if (name === 'envelope') {
       const least = analysis?.modes.reduce((best, mode) => best === null || mode.e < best.e ? mode : best, null);
-      return least ? `${least.name.slice(0, 4)}., e ${least.e.toFixed(2)}` : '';
+      return least ? `e ${least.e.toFixed(2)}` : '';
     }
     const column = {distance: 'distance', speed: 'beatSpeed', momentum: 'momentum', density: 'densityMean'}[name];
     const value = history.last(column);

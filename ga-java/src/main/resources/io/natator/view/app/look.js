@@ -37,11 +37,11 @@ export class LookControls {
     });
     this.#opacity.addEventListener('input', () => this.set({opacity: Number(this.#opacity.value)}));
     this.#quality = make('select', {id: 'quality', 'data-testid': 'quality'});
-    fillSelect(this.#quality, [['auto', 'as fast as it keeps up'],
+    fillSelect(this.#quality, [['auto', 'automatic'],
       ...LEVELS.map(level => [level, `${Math.round(100 * level)} % of the pixels' width`])]);
     this.#quality.addEventListener('change', () => this.set({quality: this.#quality.value}));
     this.#drawing = make('select', {id: 'drawing', 'data-testid': 'drawing'});
-    fillSelect(this.#drawing, [['auto', 'what is faster here'], ['webgl', 'WebGL'], ['plain', 'the processor']]);
+    fillSelect(this.#drawing, [['auto', 'automatic'], ['webgl', 'WebGL'], ['plain', 'the processor']]);
     this.#drawing.addEventListener('change', () => this.set({drawing: this.#drawing.value}));
     const switches = SWITCHES.map(([name, text, key]) => {
       const input = make('input', {type: 'checkbox', 'data-testid': name});

@@ -3,9 +3,10 @@
 import {CAMERAS} from './cameras.js';
 import {byId, choose, fillSegments, fillSelect} from './element.js';
 import {Figures} from './figures.js';
-import {GaitControls, isAtRest, parseGait, randomGait, waveGait} from './gait.js';
+import {GaitControls, isAtRest, isSameGait, parseGait, randomGait, waveGait} from './gait.js';
 import {listen} from './keys.js';
 import {LiveCharts} from './livecharts.js';
+import {Lockstep} from './lockstep.js';
 import {LookControls} from './look.js';
 import {remembered, rememberSoon} from './memory.js';
 import {RunBrowser} from './runs.js';
@@ -34,6 +35,8 @@ class Page {
   #runs;
   #lastFigures = 0;
   #vacuumBusy = false;
+  #lockstep = new Lockstep();
+  #browsed = null;
 
   constructor(setup, memory) {
     this.#setup = setup;
@@ -42,7 +45,8 @@ class Page {
     this.#theme = new Theme(memory.theme ?? 'auto', () => this.#themeChanged());
     this.#gait = new GaitControls(gait => this.#view.setGait(gait));
     this.#solver = new SolverControls((key, patch) => this.#view.setOverrides(key, patch));
-    this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watch(run, best, beside));
+    this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watch(run, best, beside), () => this.#markRun());
+    this.#lockstep.onStep = error => this.#stepped(error);
     fillSelect(byId('scheme'), setup.schemes.map(scheme => [scheme, scheme]));
     const cameras = CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]);
     fillSegments(byId('cameras'), 'camera', cameras, mode => this.setCamera(mode));
@@ -56,7 +60,7 @@ class Page {
     this.#listen();
     if (setup.runs.length > 0) {
       const run = setup.runs.some(({id}) => id === memory.run?.run) ? memory.run : {run: setup.runs[0].id};
-      this.#runs.load(run.run, run.generation ?? null);
+      this.#runs.load(run.run).then(() => this.#markRun());
     }
     requestAnimationFrame(now => this.#tick(now));
   }
@@ -70,9 +74,13 @@ class Page {
   }
 
   #tick(now) {
-    for (const view of this.#views) {
-      view.tick(now);
+    if (!this.#lockstep.isBusy) {
+      this.#views.forEach(view => view.receive());
     }
+    if (this.#views.length > 1) {
+      this.#lockstep.tick(now, this.#views);
+    }
+    this.#views.forEach(view => view.draw(now));
     this.#charts.tick(this.#views);
     if (now - this.#lastFigures > FIGURES_MS) {
       this.#lastFigures = now;
@@ -90,7 +98,7 @@ class Page {
     const view = new View(element.querySelector('.picture'), setting, this.#setup.start, this.#setup.scenes, {
       scene: () => this.#sceneChanged(which),
       status: (state, text) => this.#status(state, text),
-      notice: (text, isBad) => this.#banner(text, isBad),
+      notice: (text, isBad, again) => this.#banner(text, isBad, again),
       range: range => this.#rangeChanged(which, range),
     });
     view.stage.setTheme(this.#theme.colours);
@@ -99,11 +107,15 @@ class Page {
     view.stage.rig.onMode = () => choose(byId('cameras'), view.stage.rig.mode);
     this.#views.push(view);
     this.#figures.push(new Figures(element));
+    this.#views.forEach(one => {
+      one.isLed = this.#views.length > 1;
+    });
     this.#compareChanged();
   }
 
   #removeSecond() {
     this.#views.pop().close();
+    this.#views[0].isLed = false;
     this.#figures.pop();
     this.#ranges.length = 1;
     this.#views[0].stage.shareRange(null);
@@ -119,13 +131,12 @@ class Page {
   }
 
   /** Shows a second view that begins as the first is, or closes it. */
-  async toggleCompare(setting = null) {
+  toggleCompare(setting = null) {
     if (this.#views.length === 2) {
       this.#removeSecond();
       return;
     }
     this.#addView(setting ?? {...this.#views[0].setting});
-    await this.reset();
   }
 
   #compareChanged() {
@@ -146,14 +157,43 @@ class Page {
   #sceneChanged(which) {
     const {scene} = this.#views[which];
     if (scene !== null) {
-      const gait = scene.gait === null ? 'no gait' : `${scene.gait.frequency.toFixed(2)} /s`;
-      this.#figures[which].name(scene.scene.split('/').at(-1), `${scene.scheme}, ${scene.particles} particles, ${gait}`);
+      this.#markRun();
+      this.#name(which);
     }
     this.#look.hasWater = this.#views.some(view => view.scene === null || view.scene.fluid[1] > 0);
     if (which === this.#chosen) {
       this.#showControls();
     }
     this.#remember();
+  }
+
+  /** Who swims there: run and generation, or which other gait, and in what. */
+  #name(which) {
+    const {scene, origin} = this.#views[which];
+    const place = scene.scene.split('/').at(-1);
+    const figures = [scene.scheme, ...scene.actuators > 0 ? [`${scene.gait.frequency.toFixed(2)} beats/s`] : [],
+      `${scene.particles} particles`];
+    if (origin !== null) {
+      this.#figures[which].name(`${origin.run}, generation ${origin.generation}`, [place, ...figures].join(', '));
+    } else {
+      const published = this.#setup.gaits?.[scene.scene] ?? null;
+      const gait = scene.actuators === 0 ? '' : isSameGait(scene.gait, published) ? ', published gait' : ', gait of your own';
+      this.#figures[which].name(place + gait, figures.join(', '));
+    }
+  }
+
+  /** The list of a run marks what swims in the chosen view; what swims is named by the run if it is of it. */
+  #markRun() {
+    this.#views.forEach((view, which) => {
+      const found = view.scene === null ? null : this.#runs.find(view.scene, view.origin);
+      if (found !== null && view.origin === null) {
+        view.setOrigin(found);
+        this.#name(which);
+      }
+      if (which === this.#chosen) {
+        this.#runs.mark(found?.generation ?? null);
+      }
+    });
   }
 
   /** Two pictures of water have one scale, over both. */
@@ -227,9 +267,14 @@ class Page {
     }
   }
 
-  #banner(text, isBad) {
+  #banner(text, isBad, again = null) {
     byId('banner').dataset.kind = isBad ? 'bad' : 'note';
     byId('banner-text').textContent = text;
+    byId('banner-again').hidden = again === null;
+    byId('banner-again').onclick = () => {
+      byId('banner').hidden = true;
+      again();
+    };
     byId('banner').hidden = false;
   }
 
@@ -255,19 +300,26 @@ class Page {
   }
 
   step() {
+    if (this.#views.length > 1) {
+      this.#lockstep.wanted++;
+      return this.#all(view => view.pause(), 'transport-error');
+    }
     return this.#all(view => view.step(), 'transport-error');
   }
 
-  /** All back to the start; two views leave it together. */
-  async reset() {
-    const wasPaused = this.#views[0].isPaused;
-    if (this.#views.length === 2 && !wasPaused) {
-      await Promise.all(this.#views.map(view => view.pause()));
-      await this.#all(view => view.reset(), 'transport-error');
-      await this.#all(view => view.run(), 'transport-error');
-      return;
+  /** All back to the start. */
+  reset() {
+    return this.#views.length > 1 ? this.#lockstep.reset(this.#views)
+        : this.#all(view => view.reset(), 'transport-error');
+  }
+
+  /** After a step of two views: where one cannot go on, neither does. */
+  #stepped(error) {
+    byId('transport-error').textContent = error ?? '';
+    if (error !== null && this.#views.every(view => view.isReady)) {
+      this.#views.forEach(view => view.pause());
+      this.#showRun();
     }
-    await this.#all(view => view.reset(), 'transport-error');
   }
 
   setRate(value) {
@@ -304,20 +356,52 @@ class Page {
     this.#showControls();
   }
 
+  /**
+   * Shows the best of a generation in the chosen view, or beside what swims in the first one: if that is the same, beside
+   * what swam there before the generations were browsed.
+   *
+   * @returns {Promise<string|null>} why not, or null
+   */
   async #watch(run, best, beside) {
-    if (beside && this.#views.length === 1) {
-      await this.toggleCompare({scene: run.scene, overrides: run.overrides, gait: best.gait, rate: this.#view.setting.rate});
+    const swim = {scene: run.scene, overrides: run.overrides, gait: best.gait,
+      origin: {run: run.name, generation: best.generation, gait: best.gait}};
+    if (!beside) {
+      if (this.#chosen === 0 && !isSameSwim(this.#view.setting, this.#browsed?.last)) {
+        this.#browsed = {before: this.#view.setting};
+      }
+      const error = await this.#swim(this.#view, swim);
+      if (this.#chosen === 0 && error === null) {
+        this.#browsed = {...this.#browsed, last: swim};
+      }
+      return error;
+    }
+    const [first, second] = this.#views;
+    if (isSameSwim(first.setting, swim)) {
+      const before = this.#browsed?.before;
+      if (before === undefined || isSameSwim(before, swim)) {
+        return 'This gait swims already: choose another generation first.';
+      }
+      this.#browsed = null;
+      const error = await this.#swim(first, before);
+      if (error !== null) {
+        return error;
+      }
+    }
+    if (second === undefined) {
+      this.toggleCompare({...swim, rate: first.setting.rate, paused: first.isPaused});
       return null;
     }
-    const view = beside ? this.#views[1] : this.#view;
-    const {scene} = view;
-    const isSame = scene !== null && scene.scene === run.scene
-        && JSON.stringify(scene.overrides ?? {}) === JSON.stringify(run.overrides ?? {});
-    const error = isSame ? await view.setGait(best.gait) : await view.setScene(run.scene, run.overrides, best.gait);
-    if (error === null && isSame) {
+    return this.#swim(second, swim);
+  }
+
+  async #swim(view, {scene, overrides, gait, origin = null}) {
+    const isHere = view.scene !== null && view.scene.scene === scene && isSamePatch(view.scene.overrides, overrides);
+    const error = isHere && gait !== null ? await view.setGait(gait, origin)
+        : await view.setScene(scene, overrides, gait, origin);
+    if (error === null && isHere) {
       await this.reset();
     }
-    return error;
+    return typeof error === 'string' ? error : null;
   }
 
   async #loadGait(file) {
@@ -383,6 +467,19 @@ class Page {
       ['?', 'this list', () => byId('help').showModal()],
     ]);
   }
+}
+
+/** Whether two patches, of which either may be null, say the same, in whatever order. */
+function isSamePatch(one, other) {
+  const sorted = (key, value) => value !== null && typeof value === 'object' && !Array.isArray(value)
+      ? Object.fromEntries(Object.entries(value).sort(([a], [b]) => a < b ? -1 : 1)) : value;
+  return JSON.stringify(one ?? {}, sorted) === JSON.stringify(other ?? {}, sorted);
+}
+
+/** Whether two settings (scene, overrides, gait), of which the second may be absent, are the same swim. */
+function isSameSwim(one, other) {
+  return other !== undefined && one.scene === other.scene && isSamePatch(one.overrides, other.overrides)
+      && isSameGait(one.gait, other.gait);
 }
 
 /** Figures of what is shown, to be read by tests: of the first view, or of `views[1]`. */

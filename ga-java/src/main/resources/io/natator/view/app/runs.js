@@ -2,23 +2,29 @@
 
 import {FitnessChart, chartColours} from './charts.js';
 import {byId, fillSelect} from './element.js';
+import {isSameGait} from './gait.js';
 
 /** The fitness curve; a click or the arrow keys choose a generation. */
 export class RunBrowser {
   #onWatch;
+  #onSettled;
   #canvas = byId('chart-fitness');
   #chart = new FitnessChart(this.#canvas);
   #run = null;
   #best = null;
-  #compared = null;
+  #pending = 0;
 
-  /** `onWatch(run, best, beside)` shows a gait; a promise of an error or null. */
-  constructor(runs, onWatch) {
+  /** `onWatch(run, best, beside)` shows a gait; a promise of an error or null. `onSettled()` is to mark what swims. */
+  constructor(runs, onWatch, onSettled) {
     this.#onWatch = onWatch;
+    this.#onSettled = onSettled;
     byId('runs-none').hidden = runs.length > 0;
     byId('runs').hidden = runs.length === 0;
     fillSelect(byId('run-choice'), runs.map(({id, name}) => [id, name]));
-    byId('run-choice').addEventListener('change', event => this.load(event.target.value));
+    byId('run-choice').addEventListener('change', async event => {
+      await this.load(event.target.value);
+      this.#onSettled();
+    });
     byId('run-watch').addEventListener('click', () => this.#watch(false));
     byId('run-compare').addEventListener('click', () => this.#watch(true));
     this.#canvas.addEventListener('click', event => {
@@ -31,11 +37,11 @@ export class RunBrowser {
 
   /** What was chosen, to be remembered. */
   get choice() {
-    return this.#run === null ? null : {run: this.#run.id, generation: this.#best?.generation ?? null};
+    return this.#run === null ? null : {run: this.#run.id};
   }
 
-  /** Reads a run and shows its curve; the last generation is chosen unless another is given. */
-  async load(id, generation = null) {
+  /** Reads a run and shows its curve. */
+  async load(id) {
     byId('run-error').textContent = '';
     try {
       const answer = await fetch(`/api/runs/${encodeURIComponent(id)}`);
@@ -50,15 +56,37 @@ export class RunBrowser {
     byId('run-choice').value = id;
     const {scene, optimizer, seed, generations} = this.#run;
     byId('run-facts').textContent = `${scene}, ${optimizer}, seed ${seed}, ${generations.length} generations`;
-    this.#compared = null;
-    this.#choose(generation === null ? this.#run.bests.at(-1) ?? null : this.#nearest(generation));
+    this.#choose(null);
+  }
+
+  /**
+   * Where a scene's (SCEN) gait is from, if it is of this run and in its scene; `origin` is what is known of that.
+   *
+   * @returns {{run: string, generation: number}|null} of several generations the last one, unless `origin` says which
+   */
+  find(scene, origin) {
+    if (this.#run === null || scene.scene !== this.#run.scene && origin?.run !== this.#run.name) {
+      return null;
+    }
+    const {name, bests} = this.#run;
+    const found = bests.filter(best => isSameGait(best.gait, scene.gait));
+    const known = origin?.run === name ? found.find(best => best.generation === origin.generation) : undefined;
+    const best = known ?? found.at(-1);
+    return best === undefined ? null : {run: name, generation: best.generation};
+  }
+
+  /** Marks the generation that swims, null for none; while another one is to swim, that stays marked. */
+  mark(generation) {
+    if (this.#pending === 0 && this.#run !== null && generation !== (this.#best?.generation ?? null)) {
+      this.#choose(generation === null ? null : this.#nearest(generation));
+    }
   }
 
   /** Draws the curve anew, as after a change of colours. */
   draw() {
     if (this.#run !== null && this.#canvas.clientWidth > 0) {
       this.#chart.colours = chartColours(this.#canvas);
-      this.#chart.draw(this.#run.generations, this.#run.bests, this.#best?.generation ?? null, this.#compared);
+      this.#chart.draw(this.#run.generations, this.#run.bests, this.#best?.generation ?? null, null);
     }
   }
 
@@ -94,7 +122,8 @@ export class RunBrowser {
     this.#best = best;
     byId('run-watch').disabled = best === null;
     byId('run-compare').disabled = best === null;
-    const text = best === null ? 'No gait of this run is known yet.'
+    const text = best === null && this.#run.bests.length === 0 ? 'No gait of this run is known yet.'
+        : best === null ? 'What swims is not of this run. Click a generation, or choose with the arrow keys.'
         : `Generation ${best.generation}: best gait, fitness ${best.fitness.toFixed(4)}`;
     byId('run-chosen').textContent = text;
     this.#canvas.setAttribute('aria-valuemax', this.#run.generations.at(-1)?.generation ?? 0);
@@ -107,10 +136,9 @@ export class RunBrowser {
     if (this.#best === null) {
       return;
     }
-    if (beside) {
-      this.#compared = this.#best.generation;
-      this.draw();
-    }
+    this.#pending++;
     byId('run-error').textContent = await this.#onWatch(this.#run, this.#best, beside) ?? '';
+    this.#pending--;
+    this.#onSettled();
   }
 }

@@ -10,10 +10,19 @@ export class Slider {
   #error;
   #onChange;
   #pending = 0;
+  #label;
+  #expected;
 
-  /** `setting` has id, label, min, max, step; numbers beyond min and max can be typed, and are for others to refuse. */
+  /**
+   * `setting` has id, label, min, max, step, unit if there is one, and the range `accepts` of what can be typed if that is
+   * wider than the slider's. What is beyond it is not sent: it stays in its field, marked, with what was expected, until
+   * the setting is changed or shown anew.
+   */
   constructor(setting, error, onChange) {
-    const {id, label, min, max, step} = setting;
+    const {id, label, min, max, step, unit, accepts = [min, max]} = setting;
+    this.#label = label;
+    const [low, high] = accepts;
+    this.#expected = {low, high, text: `${low} to ${high}${unit === undefined ? '' : ` ${unit}`}`};
     const shared = {min, max, step, 'aria-label': label};
     this.#range = make('input', {type: 'range', ...shared, 'data-testid': id});
     this.#number = make('input', {type: 'number', ...shared, step: 'any', id, 'data-testid': `${id}-number`});
@@ -47,8 +56,9 @@ export class Slider {
 
   async #changed(text) {
     const value = Number(text);
-    if (text === '' || !Number.isFinite(value)) {
-      this.#fail('expected a number');
+    const {low, high, text: expected} = this.#expected;
+    if (text === '' || !Number.isFinite(value) || value < low || value > high) {
+      this.#fail(`${this.#label}: ${text === '' ? 'no number' : `${text} is not used`}; expected ${expected}`);
       return;
     }
     this.#range.value = value;

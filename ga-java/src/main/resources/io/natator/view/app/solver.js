@@ -9,13 +9,16 @@ const DEFAULTS = {
 };
 
 const SETTINGS = [
-  {id: 'substeps', label: 'Substeps', title: 'per frame of 1/60 s', min: 1, max: 16, step: 1},
-  {id: 'numIterations', label: 'Iterations', title: 'per substep', min: 1, max: 16, step: 1},
-  {id: 'viscosity', label: 'Viscosity', title: 'of the fluid; no unit', min: 0, max: 60, step: 0.5},
-  {id: 'particleFriction', label: 'Friction', title: 'between particles: particleFriction', min: 0, max: 1, step: 0.01},
-  {id: 'dynamicFriction', label: 'Wall friction', title: 'with the walls: dynamicFriction', min: 0, max: 1, step: 0.01},
-  {id: 'damping', label: 'Damping', title: '1/s', min: 0, max: 10, step: 0.1},
-  {id: 'gravity', label: 'Gravity', title: 'downwards, length/s²', min: 0, max: 20, step: 0.1},
+  {id: 'substeps', label: 'Substeps', title: 'per frame of 1/60 s', min: 1, max: 16, step: 1, accepts: [1, 1000]},
+  {id: 'numIterations', label: 'Iterations', title: 'per substep', min: 1, max: 16, step: 1, accepts: [1, 1000]},
+  {id: 'viscosity', label: 'Viscosity', title: 'of the fluid', min: 0, max: 60, step: 0.5, accepts: [0, 10000]},
+  {id: 'particleFriction', label: 'Friction', title: 'between particles: particleFriction', min: 0, max: 1, step: 0.01,
+    accepts: [0, 100]},
+  {id: 'dynamicFriction', label: 'Wall friction', title: 'with the walls: dynamicFriction', min: 0, max: 1, step: 0.01,
+    accepts: [0, 100]},
+  {id: 'damping', label: 'Damping', title: '1/s', unit: '/s', min: 0, max: 10, step: 0.1, accepts: [0, 1000]},
+  {id: 'gravity', label: 'Gravity', title: 'downwards, length/s²', unit: 'length/s²', min: 0, max: 20, step: 0.1,
+    accepts: [-1000, 1000]},
 ];
 
 /** Overrides without those that are set here, so that the scene's own hold. */

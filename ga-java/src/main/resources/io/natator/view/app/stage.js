@@ -15,6 +15,9 @@ export const DEFAULT_LOOK = {
   drawing: 'auto',
 };
 
+/** Drawings of the screen after which a picture that rests is drawn again with all its pixels. */
+const REST = 10;
+
 /** Draws into an element when there is something new, and else does nothing. */
 export class Stage {
   #host;
@@ -32,6 +35,8 @@ export class Stage {
   #centre = [0, 0, 0];
   #last = 0;
   #isNew = true;
+  #rested = 0;
+  #isRefined = false;
   #share = 0;
   #width = 0;
   #height = 0;
@@ -41,7 +46,9 @@ export class Stage {
     this.#host = host;
     this.rig = new CameraRig(host);
     this.#field.onRange = range => this.onRange(range);
-    new ResizeObserver(() => this.#resized()).observe(host);
+    new ResizeObserver(() => {
+      this.#isNew = true;
+    }).observe(host);
   }
 
   /** Called with the ends of the water's colour scale. */
@@ -90,7 +97,6 @@ export class Stage {
     this.#choosePicture();
     this.#picture.setLook(this.#look);
     this.#quality.rest();
-    this.#resized();
     this.#isNew = true;
   }
 
@@ -102,34 +108,43 @@ export class Stage {
   }
 
   /**
-   * Draws if the frame, the camera or the look changed.
+   * Draws if the frame, the camera or the look changed. What rests is drawn once more with all its pixels.
    *
    * @param {number} now milliseconds
+   * @param {boolean} isPaused whether no frame is to come
    * @returns {boolean} whether it drew
    */
-  draw(now) {
+  draw(now, isPaused) {
     const seconds = Math.min((now - this.#last) / 1000, 0.1);
     this.#last = now;
-    if (this.#frame === null || this.#width === 0) {
+    if (this.#frame === null || this.#host.clientWidth === 0 || this.#host.clientHeight === 0) {
       return false;
     }
     const {body} = this.#scene;
     this.rig.setBody(body.length > 0 ? centreOf(body, this.#frame.position, this.#centre) : null);
-    this.rig.update(seconds, this.#width / this.#height);
-    if (!this.#isNew && !this.rig.hasMoved) {
+    this.rig.update(seconds, this.#host.clientWidth / this.#host.clientHeight);
+    const isChanged = this.#isNew || this.rig.hasMoved;
+    this.#rested = isChanged ? 0 : this.#rested + 1;
+    const isRefining = isPaused && this.#rested >= REST && this.#look.quality === 'auto' && this.#share < 1;
+    if (!isChanged) {
       this.#quality.rest();
+    }
+    if (!isChanged && !isRefining) {
       return false;
     }
+    this.#isRefined = isRefining;
     this.#isNew = false;
     this.rig.hasMoved = false;
     const {camera} = this.rig;
     camera.updateMatrixWorld();
     const from = this.#look.cut ? this.rig.depthOfBody(camera.getWorldDirection(this.#forward)) : -Infinity;
+    // A new size empties the canvas: only here, where it is drawn at once.
+    this.#fit();
     const began = performance.now();
     this.#picture.draw(this.#frame, camera, from);
     const milliseconds = this.#picture.isDoneAtOnce ? performance.now() - began : Infinity;
-    if (this.#look.quality === 'auto' && this.#quality.drawn(now / 1000, milliseconds)) {
-      this.#resized();
+    if (this.#look.quality === 'auto' && isChanged && this.#quality.drawn(now / 1000, milliseconds)) {
+      this.#isNew = true;
     }
     return true;
   }
@@ -163,19 +178,16 @@ export class Stage {
     }
   }
 
-  #resized() {
+  /** Gives the canvas the size and detail that hold now. */
+  #fit() {
     const width = this.#host.clientWidth;
     const height = this.#host.clientHeight;
-    const share = this.#look.quality === 'auto' ? this.#quality.share : Number(this.#look.quality);
-    const isSame = width === this.#width && height === this.#height && share === this.#share;
-    if (width === 0 || height === 0 || this.#picture === null) {
-      this.#width = 0;
-    } else if (!isSame) {
+    const share = this.#look.quality !== 'auto' ? Number(this.#look.quality) : this.#isRefined ? 1 : this.#quality.share;
+    if (width !== this.#width || height !== this.#height || share !== this.#share) {
       this.#width = width;
       this.#height = height;
       this.#share = share;
       this.#picture.setSize(width, height, share, this.rig.camera.fov);
-      this.#isNew = true;
     }
   }
 }

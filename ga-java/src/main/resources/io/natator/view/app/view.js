@@ -4,6 +4,7 @@ import {Connection} from './connection.js';
 import {History} from './history.js';
 import {Live} from './live.js';
 import {Meter} from './meter.js';
+import {isSameGait} from './gait.js';
 import {decodeFrame, sceneNumber} from './protocol.js';
 import {Stage} from './stage.js';
 
@@ -14,7 +15,10 @@ const VACUUM_PATCH = {
   fluid: null, planes: [], solver: {gravity: [0, 0, 0]}, stopping: {planeContact: false, noProgressAfter: 0},
 };
 
-/** Calls `handlers`: scene(), status(state, text), notice(text, isBad), range(ends). */
+/**
+ * Calls `handlers`: scene(), status(state, text), notice(text, isBad, again), range(ends); `again` is what a button does
+ * that starts anew, where that is left to the user.
+ */
 export class View {
   #connection;
   #handlers;
@@ -23,6 +27,10 @@ export class View {
   #setting;
   #known;
   #fallback;
+  #isLed = false;
+  #firstScene = Infinity;
+  #isFresh = false;
+  #isNew = false;
 
   /** SCEN of what runs, or null. */
   scene = null;
@@ -34,7 +42,7 @@ export class View {
 
   /**
    * @param {HTMLElement} host what the picture fills
-   * @param {object} setting scene, overrides, gait, rate, paused: how to begin
+   * @param {object} setting scene, overrides, gait, rate, paused: how to begin; origin: where the gait is from, or absent
    * @param {object} fallback scene, overrides, gait: what to show if that is refused
    * @param {string[]} known names of scenes
    */
@@ -86,34 +94,68 @@ export class View {
     return this.#connection.isOpen;
   }
 
-  /** Takes the next frame, if there is one, and draws. `now` in milliseconds. */
-  tick(now) {
-    const buffer = this.#connection.takeFrame();
-    const isNew = buffer !== null && this.scene !== null && sceneNumber(buffer) === this.scene.number;
-    if (isNew) {
-      this.frame = decodeFrame(buffer, this.scene);
-      this.stage.setFrame(this.frame);
-      this.history.add(this.frame, this.scene.bodyLength, this.scene.gait?.frequency ?? 0);
+  /** Whether it shows a frame of what runs now. */
+  get isReady() {
+    return this.isConnected && this.#isFresh;
+  }
+
+  /** Whether it is led step by step, beside others, and does not run by itself; see `Lockstep`. */
+  get isLed() {
+    return this.#isLed;
+  }
+
+  set isLed(value) {
+    this.#isLed = value;
+    if (this.scene !== null && !this.isPaused) {
+      this.#connection.send({do: value ? 'pause' : 'run'});
     }
-    if (this.stage.draw(now) && isNew) {
+  }
+
+  /** Takes the next frame if there is one; all of them if it is led: the last one is shown. */
+  receive() {
+    while (this.#take() && this.#isLed) {
+      // On to the last one.
+    }
+  }
+
+  /** Draws what is new; `now` in milliseconds. */
+  draw(now) {
+    if (this.stage.draw(now, this.isPaused) && this.#isNew) {
       this.#meter.drawn(this.frame.time);
     }
+    this.#isNew = false;
     this.#meter.update(now);
+  }
+
+  /** Takes over the next frame, if there is one; those before the last start are left out. */
+  #take() {
+    for (let buffer = this.#connection.takeFrame(); buffer !== null; buffer = this.#connection.takeFrame()) {
+      if (this.scene !== null && sceneNumber(buffer) >= this.#firstScene) {
+        this.frame = decodeFrame(buffer, this.scene);
+        this.#isFresh = true;
+        this.#isNew = true;
+        this.stage.setFrame(this.frame);
+        this.history.add(this.frame, this.scene.bodyLength, this.scene.gait?.frequency ?? 0);
+        return true;
+      }
+    }
+    return false;
   }
 
   run() {
     this.#setting.paused = false;
-    return this.#connection.send({do: 'run'});
+    return this.#isLed ? Promise.resolve(null) : this.#connection.send({do: 'run'});
   }
 
   pause() {
     this.#setting.paused = true;
-    return this.#connection.send({do: 'pause'});
+    return this.#isLed ? Promise.resolve(null) : this.#connection.send({do: 'pause'});
   }
 
-  step() {
-    this.#setting.paused = true;
-    return this.#connection.send({do: 'step', frames: 1});
+  /** Goes so many frames on; what is not led pauses then. */
+  step(frames = 1) {
+    this.#setting.paused = this.#setting.paused || !this.#isLed;
+    return this.#connection.send({do: 'step', frames});
   }
 
   reset() {
@@ -126,7 +168,9 @@ export class View {
     return this.#live.submit('rate', {do: 'rate', value});
   }
 
-  setGait(gait) {
+  /** Another gait; `origin` is {run, generation} of where it is from, if that is known. */
+  setGait(gait, origin = null) {
+    this.#setting.origin = origin === null ? null : {...origin, gait};
     return this.#live.submit('gait', {do: 'gait', gait});
   }
 
@@ -135,8 +179,9 @@ export class View {
     return this.#live.submit(`overrides ${key}`, {do: 'overrides', overrides});
   }
 
-  /** Another scene from its start; gait null for none. */
-  setScene(scene, overrides, gait) {
+  /** Another scene from its start; gait null for none, with its `origin` if that is known. */
+  setScene(scene, overrides, gait, origin = null) {
+    this.#setting.origin = origin === null ? this.#setting.origin : {...origin, gait};
     return this.#connection.send({
       do: 'scene', scene, ...(overrides === null ? {} : {overrides}), ...(gait === null ? {} : {gait}),
     });
@@ -159,6 +204,24 @@ export class View {
     return this.setScene(scene, isVacuum ? patch : kept, gait);
   }
 
+  /** Run and generation that the gait is from, if it is still that gait; else null. */
+  get origin() {
+    const {origin} = this.#setting;
+    return origin && isSameGait(origin.gait, this.scene === null ? this.#setting.gait : this.scene.gait) ? origin : null;
+  }
+
+  /** Notes where the present gait is from. */
+  setOrigin({run, generation}) {
+    this.#setting.origin = {run, generation, gait: this.scene.gait};
+  }
+
+  /** Begins anew after the simulator was lost for good. */
+  startAgain() {
+    if (this.isConnected) {
+      this.#connection.begin();
+    }
+  }
+
   /** Ends the connection and with it the simulator. */
   close() {
     this.#connection.close();
@@ -167,7 +230,7 @@ export class View {
   #start() {
     const {scene, overrides, gait, rate, paused} = this.#setting;
     this.#sendRateSoon(rate);
-    return {do: 'start', scene, overrides, gait, options: {paused}};
+    return {do: 'start', scene, overrides, gait, options: {paused: paused || this.#isLed}};
   }
 
   #sendRateSoon(rate) {
@@ -175,6 +238,7 @@ export class View {
   }
 
   #status(state, text) {
+    this.#isFresh = this.#isFresh && state === 'open';
     this.#handlers.status(state, text);
   }
 
@@ -183,6 +247,8 @@ export class View {
     this.scene = scene;
     this.#setting = {...this.#setting, scene: scene.scene, overrides: scene.overrides, gait: scene.gait};
     if (isOther) {
+      this.#firstScene = scene.number;
+      this.#isFresh = false;
       this.history.clear();
       this.analysis = null;
     }
@@ -210,10 +276,12 @@ export class View {
   }
 
   #lost(lost) {
-    this.#handlers.notice(`The simulator was lost: ${lost.reason}.${lost.restarted ? ' It was started again.' : ''}`, true);
+    this.#isFresh = false;
+    this.#handlers.notice(`The simulator was lost: ${lost.reason}.${lost.restarted ? ' It was started again.' : ''}`, true,
+        lost.restarted ? null : () => this.startAgain());
     if (lost.restarted) {
       this.#sendRateSoon(this.#setting.rate);
-      if (this.#setting.paused) {
+      if (this.#setting.paused || this.#isLed) {
         this.#connection.send({do: 'pause'});
       }
     }

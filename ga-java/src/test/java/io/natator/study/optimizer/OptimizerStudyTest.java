@@ -44,7 +44,7 @@ class OptimizerStudyTest {
     private boolean run(OptimizerStudy study, int atOnce, int evaluations) throws InterruptedException {
         Path simulator = folder.resolve("fake-simulator.sh");
         ExecutionSettings execution = new ExecutionSettings(
-                Files.exists(simulator) ? simulator : FakeSimulator.in(folder), 2, Duration.ofSeconds(9));
+                Files.exists(simulator) ? simulator : FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
         AtomicInteger left = new AtomicInteger(evaluations);
         try (Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
             Runnable stop = evaluator::close;

@@ -47,7 +47,7 @@ class ThesisStudyTest {
     private int measure(ThesisStudy study) throws InterruptedException {
         Path fake = folder.resolve("fake-simulator.sh");
         ExecutionSettings execution = new ExecutionSettings(Files.exists(fake) ? fake : FakeSimulator.in(folder), 2,
-                Duration.ofSeconds(9));
+                Duration.ofMinutes(5));
         AtomicInteger count = new AtomicInteger();
         try (Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
             study.measure(evaluator, execution, count::incrementAndGet);
@@ -78,7 +78,7 @@ class ThesisStudyTest {
     /** What is recorded is what the simulator does; the report has it, and leaves out what is not there. */
     @Test
     void reportsOnWhatIsThere() throws IOException, InterruptedException {
-        ExecutionSettings execution = new ExecutionSettings(SIMULATOR, 2, Duration.ofSeconds(60));
+        ExecutionSettings execution = new ExecutionSettings(SIMULATOR, 2, Duration.ofMinutes(5));
         ThesisData data = ThesisData.load();
         Catalogue catalogue = new Catalogue(data, List.of(), DURATION, folder);
         Experiment experiment = catalogue.speeds(data.gait("2"), Scheme.FLEX).get(0);
