@@ -72,6 +72,7 @@ final class ViewCommand implements Callable<Integer> {
         ViewSettings settings = new ViewSettings(program, host, port, start(program), runs);
         CountDownLatch told = new CountDownLatch(1);
         PrintWriter out = spec.commandLine().getOut();
+        BackgroundCheck check = null;
         Stopper stopper = new Stopper(told::countDown, null, () -> { });
         try (ViewServer server = new ViewServer(settings)) {
             out.println(server.address());
@@ -79,11 +80,20 @@ final class ViewCommand implements Callable<Integer> {
             if (!noBrowser) {
                 Browser.open(server.address());
             }
+            check = showsStoredGait() ? new BackgroundCheck(runs.get(0), program, spec.commandLine().getErr()) : null;
             told.await();
         } finally {
+            if (check != null) {
+                check.close();
+            }
             stopper.close();
         }
         return ExitCode.OK;
+    }
+
+    /** Whether a run's best gait swims as it did when it was found. */
+    private boolean showsStoredGait() {
+        return !runs.isEmpty() && !choice.isGiven() && gait == null && scheme == null;
     }
 
     private Start start(Path program) throws InterruptedException {
