@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "commands.h"
+#include "commit.h"
 #include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/instruction_set.h"
@@ -28,6 +29,7 @@ ordered_json describe_program() {
         devices.push_back(std::to_string(device.index) + ": " + device.name + ", compute capability " +
                           device.capability + ", " + std::to_string(device.memory >> 20) + " MiB");
     return {{"version", NATATOR_VERSION},
+            {"commit", commit()},
             {"instructionSet", to_string(instruction_set())},
             {"startCache", starts ? starts->folder().string() : "none"},
             {"devices", devices},
@@ -45,6 +47,7 @@ ordered_json describe_scene(const Scene& scene) {
     info["particles"] = model.particles();
     info["fluidParticles"] = static_cast<std::size_t>(model.particles()) - body;
     info["bodyParticles"] = body;
+    info["bodyLength"] = model.body.length;
     info["springs"] = model.springs.size();
     info["clusters"] = model.clusters.size();
     info["planes"] = model.planes.size();

@@ -4,7 +4,9 @@
 #include <new>
 
 #include "commands.h"
+#include "commit.h"
 #include "natator/error.h"
+#include "natator/instruction_set.h"
 
 namespace natator::cli {
 namespace {
@@ -21,7 +23,8 @@ int complain(int status, std::string message) {
 int run_command(int argc, char** argv) {
     CLI::App app("Simulates soft swimmers in a tank of fluid.", "natator-sim");
     app.require_subcommand(1);
-    app.set_version_flag("--version", "natator-sim " NATATOR_VERSION);
+    app.set_version_flag("--version", std::string("natator-sim " NATATOR_VERSION ", commit ") + commit() +
+                                          ", instruction set " + to_string(instruction_set()));
     app.footer(
         "Exit codes: 0 ok, 1 failure, 2 bad usage or input, 3 unstable simulation, 4 no such device.\n"
         "Scenes are names (see `natator-sim info`) or paths ending in .json.");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "child_process.h"
@@ -42,6 +43,7 @@ TEST(InfoTest, DescribesASceneAsJson) {
                            {"particles", 5915},
                            {"fluidParticles", 5660},
                            {"bodyParticles", 255},
+                           {"bodyLength", 1.2},
                            {"springs", 80},
                            {"clusters", 4},
                            {"planes", 5},
@@ -75,6 +77,11 @@ TEST(InfoTest, DescribesTheProgramWithoutAScene) {
     const json info = json::parse(run_simulator({"info", "--json"}).out);
     EXPECT_TRUE(info.at("version").is_string());
     EXPECT_TRUE(info.at("instructionSet").is_string());
+    const std::string commit = info.at("commit");
+    EXPECT_TRUE(std::regex_match(commit, std::regex("unknown|[0-9a-f]{12,40}(-modified)?"))) << commit;
+    const std::string version = run_simulator({"--version"}).out;
+    for (const char* key : {"version", "commit", "instructionSet"})
+        EXPECT_NE(version.find(info[key].get<std::string>()), std::string::npos) << version;
     EXPECT_GE(info.at("scenes").size(), 9u);
     EXPECT_NE(run_simulator({"info"}).out.find("thesis/creature-4-vacuum"), std::string::npos);
 }

@@ -125,7 +125,7 @@ describe() {
         exit 2
         ;;
     esac
-    echo "{\"scene\":\"$1\",\"creature\":\"any\",\"actuators\":$actuators,\"particles\":5950,\"duration\":4.0,\"timeStep\":0.0166,\"substeps\":4,\"iterations\":4}"
+    echo "{\"scene\":\"$1\",\"creature\":\"any\",\"actuators\":$actuators,\"particles\":5950,\"duration\":4.0,\"timeStep\":0.0166,\"substeps\":4,\"iterations\":4,\"bodyLength\":1.2}"
 }
 
 mode=$1
@@ -134,7 +134,7 @@ mode=$1
 case $mode in
 info)
     if [[ $2 = --json ]]; then
-        echo '{"version":"0.1.0","instructionSet":"any","devices":[]}'
+        echo '{"version":"0.1.0","commit":"0123456789ab","instructionSet":"any","devices":[]}'
     elif [[ $* = *--definition* ]]; then
         echo "{\"what\":\"$2 ${*: -1}\"}"
     else

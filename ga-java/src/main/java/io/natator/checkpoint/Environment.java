@@ -1,9 +1,9 @@
 package io.natator.checkpoint;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
-import io.natator.simulator.Digest;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
@@ -15,9 +15,13 @@ import java.time.temporal.ChronoUnit;
  * @param natator         version of this program
  * @param simulator       path of the native program, relative to the working directory
  * @param simulatorSha256 digest of that file
+ * @param version         of the native program's source
+ * @param commit          that it was built from, or {@code unknown}
+ * @param instructionSet  kernels that it uses on this processor
  * @param mode            how evaluations reach the native program
  * @param backend         what it computes on
  * @param device          number of the GPU
+ * @param gpu             its name; null if none is used
  * @param workers         evaluations at the same time
  * @param timeoutSeconds  time limit of an attempt at an evaluation
  * @param java            version of the Java runtime
@@ -25,15 +29,22 @@ import java.time.temporal.ChronoUnit;
  * @param processors      processors available
  * @param started         when this was written
  */
-public record Environment(String natator, String simulator, String simulatorSha256, SimulatorMode mode, Backend backend,
-        int device, int workers, double timeoutSeconds, String java, String system, int processors, String started) {
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record Environment(String natator, String simulator, String simulatorSha256, String version, String commit,
+        String instructionSet, SimulatorMode mode, Backend backend, int device, String gpu, int workers, double timeoutSeconds, String java, String system, int processors, String started) {
 
-    /** The present environment. */
-    public static Environment present(ExecutionSettings execution) {
+    /**
+     * The present environment.
+     *
+     * @throws io.natator.config.InvalidInputException if the simulator cannot be run
+     * @throws InterruptedException                    if the calling thread is interrupted
+     */
+    public static Environment present(ExecutionSettings execution) throws InterruptedException {
+        Program program = Program.at(execution.simulator(), execution.backend(), execution.device());
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
-                Digest.of(execution.simulator()), execution.mode(), execution.backend(), execution.device(),
-                execution.workers(), execution.timeout().toMillis() / 1000.0,
+                program.simulatorSha256(), program.version(), program.commit(), program.instructionSet(), execution.mode(),
+                execution.backend(), execution.device(), program.gpu(), execution.workers(), execution.timeout().toMillis() / 1000.0,
                 Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
                 Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString());

@@ -31,6 +31,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     static final String BEST = "best.json";
     static final String SAVINGS = "savings.json";
     static final String VACUUM = "vacuum.jsonl";
+    static final String ENVIRONMENT = "environment.json";
     static final String EVALUATIONS = "evaluations.jsonl";
 
     private final Path directory;
@@ -154,7 +155,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     /** Writes where and how the run is carried out. */
     public void write(Environment environment) {
-        AtomicFile.write(directory.resolve("environment.json"), Json.document(environment));
+        AtomicFile.write(directory.resolve(ENVIRONMENT), Json.document(environment));
     }
 
     /** Writes what the run did not have to simulate. */
@@ -183,21 +184,26 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     public void generationFinished(EvolutionState state) {
         log.force();
         AtomicFile.write(directory.resolve(CHECKPOINT), Json.document(state));
-        writeResults(state, null);
+        writeResults(state, null, null);
         timings.append(state);
     }
 
     /**
      * Writes what follows from a state.
      *
-     * @param vacuum result of the best gait in vacuum, or null
+     * @param bodyLength of the creature in scene units, or null
+     * @param vacuum     result of the best gait in vacuum, or null
+     * @return the best gait, or null if there is none
      */
-    public void writeResults(EvolutionState state, SimulationResult vacuum) {
+    public BestGait writeResults(EvolutionState state, Double bodyLength, SimulationResult vacuum) {
         AtomicFile.write(directory.resolve("generations.csv"), GenerationTable.csv(state.history()));
-        if (state.best() != null) {
-            BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()), vacuum);
-            AtomicFile.write(directory.resolve(BEST), Json.document(best));
+        if (state.best() == null) {
+            return null;
         }
+        BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()), bodyLength,
+                vacuum);
+        AtomicFile.write(directory.resolve(BEST), Json.document(best));
+        return best;
     }
 
     /** The folder for pictures, made if it is not there. */

@@ -1,10 +1,10 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.StoredRun;
+import io.natator.verdict.Verdict;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.Locale;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
@@ -60,7 +60,7 @@ final class CompareCommand implements Callable<Integer> {
     private static void printRow(int place, List<double[]> curves, PrintWriter out) {
         out.printf("%11d", place);
         for (double[] curve : curves) {
-            out.printf("%12s", curve.length < place ? "" : String.format(Locale.ROOT, "%.4f", curve[place - 1]));
+            out.printf("%12s", curve.length < place ? "" : RunReport.number(curve[place - 1]));
         }
         out.println();
     }
@@ -71,11 +71,11 @@ final class CompareCommand implements Callable<Integer> {
             if (best == null) {
                 out.printf("%d  no gait as yet%n", i + 1);
             } else {
-                out.printf(Locale.ROOT, "%d  distance %.4f, speed %.4f/s%s, f %.4f, a %s, phi %s%n", i + 1,
-                        best.distance(), best.speed(),
+                out.printf("%d  %s%n   distance %s, speed %s units/s%s, f %s, a %s, phi %s%n", i + 1,
+                        Verdict.of(best).text(), RunReport.number(best.distance()), RunReport.number(best.speed()),
                         best.vacuum() == null || best.vacuum().distance() == null ? ""
-                                : String.format(Locale.ROOT, ", in vacuum %.4f/s", best.vacuum().speed()),
-                        best.gait().frequency(), RunReport.row(best.gait().amplitude()),
+                                : ", in vacuum " + RunReport.number(best.vacuum().speed()) + " units/s",
+                        RunReport.number(best.gait().frequency()), RunReport.row(best.gait().amplitude()),
                         RunReport.row(best.gait().phase()));
             }
         }

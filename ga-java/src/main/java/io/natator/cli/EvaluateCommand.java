@@ -1,8 +1,11 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
@@ -13,6 +16,7 @@ import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.TimeLimit;
+import io.natator.verdict.Reproduction;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -68,7 +72,28 @@ final class EvaluateCommand implements Callable<Integer> {
             result = evaluator.evaluate(request);
         }
         spec.commandLine().getOut().println(Json.line(result));
+        warn(result, request, execution);
         return result.status() == SimulationResult.Status.OK ? ExitCode.OK : ExitCode.SOFTWARE;
+    }
+
+    /** If the gait is a run's best and was to do what the run did, but does not. */
+    private void warn(SimulationResult result, SimulationRequest request, ExecutionSettings execution)
+            throws InterruptedException {
+        Path file = Path.of(gait.get(0));
+        Path run = file.getParent() == null ? Path.of(".") : file.getParent();
+        if (!file.endsWith("best.json") || !StoredRun.exists(run)) {
+            return;
+        }
+        EvolutionSettings settings = StoredRun.settings(run);
+        BestGait stored = StoredRun.best(run);
+        if (stored != null && new SimulationRequest(0, SceneOptions.scene(settings.scene()), stored.gait(),
+                settings.duration(), settings.scheme(), settings.overrides()).equals(request)) {
+            String difference = new Reproduction(run, stored, execution.simulator(), execution.backend(),
+                    execution.device()).difference(result);
+            if (difference != null) {
+                spec.commandLine().getErr().println(difference);
+            }
+        }
     }
 
     private Gait gait(int actuators) {

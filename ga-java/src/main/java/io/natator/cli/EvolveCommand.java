@@ -58,8 +58,9 @@ final class EvolveCommand implements Callable<Integer> {
     private SceneChoice choice;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "${sys:natator.preset:-thesis}",
-            description = "Population and generations: quick (24 x 8) or thesis (150 x 100). Default: ${DEFAULT-VALUE}.")
+    @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
+            description = "quick (population 16, 5 generations, scheme conserving, 2 s) or thesis (150, 100, as the scene "
+                    + "has it). Other options change parts of it. Default: ${DEFAULT-VALUE}.")
     private Preset preset;
 
     @Section(Topic.EXTENT)
@@ -137,11 +138,13 @@ final class EvolveCommand implements Callable<Integer> {
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
         Path directory = outputDir != null ? outputDir : freeFolder(settings.scene());
+        Plan plan = new Plan(settings, execution);
         if (dryRun) {
-            new Plan(settings, execution).print(directory, spec.commandLine().getOut());
+            plan.print(directory, spec.commandLine().getOut());
             return ExitCode.OK;
         }
         RunFolder folder = RunFolder.create(directory, settings);
+        plan.print(folder, spec.commandLine().getOut());
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
         return ExitCode.OK;
     }
@@ -174,7 +177,9 @@ final class EvolveCommand implements Callable<Integer> {
                 .withSize(population != null ? population : preset.population(), generations())
                 .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)
                 .withFitness(fitness, vacuumCheck).withBackend(execution.backend())
-                .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides());
+                .withScene(sceneOptions.scheme() != null ? sceneOptions.scheme() : preset.scheme(),
+                        sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
+                        sceneOptions.overrides());
     }
 
     /** With a number of evaluations alone, that is what ends the run. */

@@ -9,8 +9,11 @@ import io.natator.export.Export;
 import io.natator.export.ExportFormat;
 import io.natator.stream.StreamField;
 import io.natator.stream.StreamOptions;
+import io.natator.verdict.Reproduction;
 import java.nio.file.Path;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.TreeSet;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
@@ -105,8 +108,15 @@ final class ExportCommand implements Callable<Integer> {
                 .with(scheme, precision).withFields(List.copyOf(wanted)).withEvery(every);
         Path folder = outputDir != null ? outputDir : swimmer.run() != null
                 ? swimmer.run().resolve("export-" + format.text()) : Path.of(swimmer.name() + "-" + format.text());
+        Map<Long, Double> distances = new HashMap<>();
         Export.Written written = new Export(format, folder, force, !noWater)
-                .write(simulator, options, swimmer.described());
+                .write(simulator, options, swimmer.described(), distances::put);
+        Reproduction stored = swimmer.reproduction(simulator, sceneOptions.overrides(), sceneOptions.scheme(), precision);
+        Double today = stored == null ? null : distances.get(stored.lastFrame());
+        String difference = today == null ? null : stored.difference(today, 0);
+        if (difference != null) {
+            spec.commandLine().getErr().println(difference);
+        }
         spec.commandLine().getOut().printf("%s: %d frames of %d particles of water and %d others%n", folder,
                 written.frames(), written.water(), written.solids());
         return ExitCode.OK;

@@ -12,7 +12,10 @@ import io.natator.share.RecordedSwim;
 import io.natator.share.ReplayPage;
 import io.natator.share.SwimRecorder;
 import io.natator.simulator.SimulationResult;
+import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
+import io.natator.verdict.Reproduction;
+import io.natator.verdict.Verdict;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Comparator;
@@ -119,7 +122,7 @@ final class PageCommand implements Callable<Integer> {
             throw new InvalidInputException("--best is " + best + "; " + source + " knows " + gaits.size() + " gaits");
         }
         return gaits.stream().map(one -> new Swimmer(first.run(), null, first.scene(), first.overrides(), one,
-                first.scheme(), first.duration())).toList();
+                first.scheme(), first.duration(), one.equals(first.gait()) ? first.best() : null)).toList();
     }
 
     private RecordedSwim recorded(Swimmer swimmer, Path simulator) throws InterruptedException {
@@ -128,9 +131,23 @@ final class PageCommand implements Callable<Integer> {
                 swimmer.seconds(sceneOptions.duration(), overrides, simulator))
                 .with(sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme(), null);
         RecordedSwim swim = new SwimRecorder(simulator).record(swimmer.name(), options);
-        double distance = swim.frames().get(swim.frames().size() - 1).distance();
+        StreamFrame last = swim.frames().get(swim.frames().size() - 1);
+        Reproduction stored = swimmer.reproduction(simulator, sceneOptions.overrides(), sceneOptions.scheme());
+        if (stored != null) {
+            warn(stored, swim.frames());
+        }
         String name = swimmer.run() == null ? swimmer.name() : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
-        return new RecordedSwim(name + ": swims " + Numbers.fixed(distance, 3) + " units", swim.scene(), swim.json(),
-                swim.frames());
+        return new RecordedSwim(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
+                + " s", swim.scene(), swim.json(), swim.frames(),
+                stored == null ? null : Verdict.of(swimmer.best()).text());
+    }
+
+    private void warn(Reproduction stored, List<StreamFrame> frames) throws InterruptedException {
+        for (StreamFrame frame : frames) {
+            String difference = frame.frame() == stored.lastFrame() ? stored.difference(frame.distance(), 0) : null;
+            if (difference != null) {
+                spec.commandLine().getErr().println(difference);
+            }
+        }
     }
 }

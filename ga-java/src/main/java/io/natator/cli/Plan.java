@@ -1,7 +1,9 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.GeneRange;
@@ -47,6 +49,23 @@ final class Plan {
         out.printf("  run folder  %s%n", folder);
         printTime(limited, duration, pace.expected(), out);
         out.flush();
+    }
+
+    /**
+     * The same before a run that is to begin whatever comes of it: what fails here will say why when it fails there.
+     *
+     * @param folder closed if this is interrupted
+     */
+    void print(RunFolder folder, PrintWriter out) throws InterruptedException {
+        try {
+            print(folder.directory(), out);
+        } catch (InvalidInputException | IllegalStateException e) {
+            out.println("  time        not known: " + e.getMessage());
+            out.flush();
+        } catch (InterruptedException e) {
+            folder.close();
+            throw e;
+        }
     }
 
     private void printTime(ExecutionSettings limited, double duration, long evaluations, PrintWriter out)

@@ -44,7 +44,11 @@ final class ReportCommand implements Callable<Integer> {
         ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(Backend.CPU), run.settings());
         Path folder = outputDir != null ? outputDir : directory.resolve("report");
         try {
-            spec.commandLine().getOut().println(new GaitReport(run, folder).write(execution));
+            GaitReport report = new GaitReport(run, folder);
+            spec.commandLine().getOut().println(report.write(execution));
+            if (report.difference() != null) {
+                spec.commandLine().getErr().println(report.difference());
+            }
         } catch (IOException e) {
             throw new UncheckedIOException("cannot write the report to " + folder + ": "
                     + FileErrors.reason(folder, e), e);

@@ -55,7 +55,7 @@ final class RunLauncher {
             }
             return;
         }
-        new RunReport(out).print(folder.settings(), outcome);
+        new RunReport(out).print(folder.settings(), outcome.state(), outcome.best(), folder.directory());
         out.println("  run folder  " + folder.directory());
         out.flush();
     }

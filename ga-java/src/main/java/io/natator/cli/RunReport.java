@@ -1,18 +1,20 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.BestGait;
 import io.natator.config.EvolutionSettings;
-import io.natator.encoding.Gait;
+import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
-import io.natator.evolution.Individual;
-import io.natator.run.EvolutionRun;
 import io.natator.simulator.SimulationResult;
+import io.natator.verdict.Verdict;
 import java.io.PrintWriter;
+import java.nio.file.Path;
 import java.util.List;
-import java.util.Locale;
 import java.util.stream.Collectors;
 
 /** The best gait of a run, in words. */
 final class RunReport {
+
+    private static final int DIGITS = 4;
 
     private final PrintWriter out;
 
@@ -20,43 +22,59 @@ final class RunReport {
         this.out = out;
     }
 
-    void print(EvolutionSettings settings, EvolutionRun.Outcome outcome) {
-        EvolutionState state = outcome.state();
-        Individual best = state.best();
+    /**
+     * Prints it.
+     *
+     * @param best   null if no gait was measured
+     * @param folder where the run is
+     */
+    void print(EvolutionSettings settings, EvolutionState state, BestGait best, Path folder) {
         if (best == null) {
             out.println("no gait was measured: all " + state.evaluations() + " evaluations were unstable or failed");
             return;
         }
-        Gait gait = settings.encoding().forActuators(settings.actuators()).decode(best.genes());
-        out.printf(Locale.ROOT, "best gait of %s after %d generations and %d evaluations%n", settings.scene(),
-                state.generation(), state.evaluations());
-        out.printf(Locale.ROOT, "  frequency   %.4f 1/s%n", gait.frequency());
-        out.printf("  amplitude   %s%n", row(gait.amplitude()));
-        out.printf("  phase       %s%n", row(gait.phase()));
-        out.printf(Locale.ROOT, "  distance    %.4f in %.2f s (%s)%n", best.result().distance(),
-                best.result().simulated(), best.result().stopped());
-        if (best.result().vacuumDrift() != null) {
-            out.printf(Locale.ROOT, "  net         %.4f: %.4f of it is drift, by the same time in vacuum%n",
-                    best.result().score(), best.result().vacuumDrift());
+        out.println("best gait of " + settings.scene() + " after " + state.generation() + " generations and "
+                + state.evaluations() + " evaluations");
+        line("frequency", number(best.gait().frequency()) + " 1/s");
+        line("amplitude", row(best.gait().amplitude()));
+        line("phase", row(best.gait().phase()));
+        SimulationResult water = best.result();
+        line("distance", number(water.distance()) + " in " + Numbers.fixed(water.simulated(), 2) + " s ("
+                + water.stopped() + ")");
+        if (water.vacuumDrift() != null) {
+            line("net", number(water.score()) + ": " + number(water.vacuumDrift())
+                    + " of it is drift, by the same time in vacuum");
         }
-        out.printf(Locale.ROOT, "  speed       %.4f units/s%n", best.result().speed());
-        printVacuum(outcome.vacuum());
+        line("speed", number(water.speed()) + " units/s");
+        printVacuum(best.vacuum());
+        Verdict verdict = Verdict.of(best);
+        line("verdict", verdict.text() + " (one run, not a mean)");
+        if (verdict.advice() != null) {
+            line("", verdict.advice());
+        }
+        line("watch it", "natator view --run " + folder);
+        line("share it", "natator page " + folder);
     }
 
     private void printVacuum(SimulationResult vacuum) {
         if (vacuum == null) {
             return;
         }
-        if (vacuum.status() == SimulationResult.Status.OK) {
-            out.printf(Locale.ROOT, "  in vacuum   %.4f in %.2f s, %.4f units/s%n", vacuum.distance(),
-                    vacuum.simulated(), vacuum.speed());
-        } else {
-            out.println("  in vacuum   no result: " + (vacuum.error() != null ? vacuum.error() : vacuum.status()));
-        }
+        line("in vacuum", vacuum.status() == SimulationResult.Status.OK
+                ? number(vacuum.distance()) + " in " + Numbers.fixed(vacuum.simulated(), 2) + " s, "
+                        + number(vacuum.speed()) + " units/s"
+                : "no result: " + (vacuum.error() != null ? vacuum.error() : vacuum.status()));
+    }
+
+    private void line(String name, String value) {
+        out.printf("  %-11s %s%n", name, value);
+    }
+
+    static String number(double value) {
+        return Numbers.fixed(value, DIGITS);
     }
 
     static String row(List<Double> values) {
-        return values.stream().map(value -> String.format(Locale.ROOT, "%.4f", value))
-                .collect(Collectors.joining(" "));
+        return values.stream().map(RunReport::number).collect(Collectors.joining(" "));
     }
 }

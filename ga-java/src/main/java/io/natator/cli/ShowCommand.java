@@ -8,7 +8,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
-import io.natator.run.EvolutionRun;
 import io.natator.simulator.SimulationResult;
 import java.io.PrintWriter;
 import java.nio.file.Path;
@@ -39,8 +38,7 @@ final class ShowCommand implements Callable<Integer> {
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {
-            new RunReport(out).print(run.settings(),
-                    new EvolutionRun.Outcome(run.state(), run.best() == null ? null : run.best().vacuum()));
+            new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
             printSavings(run, out);
         }
         printVacuum(run.vacuum(), out);
@@ -79,8 +77,8 @@ final class ShowCommand implements Callable<Integer> {
         }
         GenerationSummary last = run.state().history().get(run.state().generation());
         long more = run.evaluations().size() - run.state().evaluations();
-        return String.format(Locale.ROOT, "generation %d: best %.4f, mean %.4f, median %.4f; %s", last.generation(),
-                last.best(), last.mean(), last.median(), run.state().isLastOf(run.settings()) ? "finished"
+        return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
+                RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + more + " evaluations of the next; continue by: natator resume "
                                 + run.directory());
     }
@@ -99,9 +97,9 @@ final class ShowCommand implements Callable<Integer> {
 
     private static void printVacuum(List<VacuumRecord> records, PrintWriter out) {
         for (VacuumRecord record : records) {
-            out.printf(Locale.ROOT, "generation %d, evaluation %d: %.4f in %.2f s, in vacuum %s%n",
-                    record.generation(), record.evaluation(), record.distance(), record.simulated(),
-                    record.drift() == null ? "no result" : String.format(Locale.ROOT, "%.4f", record.drift()));
+            out.printf(Locale.ROOT, "generation %d, evaluation %d: %s in %.2f s, in vacuum %s%n",
+                    record.generation(), record.evaluation(), RunReport.number(record.distance()), record.simulated(),
+                    record.drift() == null ? "no result" : RunReport.number(record.drift()));
         }
     }
 

@@ -4,7 +4,9 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
+import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
@@ -12,7 +14,10 @@ import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.simulator.SceneInfo;
+import io.natator.verdict.Reproduction;
 import java.nio.file.Path;
+import java.util.Arrays;
+import java.util.Objects;
 
 /**
  * Who swims where: a run's best gait in its scene, or a scene with or without a gait.
@@ -24,9 +29,10 @@ import java.nio.file.Path;
  * @param gait       or null for a body at rest
  * @param scheme     or null for the scene's own
  * @param duration   of an evaluation in seconds, or null for the scene's own
+ * @param best       what the run has stored of the gait, if it is the best of all; else null
  */
 record Swimmer(Path run, Integer generation, String scene, JsonNode overrides, Gait gait, Scheme scheme,
-        Double duration) {
+        Double duration, BestGait best) {
 
     /**
      * Whom the user named.
@@ -46,12 +52,13 @@ record Swimmer(Path run, Integer generation, String scene, JsonNode overrides, G
             StoredRun run = StoredRun.in(folder);
             EvolutionSettings settings = run.settings();
             return new Swimmer(folder, generation, SceneOptions.scene(settings.scene()), settings.overrides(),
-                    given != null ? given : best(run, generation), settings.scheme(), settings.duration());
+                    given != null ? given : best(run, generation), settings.scheme(), settings.duration(),
+                    given == null && generation == null ? run.best() : null);
         }
         if (generation != null) {
             throw new InvalidInputException("--generation: " + source + " is not a run folder");
         }
-        return new Swimmer(null, null, SceneOptions.scene(source), null, given, null, null);
+        return new Swimmer(null, null, SceneOptions.scene(source), null, given, null, null, null);
     }
 
     private static Gait best(StoredRun run, Integer generation) {
@@ -89,6 +96,17 @@ record Swimmer(Path run, Integer generation, String scene, JsonNode overrides, G
             throw new InvalidInputException("--duration is " + seconds + "; expected a number of seconds above 0");
         }
         return seconds;
+    }
+
+    /**
+     * Whether a program of today repeats what is stored.
+     *
+     * @param changes to the scene, the scheme or the precision by the user: null for none
+     * @return null if nothing that can be compared is stored
+     */
+    Reproduction reproduction(Path simulator, Object... changes) {
+        boolean same = best != null && Arrays.stream(changes).allMatch(Objects::isNull);
+        return same ? new Reproduction(run, best, simulator, Backend.CPU, 0) : null;
     }
 
     /** Its gait as JSON, or null. */

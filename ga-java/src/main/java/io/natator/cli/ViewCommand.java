@@ -81,6 +81,7 @@ final class ViewCommand implements Callable<Integer> {
         ViewSettings settings = new ViewSettings(program, host, port, start(program), runs);
         CountDownLatch told = new CountDownLatch(1);
         PrintWriter out = spec.commandLine().getOut();
+        BackgroundCheck check = null;
         Stopper stopper = new Stopper(told::countDown, null, () -> { });
         try (ViewServer server = new ViewServer(settings)) {
             if (server.isOpenToOthers()) {
@@ -94,22 +95,46 @@ final class ViewCommand implements Callable<Integer> {
             if (!noBrowser) {
                 Browser.open(server.address());
             }
+            Path repeated = repeatedRun();
+            check = repeated == null ? null : new BackgroundCheck(repeated, program, spec.commandLine().getErr());
             told.await();
         } finally {
+            if (check != null) {
+                check.close();
+            }
             stopper.close();
         }
         return ExitCode.OK;
     }
 
+    /** The first run of the scene that was chosen, or the first one if none was; null without any. */
+    private Path shownRun(String scene) {
+        for (Path folder : runs) {
+            if (scene == null || scene.equals(SceneOptions.scene(StoredRun.settings(folder).scene()))) {
+                return folder;
+            }
+        }
+        return null;
+    }
+
+    /** The scene that was chosen; null if the runs tell it. */
+    private String chosenScene() {
+        return runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
+    }
+
+    /** The run whose best gait swims in just the scene in which it was found; null without one. */
+    private Path repeatedRun() {
+        return gait == null && sceneOptions.scheme() == null && sceneOptions.overrides() == null
+                ? shownRun(chosenScene()) : null;
+    }
+
     /** A run's best gait in its scene; without a run, or beside runs of other scenes, the scene that was chosen. */
     private Start start(Path program) throws InterruptedException {
         Gait given = gait == null ? null : GaitFile.read(gait);
-        String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
-        for (Path folder : runs) {
-            EvolutionSettings run = StoredRun.settings(folder);
-            if (scene == null || scene.equals(SceneOptions.scene(run.scene()))) {
-                return start(run, given, StoredRun.best(folder), program);
-            }
+        String scene = chosenScene();
+        Path folder = shownRun(scene);
+        if (folder != null) {
+            return start(StoredRun.settings(folder), given, StoredRun.best(folder), program);
         }
         ObjectNode overrides = Start.patch(sceneOptions.overrides(), sceneOptions.scheme());
         SceneInfo.of(scene, overrides, program);

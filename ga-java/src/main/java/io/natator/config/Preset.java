@@ -1,18 +1,22 @@
 package io.natator.config;
 
-/** Sizes of an evolution that belong together. */
+/** Settings of an evolution that belong together; each can be given by itself too. */
 public enum Preset {
-    /** Some 350 evaluations: a few minutes on two cores. */
-    QUICK(24, 8),
-    /** The thesis' size (2.6): some 22 500 evaluations. */
-    THESIS(150, 100);
+    /** Some 140 evaluations of 2 s, by the scheme in which only swimming pays: about a minute on two cores. */
+    QUICK(16, 5, Scheme.CONSERVING, 2.0),
+    /** The thesis' size (2.6): some 22 500 evaluations, as the scene has it (in the thesis' own: scheme flex, 4 s). */
+    THESIS(150, 100, null, null);
 
     private final int population;
     private final int generations;
+    private final Scheme scheme;
+    private final Double duration;
 
-    Preset(int population, int generations) {
+    Preset(int population, int generations, Scheme scheme, Double duration) {
         this.population = population;
         this.generations = generations;
+        this.scheme = scheme;
+        this.duration = duration;
     }
 
     /** Chromosomes at the start, and selected in each generation. */
@@ -23,5 +27,15 @@ public enum Preset {
     /** Generations bred after the random one. */
     public int generations() {
         return generations;
+    }
+
+    /** How to solve, or null for the scene's own scheme. */
+    public Scheme scheme() {
+        return scheme;
+    }
+
+    /** Simulated time of an evaluation in seconds, or null for the scene's own. */
+    public Double duration() {
+        return duration;
     }
 }

@@ -15,6 +15,7 @@ import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.function.BiConsumer;
 
 /** Simulates a swim once and writes every frame of it as it comes. */
 public final class Export {
@@ -59,14 +60,17 @@ public final class Export {
      * @param simulator the native program
      * @param options   a lossless stream with an end, with positions
      * @param source    further entries of {@code metadata.json}
+     * @param onFrame   told the number and the distance of each frame
      * @throws InvalidInputException if the folder is occupied, or the program refuses the options
      * @throws UncheckedIOException  if a file cannot be written, or the simulation fails; the folder does not appear
      * @throws InterruptedException  if this virtual machine is shutting down
      */
-    public Written write(Path simulator, StreamOptions options, ObjectNode source) throws InterruptedException {
+    public Written write(Path simulator, StreamOptions options, ObjectNode source,
+            BiConsumer<Long, Double> onFrame) throws InterruptedException {
         try (ExportFolder target = ExportFolder.begin(folder, replace);
                 StreamProcess process = new StreamProcess(simulator, options)) {
-            Written written = write(process, target.path(), source.deepCopy().put("every", options.every()));
+            Written written = write(process, target.path(), source.deepCopy().put("every", options.every()),
+                    onFrame);
             target.commit();
             return written;
         } catch (IOException e) {
@@ -74,7 +78,8 @@ public final class Export {
         }
     }
 
-    private Written write(StreamProcess process, Path path, ObjectNode source) throws IOException {
+    private Written write(StreamProcess process, Path path, ObjectNode source, BiConsumer<Long, Double> onFrame)
+            throws IOException {
         process.grant(CREDIT);
         StreamMessage.Scene scene = null;
         Swim swim = null;
@@ -91,6 +96,7 @@ public final class Export {
                     }
                     writer.frame(frame);
                     frames++;
+                    onFrame.accept(frame.frame(), frame.distance());
                     process.grant(1);
                 } else if (message instanceof StreamMessage.Scene first && scene == null) {
                     scene = first;

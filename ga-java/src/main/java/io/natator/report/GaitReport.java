@@ -5,6 +5,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
+import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
@@ -17,6 +18,8 @@ import io.natator.realism.ModeFit;
 import io.natator.realism.Swimming;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
+import io.natator.verdict.Reproduction;
+import io.natator.verdict.Verdict;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -30,7 +33,10 @@ import java.util.stream.Collectors;
 public final class GaitReport {
 
     private final StoredRun run;
+    private static final double ROUNDING = 1e-5;
+
     private final Path folder;
+    private String difference;
 
     /**
      * A report on a run.
@@ -63,9 +69,29 @@ public final class GaitReport {
         Recording recording = Recorded.of(request, duration / 2, execution);
         Page page = new Page(folder, settings.scene() + ", seed " + settings.seed());
         progress(page);
+        Verdict verdict = Verdict.of(run.best());
+        page.text("**" + verdict.text() + "** (one run, not a mean)."
+                + (verdict.advice() == null ? "" : " To go on: " + verdict.advice() + "."));
+        difference = difference(recording, execution);
+        if (difference != null) {
+            page.text(difference + ".");
+        }
         pictures(page, recording);
         numbers(page, recording);
         return page.write("README.md");
+    }
+
+    /** Once written: what today's program did otherwise than the run has stored, on one line; null if nothing. */
+    public String difference() {
+        return difference;
+    }
+
+    private String difference(Recording recording, ExecutionSettings execution) throws InterruptedException {
+        Reproduction stored = new Reproduction(run.directory(), run.best(), execution.simulator(), Backend.CPU, 0);
+        double[][] centres = recording.centres();
+        int last = (int) stored.lastFrame();
+        return last < 0 || last >= centres.length ? null
+                : stored.difference(centres[last][0] - centres[0][0], ROUNDING);
     }
 
     /** The same scene without early stops. */

@@ -2,6 +2,7 @@ package io.natator.run;
 
 import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
+import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Environment;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
@@ -38,10 +39,10 @@ public final class EvolutionRun {
     /**
      * What came of a run.
      *
-     * @param state  after the last generation
-     * @param vacuum what the best gait does in vacuum; null without a best gait
+     * @param state after the last generation
+     * @param best  the best gait with what it does in vacuum, or null if there is none
      */
-    public record Outcome(EvolutionState state, SimulationResult vacuum) {
+    public record Outcome(EvolutionState state, BestGait best) {
     }
 
     /** A run whose folder stays open. */
@@ -115,8 +116,8 @@ public final class EvolutionRun {
 
     private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found,
             List<EvolutionListener> listeners) throws InterruptedException {
-        double duration = settings.duration() != null ? settings.duration()
-                : SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()).duration();
+        SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
+        double duration = settings.duration() != null ? settings.duration() : scene.duration();
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, new SavingsCounter(folder, duration, found)));
         if (settings.vacuumCheck()) {
             all.add(new VacuumCheck(folder, evaluator));
@@ -124,15 +125,14 @@ public final class EvolutionRun {
         all.addAll(listeners);
         Evaluator rewarding = settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
         EvolutionState state = new Evolution(settings, rewarding, all, folder.recorded()).run(folder.checkpoint());
-        SimulationResult vacuum = inVacuum(state.best(), evaluator);
-        folder.writeResults(state, vacuum);
+        BestGait best = folder.writeResults(state, scene.bodyLength(), inVacuum(state.best(), evaluator));
         draw(state);
-        return new Outcome(state, vacuum);
+        return new Outcome(state, best);
     }
 
-    /** What the best gait does without water: a gait that advances there is no swimming. */
+    /** What the best gait does without water in the time that it swam: a gait that advances there is no swimming. */
     private SimulationResult inVacuum(Individual best, Evaluator evaluator) throws InterruptedException {
-        return best == null ? null : VacuumCheck.drift(best, settings, settings.duration(), evaluator);
+        return best == null ? null : VacuumCheck.drift(best, settings, best.result().simulated(), evaluator);
     }
 
     private void draw(EvolutionState state) {

@@ -11,11 +11,18 @@ import java.util.List;
  * @param scene  what stays the same
  * @param json   the scene as the simulator wrote it
  * @param frames from the settled start on, at equal times; at least one, with positions and densities
+ * @param verdict whether it swims, in words, or null
  */
-public record RecordedSwim(String title, StreamScene scene, String json, List<StreamFrame> frames) {
+public record RecordedSwim(String title, StreamScene scene, String json, List<StreamFrame> frames,
+        String verdict) {
 
     /** Copies the list. */
     public RecordedSwim {
         frames = List.copyOf(frames);
+    }
+
+    /** A swim that nobody has judged. */
+    public RecordedSwim(String title, StreamScene scene, String json, List<StreamFrame> frames) {
+        this(title, scene, json, frames, null);
     }
 }

@@ -78,6 +78,9 @@ final class SwimCode {
             frames.add(swim.frames().get(i));
         }
         ObjectNode head = JsonNodeFactory.instance.objectNode();
+        if (swim.verdict() != null) {
+            head.put("verdict", swim.verdict());
+        }
         head.put("title", swim.title()).put("frames", frames.size()).put("scalars", SCALARS);
         head.set("scene", scene());
         ByteArrayOutputStream tables = new ByteArrayOutputStream();

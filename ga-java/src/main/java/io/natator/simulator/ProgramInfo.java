@@ -13,12 +13,13 @@ import java.util.List;
  * What the simulator says about itself ({@code natator-sim info --json}).
  *
  * @param version        version of its source
+ * @param commit         that it was built from, or {@code unknown}; null from a program that does not say
  * @param instructionSet kernels that it uses on this processor
  * @param devices        GPUs, by number
  * @param scenes         names of the scenes that come with it
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
-public record ProgramInfo(@JsonProperty(required = true) String version,
+public record ProgramInfo(@JsonProperty(required = true) String version, String commit,
         @JsonProperty(required = true) String instructionSet, @JsonProperty(required = true) List<String> devices,
         List<String> scenes) {
 

@@ -20,12 +20,13 @@ import java.util.List;
  * @param timeStep   of a frame, in seconds
  * @param substeps   of a frame
  * @param iterations of a substep
+ * @param bodyLength head to tail at rest, in scene units; 0 without a creature, null from a program that does not say
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProperty(required = true) int actuators,
         @JsonProperty(required = true) long particles, @JsonProperty(required = true) double duration,
         @JsonProperty(required = true) double timeStep, @JsonProperty(required = true) int substeps,
-        @JsonProperty(required = true) int iterations) {
+        @JsonProperty(required = true) int iterations, Double bodyLength) {
 
     /**
      * Asks the simulator about a scene.

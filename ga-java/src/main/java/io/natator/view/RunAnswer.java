@@ -7,6 +7,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
+import io.natator.verdict.Verdict;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -24,9 +25,10 @@ import java.util.Map;
  * @param seed        of all random choices
  * @param generations those that are finished
  * @param bests       the best gait of each generation that the folder still knows it of
+ * @param verdict     on the best gait of all, or null if there is none yet
  */
 record RunAnswer(int id, String name, String scene, ObjectNode overrides, OptimizerKind optimizer, long seed,
-        List<Generation> generations, List<Best> bests) {
+        List<Generation> generations, List<Best> bests, Verdict verdict) {
 
     /**
      * A generation.
@@ -53,7 +55,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         EvolutionSettings settings = run.settings();
         List<Generation> generations = generations(run);
         return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
-                settings.seed(), generations, bests(run, generations));
+                settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()));
     }
 
     /** What the page calls a run: its folder, without where that is. */

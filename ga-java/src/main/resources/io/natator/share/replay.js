@@ -165,6 +165,9 @@ class Player {
     const list = numbers => numbers.map(one => one.toFixed(3)).join(', ');
     const perSecond = duration > 0 ? Math.round(10 * (frames - 1) / duration) / 10 : 0;
     const facts = [['Scene', scene.scene], ['Scheme', scene.scheme], ['Frames', `${perSecond} per second`]];
+    if (this.#recording.verdict !== null) {
+      facts.unshift(['Verdict', this.#recording.verdict]);
+    }
     if (gait) {
       facts.push(['Frequency', `${gait.frequency.toFixed(3)} /s`], ['Amplitude', list(gait.amplitude)],
           ['Phase', list(gait.phase)]);

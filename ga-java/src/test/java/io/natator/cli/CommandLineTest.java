@@ -61,8 +61,14 @@ class CommandLineTest {
     void evolvesAndReports() throws IOException {
         assertThat(evolve("run")).as(err.toString()).isZero();
 
-        assertThat(out.toString()).startsWith("best gait of thesis/creature-1 after 3 generations")
-                .contains("frequency", "amplitude", "phase", "distance", "speed", "in vacuum",
+        assertThat(out.toString()).startsWith("thesis/creature-1, jgap (corrected operators), population 8, 3 generations")
+                .contains("  evaluations about 44\n", "  time        at most ",
+                        "best gait of thesis/creature-1 after 3 generations",
+                        // The fake swims in vacuum as it does in water.
+                        "  verdict     does not swim: moves 1.0 times as far in vacuum (one run, not a mean)\n",
+                        "  try --scheme conserving", "natator view --run " + folder.resolve("run"),
+                        "natator page " + folder.resolve("run"),
+                        "frequency", "amplitude", "phase", "distance", "speed", "in vacuum",
                         "run folder  " + folder.resolve("run"));
         assertThat(err.toString().lines()).hasSize(4).allSatisfy(line -> assertThat(line)
                 .matches("generation \\d of 3, mean -?\\d\\.\\d{4}, best -?\\d\\.\\d{4}, evaluations \\d+ of (about )?\\d+, "
@@ -71,6 +77,10 @@ class CommandLineTest {
         assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
         JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
         assertThat(environment.get("simulatorSha256").asText()).matches("[0-9a-f]{64}");
+        assertThat(environment.get("version").asText()).isEqualTo("0.1.0");
+        assertThat(environment.get("commit").asText()).isEqualTo("0123456789ab");
+        assertThat(environment.get("instructionSet").asText()).isEqualTo("any");
+        assertThat(best.get("bodyLength").asDouble()).isEqualTo(1.2);
         assertThat(folder.resolve("run/plots/fitness.png")).isNotEmptyFile();
     }
 
@@ -186,7 +196,8 @@ class CommandLineTest {
         assertThat(lines.get(8)).matches(" {9}32 {12} +\\d\\.\\d{4}");
         JsonNode best = Json.parse(file("long", "best.json"), JsonNode.class);
         assertThat(lines.get(8)).endsWith(String.format(" %.4f", Math.max(best.get("distance").asDouble(), 0)));
-        assertThat(lines).hasSize(11);
+        assertThat(lines.get(9)).isEqualTo("1  does not swim: moves 1.0 times as far in vacuum");
+        assertThat(lines).hasSize(13);
     }
 
     @ParameterizedTest
@@ -207,6 +218,52 @@ class CommandLineTest {
         assertThat(out.toString()).contains("evaluations about 50", "process, 3 at once", "time limit 2m02s each",
                 "run folder  " + folder.resolve("run"), "time        at most ");
         assertThat(folder.resolve("run")).doesNotExist();
+    }
+
+    @Test
+    void withoutOptionsItIsTheQuickPreset() {
+        assertThat(natator("evolve", "--dry-run", "--output-dir", folder.resolve("run").toString())).isZero();
+        assertThat(out.toString()).startsWith("thesis/creature-1, jgap (corrected operators), population 16, 5 generations,")
+                .contains(", scheme conserving, 2.0 s\n", "evaluations about 136\n");
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3")).isZero();
+        assertThat(out.toString()).contains(", scheme flex, 3.0 s\n");
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("evolve", "--dry-run", "--preset", "thesis")).isZero();
+        assertThat(out.toString()).contains("population 150, 100 generations", ", backend cpu\n");
+    }
+
+    @Test
+    void aPlanThatCannotBeTimedDoesNotKeepTheRunFromBeginning() {
+        assertThat(evolve("run", "--scene", "fault/mixed")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("time        not known: a trial evaluation failed: ", "best gait of fault/mixed");
+    }
+
+    @Test
+    void aStoredGaitThatComesOutOtherwiseIsNamed() throws IOException {
+        assertThat(evolve("run")).isZero();
+        Path best = folder.resolve("run/best.json");
+        String[] again = {"evaluate", "--scene", "thesis/creature-1", "--scheme", "conserving", "--duration", "2", "--gait",
+            best.toString()};
+        err.getBuffer().setLength(0);
+        assertThat(natator(again)).isZero();
+        assertThat(err.toString()).isEmpty();
+
+        JsonNode stored = Json.parse(file("run", "best.json"), JsonNode.class);
+        String distance = stored.get("distance").asText();
+        Files.writeString(best, Files.readString(best).replace(distance, "0.1234")
+                .replace(stored.get("result").get("hash").asText(), "00000000deadbeef"));
+        assertThat(natator(again)).isZero();
+        assertThat(err.toString()).isEqualTo(String.format("%s: stored 0.1234, today's program %.4f (the same program: no "
+                + "reason is known)%n", folder.resolve("run"), stored.get("distance").asDouble()));
+
+        err.getBuffer().setLength(0);
+        again[6] = "3";
+        assertThat(natator(again)).isZero();
+        assertThat(err.toString()).as("another simulation").isEmpty();
     }
 
     @Test

@@ -2,6 +2,9 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import io.natator.config.Numbers;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
@@ -54,7 +57,33 @@ class PageCommandTest {
                 .as(err.toString()).isZero();
 
         assertThat(out.toString()).endsWith(", no water\n");
-        assertThat(Files.readString(page).split("class=\"swim\" data-title=\"run: swims ", -1)).hasSize(3);
+        assertThat(Files.readString(page).split("class=\"swim\" data-title=\"run: ", -1)).hasSize(3);
+        assertThat(err.toString()).doesNotContain("stored");
+    }
+
+    @Test
+    void aStoredGaitThatSwimsOtherwiseNowIsNamed() throws IOException {
+        Path run = folder.resolve("run");
+        assertThat(natator("evolve", "--population", "2", "--generations", "0", "--duration", "0.1", "--output-dir",
+                run.toString())).as(err.toString()).isZero();
+        err.getBuffer().setLength(0);
+        double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
+        String[][] again = {
+            {"page", run.toString(), "--no-water", "--output", folder.resolve("page.html").toString()},
+            {"export", run.toString(), "--format", "csv", "--no-water", "--force"}, {"report", run.toString()}};
+        for (String[] command : again) {
+            assertThat(natator(command)).as(err.toString()).isZero();
+        }
+        assertThat(err.toString()).as("today's program made it").isEmpty();
+
+        String best = Files.readString(run.resolve("best.json"));
+        Files.writeString(run.resolve("best.json"), best.replace("\"distance\" : " + swum, "\"distance\" : 0.5521"));
+        for (String[] command : again) {
+            assertThat(natator(command)).as(err.toString()).isZero();
+        }
+        assertThat(err.toString().lines()).hasSize(3).allSatisfy(line -> assertThat(line).startsWith(
+                run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4) + " (the same program: no reason is known)"));
+        assertThat(run.resolve("report/README.md")).content().contains("one run, not a mean", "stored 0.5521");
     }
 
     @Test

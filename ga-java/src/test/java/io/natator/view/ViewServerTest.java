@@ -132,6 +132,7 @@ class ViewServerTest {
         assertThat(answer.get("seed").asInt()).isEqualTo(5);
         assertThat(answer.get("generations")).hasSize(4);
         assertThat(answer.get("bests")).hasSize(4);
+        assertThat(answer.get("verdict").get("text").textValue()).matches("(swims|does not swim|not judged|may swim).*");
         double bestEver = Double.NEGATIVE_INFINITY;
         for (int i = 0; i < 4; i++) {
             JsonNode generation = answer.get("generations").get(i);

@@ -83,7 +83,7 @@ final class Measurements implements AutoCloseable {
 
     /** Digests of the programs that measured, with what they computed on, each once. */
     List<String> programs() {
-        return rows.rows().stream().map(row -> row.program().substring(0, 12) + " on " + row.backend().argument())
+        return rows.rows().stream().map(row -> row.program().substring(0, 12) + "… on " + row.backend().argument())
                 .distinct().toList();
     }
 

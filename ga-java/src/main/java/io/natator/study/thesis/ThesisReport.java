@@ -75,7 +75,8 @@ final class ThesisReport {
                 + each(settings.stream().map(EvolutionSettings::generations)) + " generations, operators "
                 + each(settings.stream().map(one -> Json.line(one.operators()).replace("\"", ""))) + ", on "
                 + each(settings.stream().map(one -> one.backend().argument())) + "."));
-        items.add(findings.measurements().size() + " evaluations measured, by " + each(findings.measurements().programs().stream()) + ".");
+        items.add(findings.measurements().size() + " evaluations measured, by the native program of SHA-256 "
+                + each(findings.measurements().programs().stream()) + ".");
         items.add(findings.motions().size() + " runs recorded with all their particles.");
         return items;
     }

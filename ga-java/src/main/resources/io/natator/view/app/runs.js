@@ -54,7 +54,9 @@ export class RunBrowser {
       return;
     }
     byId('run-choice').value = id;
-    const {scene, optimizer, seed, generations} = this.#run;
+    const {scene, optimizer, seed, generations, verdict} = this.#run;
+    byId('run-verdict').hidden = !verdict;
+    byId('run-verdict').textContent = verdict ? `Best gait ${verdict.text}${verdict.advice ? `; ${verdict.advice}` : ''}.` : '';
     byId('run-facts').textContent = `${scene}, ${optimizer}, seed ${seed}, ${generations.length} generations`;
     this.#choose(null);
   }

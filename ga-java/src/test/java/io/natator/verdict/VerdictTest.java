@@ -1,0 +1,74 @@
+package io.natator.verdict;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.SimulationResult.Status;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+class VerdictTest {
+
+    private static final double LENGTH = 1.25;
+
+    private static SimulationResult result(double distance, String stopped, double simulated, String scheme) {
+        return new SimulationResult(0L, Status.OK, distance, stopped, simulated, 240, scheme, "float",
+                "0123456789abcdef", null, null);
+    }
+
+    /** Distances in scene units; the last line is an old folder, whose vacuum run went on after the wall. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "conserving|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
+        "conserving|0.75|completed|4|-0.001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
+        "conserving|0.06|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves 0.05 body lengths in 4.00 s, less than 0.05",
+        "conserving|-0.001|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves 0.00 body lengths in 4.00 s, less than 0.05",
+        "conserving|-0.75|completed|4|0|4|DOES_NOT_SWIM|does not swim forwards: -0.15 body lengths/s, 0.00 in vacuum",
+        "conserving|0.2|no-progress|3|0|3|DOES_NOT_SWIM|does not swim: comes to rest, no progress at 3.00 s",
+        "conserving|2.5|touched-plane|2|0|2|SWIMS|swims: 1.00 body lengths/s, 0.00 in vacuum, until it touches a wall at 2.00 s",
+        "conserving|0.5|touched-plane|1|0|1|UNPROVEN|not judged: 0.40 body lengths/s, 0.00 in vacuum, until it touches a wall at 1.00 s",
+        "flex|0.75|completed|4|0.01|4|UNPROVEN|may swim: 0.15 body lengths/s, 0.00 in vacuum; no proof, since scheme flex does not keep momentum",
+        "flex|0.75|completed|4|0.3|4|UNPROVEN|may swim: 0.15 body lengths/s, 0.06 in vacuum; moves 0.4 times as far in vacuum",
+        "flex|0.75|completed|4|-0.3|4|UNPROVEN|may swim: 0.15 body lengths/s, -0.06 in vacuum; moves 0.4 times as far in vacuum, the other way",
+        "flex|1.5|completed|4|7.5|4|DOES_NOT_SWIM|does not swim: moves 5.0 times as far in vacuum",
+        "flex|0.6|completed|4|-0.66|4|DOES_NOT_SWIM|does not swim: moves 1.1 times as far in vacuum, the other way",
+        "flex|-0.6|completed|4|-9|4|DOES_NOT_SWIM|does not swim: moves 15 times as far in vacuum",
+        "flex|0.5|touched-plane|1|4|4|DOES_NOT_SWIM|does not swim: moves 2.0 times as fast in vacuum"})
+    void judgesByDistancesTheirSignsAndTheirTimes(String scheme, double water, String stopped, double simulated,
+            double vacuum, double inVacuum, Verdict.Kind kind, String text) {
+        Verdict verdict = Verdict.of(result(water, stopped, simulated, scheme),
+                result(vacuum, "completed", inVacuum, scheme), LENGTH);
+
+        assertThat(verdict.text()).isEqualTo(text);
+        assertThat(verdict.kind()).isEqualTo(kind);
+        assertThat(verdict.advice() == null).isEqualTo(kind == Verdict.Kind.SWIMS);
+    }
+
+    @Test
+    void aCheatIsToldWhatToTry() {
+        assertThat(Verdict.of(result(1.5, "completed", 4, "flex"), result(7.5, "completed", 4, "flex"), LENGTH).advice())
+                .contains("--scheme conserving", "--fitness net");
+        assertThat(Verdict.of(result(0.01, "completed", 4, "conserving"), null, LENGTH).advice())
+                .contains("--generations");
+    }
+
+    @Test
+    void withoutTheBodysLengthSpeedsAreInUnits() {
+        assertThat(Verdict.of(result(0.75, "completed", 4, "conserving"), result(0, "completed", 4, "conserving"), null)
+                .text()).isEqualTo("swims: 0.19 units/s, 0.00 in vacuum");
+    }
+
+    @Test
+    void withoutAResultThereIsNoVerdict() {
+        SimulationResult water = result(0.75, "completed", 4, "conserving");
+        assertThat(Verdict.of(water, null, LENGTH).text())
+                .isEqualTo("not judged: moves at 0.15 body lengths/s; not run in vacuum yet");
+        assertThat(Verdict.of(water, SimulationResult.failed(0, "no answer"), LENGTH).text())
+                .isEqualTo("not judged: moves at 0.15 body lengths/s; no result in vacuum, no answer");
+        SimulationResult unstable = new SimulationResult(0L, Status.UNSTABLE, null, "unstable", 0.5, 30, "flex", "float",
+                null, new SimulationResult.Instability(1, "predict", 0.5), null);
+        assertThat(Verdict.of(unstable, null, LENGTH)).extracting(Verdict::kind, Verdict::text)
+                .containsExactly(Verdict.Kind.UNPROVEN, "not judged: unstable at 0.50 s");
+    }
+}
