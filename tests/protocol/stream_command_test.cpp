@@ -268,8 +268,11 @@ TEST(StreamCommandTest, OverridesDoNotGrowWithoutEnd) {
     std::string error;
     while (accepted < 10 && error.empty()) {
         json overrides;
-        for (int k = 0; k < 10'000; ++k)
-            overrides[std::to_string(accepted) + "-" + std::to_string(k) + std::string(20, 'x')] = nullptr;
+        for (int k = 0; k < 10'000; ++k) {
+            std::string key(20, 'x');
+            key.append(std::to_string(10'000 * accepted + k));
+            overrides[key] = nullptr;
+        }
         const json answer = client.ask({{"do", "overrides"}, {"overrides", overrides}});
         answer.contains("error") ? static_cast<void>(error = answer["error"]) : static_cast<void>(++accepted);
     }
