@@ -1,6 +1,8 @@
 #include "job.h"
 
+#include "natator/cost.h"
 #include "natator/error.h"
+#include "natator/model_builder.h"
 #include "natator/scene_json.h"
 
 namespace natator::cli {
@@ -45,9 +47,13 @@ Evaluation evaluate_job(const Job& job, const Execution& execution) {
     const Request& request = job.request;
     if (!on_gpu(job.backend, job.scene))
         return evaluate(job.scene, job.gait, request.precision, request.perturbation, {}, execution);
-    return evaluate_on_gpu(job.scene, {{job.gait, request.perturbation}}, request.precision, job.backend.device,
-                           nullptr, job.backend.whole_gpu)
-        .front();
+    return evaluate_one_on_gpu(job.scene, {job.gait, request.perturbation}, request.precision, job.backend);
+}
+
+Evaluation evaluate_one_on_gpu(const Scene& scene, const BatchMember& member, Precision precision,
+                               const BackendChoice& backend) {
+    check_evaluation_cost(scene, build_model(scene));
+    return evaluate_on_gpu(scene, {member}, precision, backend.device, nullptr, backend.whole_gpu).front();
 }
 
 }  // namespace natator::cli

@@ -32,7 +32,11 @@ struct ExecutionOptions {
 /// Adds --threads, --no-cache and --no-skip.
 void add_execution_options(CLI::App* command, ExecutionOptions& options);
 
-/// Evaluates one job by itself.
+/// Evaluates one job by itself. Throws what evaluate and evaluate_on_gpu do.
 Evaluation evaluate_job(const Job& job, const Execution& execution);
+
+/// evaluate_on_gpu for one member, if it does not cost too much.
+Evaluation evaluate_one_on_gpu(const Scene& scene, const BatchMember& member, Precision precision,
+                               const BackendChoice& backend);
 
 }  // namespace natator::cli

@@ -80,8 +80,9 @@ void LineQueue::read() {
 /// False when the queue is being destroyed.
 bool LineQueue::add_line(std::string line) {
     std::unique_lock lock(mutex_);
-    room_.wait(lock, [this] { return closing_ || lines_.size() < limits_.lines; });
+    room_.wait(lock, [this] { return closing_ || !full(); });
     if (closing_) return false;
+    bytes_ += line.size();
     lines_.push_back(std::move(line));
     changed_.notify_one();
     return true;
@@ -91,7 +92,7 @@ std::vector<std::string> LineQueue::take(std::size_t most, std::chrono::millisec
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return ended_ || !lines_.empty(); });
     std::size_t seen = 0;
-    while (!ended_ && lines_.size() < most && lines_.size() > seen) {
+    while (!ended_ && lines_.size() < most && lines_.size() > seen && !full()) {
         seen = lines_.size();
         changed_.wait_for(lock, lull, [&] { return ended_ || lines_.size() > seen; });
     }
@@ -121,6 +122,7 @@ bool LineQueue::exhausted() {
 std::vector<std::string> LineQueue::take_locked(std::size_t most) {
     std::vector<std::string> taken;
     while (!lines_.empty() && taken.size() < most) {
+        bytes_ -= lines_.front().size();
         taken.push_back(std::move(lines_.front()));
         lines_.pop_front();
     }

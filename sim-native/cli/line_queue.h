@@ -19,6 +19,7 @@ public:
     struct Limits {
         std::size_t lines = SIZE_MAX;  ///< that wait; no more is read while they do
         std::size_t bytes = SIZE_MAX;  ///< of a line; a longer one is cut to one byte more
+        std::size_t waiting_bytes = SIZE_MAX;  ///< of all lines that wait; the last one may go beyond
     };
 
     /// Reads the file descriptor `input`. Throws std::system_error when there is no thread to be had.
@@ -43,6 +44,7 @@ public:
 private:
     void read();
     bool add_line(std::string line);
+    bool full() const { return lines_.size() >= limits_.lines || bytes_ >= limits_.waiting_bytes; }
     std::vector<std::string> take_locked(std::size_t most);
 
     const int input_;
@@ -52,6 +54,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_, room_;
     std::deque<std::string> lines_;
+    std::size_t bytes_ = 0;  ///< of lines_
     bool ended_ = false;
     bool closing_ = false;
     std::thread reader_;

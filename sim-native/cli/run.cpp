@@ -54,8 +54,12 @@ std::string summary(const Options& options, const Scene& scene, const Evaluation
     std::ostringstream text;
     text << "scene      " << scene.name << "\n";
     if (scene.creature) {
-        text << "creature   " << scene.creature->name << ", " << scene.creature->actuators() << " actuators"
-             << (options.gait.empty() ? ", muscles at rest (no --gait)" : "") << "\n";
+        const int actuators = scene.creature->actuators();
+        text << "creature   " << scene.creature->name << ", " << actuators << " actuators"
+             << (actuators == 0         ? ", it cannot move by itself (an actuator needs two joints)"
+                 : options.gait.empty() ? ", muscles at rest (no --gait)"
+                                        : "")
+             << "\n";
     }
     text << "simulated  " << result.simulated << " s in " << result.frames << " frames, " << to_string(result.stopped)
          << "\n";
@@ -108,9 +112,7 @@ int run_scene(Options& options) {
     const BackendChoice& backend = options.backend;
     const Evaluation result =
         run_on_gpu(options, scene)
-            ? evaluate_on_gpu(scene, {{gait, options.perturbation}}, precision, backend.device, nullptr,
-                              backend.whole_gpu)
-                  .front()
+            ? evaluate_one_on_gpu(scene, {gait, options.perturbation}, precision, backend)
             : evaluate(scene, gait, precision, options.perturbation, on_frame, options.execution.execution(), snapshot);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();

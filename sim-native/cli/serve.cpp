@@ -3,12 +3,14 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 
 #include "commands.h"
 #include "job.h"
 #include "line_queue.h"
 #include "natator/error.h"
+#include "natator/limits.h"
 #include "natator/strict_json.h"
 
 namespace natator::cli {
@@ -47,22 +49,24 @@ void answer(const SharedJob& shared, const std::string& error) {
     for (const json& id : shared.ids) answer(error_json(id, error));
 }
 
+void answer(const SharedJob& shared, const MemberResult& result) {
+    std::visit([&shared](const auto& one) { answer(shared, one); }, result);
+}
+
 /// Jobs that one launch of the GPU can do: same scene, precision and device.
 using GroupKey = std::tuple<std::string, std::string, Precision, int>;
 
-/// Evaluates jobs on the GPU. When one of them cannot be done, none of the others is lost: they are done one by one.
+/// Evaluates jobs on the GPU, together but for those that cannot be done.
 void evaluate_group(const std::vector<SharedJob>& group) {
     std::vector<BatchMember> members;
     for (const auto& [job, ids] : group) members.push_back({job.gait, job.request.perturbation});
-    try {
-        const Job& first = group.front().job;
-        const std::vector<Evaluation> evaluations = evaluate_on_gpu(
-            first.scene, members, first.request.precision, first.backend.device, nullptr, first.backend.whole_gpu);
-        for (std::size_t k = 0; k < group.size(); ++k) answer(group[k], evaluations[k]);
-    } catch (const InputError& error) {
-        if (group.size() == 1) return answer(group.front(), error.what());
-        for (const SharedJob& shared : group) evaluate_group({shared});
-    }
+    const Job& first = group.front().job;
+    const auto together = [&first](const std::vector<BatchMember>& some) {
+        return evaluate_on_gpu(first.scene, some, first.request.precision, first.backend.device, nullptr,
+                               first.backend.whole_gpu);
+    };
+    const std::vector<MemberResult> results = evaluate_members(first.scene, members, together);
+    for (std::size_t k = 0; k < group.size(); ++k) answer(group[k], results[k]);
 }
 
 /// The jobs of a batch of requests, each once however many requests ask for it: all but their ids is the same. Lines
@@ -71,21 +75,37 @@ std::vector<SharedJob> read_jobs(const std::vector<std::string>& lines, const Ba
     std::vector<SharedJob> jobs;
     std::map<std::string, std::size_t> by_request;
     for (const std::string& line : lines) {
-        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
         json id;
+        std::optional<std::string> failure;
         try {
+            if (line.size() > limits::document_bytes) throw InputError("request: larger than 16 MiB");
+            if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
             json value = parse_json(line, "request");
             id = request_id(value);
             const Job job = read_job(value, backend);
             value.erase("id");
-            const auto [found, is_new] = by_request.try_emplace(value.dump(), jobs.size());
-            if (is_new) jobs.push_back({job, {}});
-            jobs[found->second].ids.push_back(id);
-        } catch (const InputError& error) {
-            answer(error_json(id, error.what()));
+            const std::string all_else = value.dump();
+            if (!by_request.contains(all_else)) {
+                jobs.push_back({job, {}});
+                by_request[all_else] = jobs.size() - 1;
+            }
+            jobs[by_request.at(all_else)].ids.push_back(id);
+        } catch (const std::exception& error) {
+            failure = message_of(error);
         }
+        if (failure) answer(error_json(id, *failure));
     }
     return jobs;
+}
+
+/// The job's evaluation, or why there is none. None at all if it is for the GPU, to be grouped.
+std::optional<MemberResult> evaluate_unless_on_gpu(const Job& job, const Execution& execution) {
+    try {
+        if (on_gpu(job.backend, job.scene)) return std::nullopt;
+        return evaluate_job(job, execution);
+    } catch (const std::exception& error) {  // one request that fails, such as for want of memory, ends no other
+        return message_of(error);
+    }
 }
 
 /// Answers a batch of requests: those for the GPU in groups, the others one after another.
@@ -95,19 +115,12 @@ void serve_batch(const std::vector<std::string>& lines, Options& options, Tally&
         const auto& [job, ids] = shared;
         tally.requests += ids.size();
         ++tally.evaluations;
-        try {
-            if (on_gpu(job.backend, job.scene)) {
-                const Request& request = job.request;
-                const GroupKey key{request.scene, request.overrides.dump(), request.precision, job.backend.device};
-                groups[key].push_back(shared);
-            } else {
-                answer(shared, evaluate_job(job, options.execution.execution()));
-            }
-        } catch (const InputError& error) {
-            answer(shared, error.what());
-        } catch (const NoDevice& error) {
-            answer(shared, error.what());
+        if (const auto result = evaluate_unless_on_gpu(job, options.execution.execution())) {
+            answer(shared, *result);
+            continue;
         }
+        const Request& request = job.request;
+        groups[{request.scene, request.overrides.dump(), request.precision, job.backend.device}].push_back(shared);
     }
     for (const auto& [key, jobs] : groups) evaluate_group(jobs);
 }
@@ -115,7 +128,9 @@ void serve_batch(const std::vector<std::string>& lines, Options& options, Tally&
 int serve(Options& options) {
     if (options.backend.name == "cuda") on_gpu(options.backend, {});  // ends the program if there is none
     constexpr std::chrono::milliseconds lull(5);
-    LineQueue queue(STDIN_FILENO);
+    LineQueue queue(STDIN_FILENO, {.lines = options.most,
+                                   .bytes = limits::document_bytes,
+                                   .waiting_bytes = limits::waiting_bytes});
     Tally tally;
     for (;;) {
         const std::vector<std::string> lines = queue.take(options.most, lull);

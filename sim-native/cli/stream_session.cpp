@@ -53,6 +53,8 @@ void StreamSession<Real>::carry_out(const std::string& line) {
         answer["ok"] = true;
     } catch (const InputError& error) {
         answer["error"] = error.what();
+    } catch (const std::bad_alloc& error) {
+        answer["error"] = message_of(error);
     }
     print(stream_message("ANSW", answer));
 }

@@ -65,5 +65,58 @@ TEST(GpuBatchEnds, AMemberThatStopsEarlyChangesNoOther) {
     EXPECT_EQ(both[0].frames, evaluate(scene, slack).frames);
 }
 
+/// A gait that is refused costs the others no launch of their own, and changes no bit of theirs.
+TEST(GpuBatchEnds, AMemberThatIsRefusedCostsTheOthersNothing) {
+    if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
+    Scene scene = creature_scene(1, Scheme::flex);
+    scene.duration = 0.1;
+    std::vector<BatchMember> good;
+    for (int k = 0; k < 47; ++k) good.push_back({wave(scene, k), {}});
+    std::vector<BatchMember> members = good;
+    members.insert(members.begin() + 5, good.front());
+    members[5].gait.amplitude[0] = -1e-17;
+    int launches = 0;
+    const auto together = [&](const std::vector<BatchMember>& some) {
+        ++launches;
+        return evaluate_on_gpu(scene, some);
+    };
+    const std::vector<MemberResult> results = evaluate_members(scene, members, together);
+    EXPECT_EQ(launches, 1);
+    EXPECT_NE(std::get<std::string>(results[5]).find("gait.amplitude[0]"), std::string::npos);
+    const std::vector<Evaluation> alone = evaluate_on_gpu(scene, good);
+    for (std::size_t k = 0; k < good.size(); ++k)
+        EXPECT_EQ(std::get<Evaluation>(results[k < 5 ? k : k + 1]).hash, alone[k].hash) << k;
+}
+
+/// Starts that fail while they settle, or runs that become unstable, beside ones that do not: each member is as it is
+/// alone. Shifts of up to 1 pile particles up, which this relaxation throws apart without end; unshifted it holds.
+TEST(GpuBatchEnds, AnUnstableMemberChangesNoOther) {
+    if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
+    for (const auto& [updates, factor] : {std::pair(0, 0.5), {100, 0.4}}) {
+        Scene scene = load_scene(
+            "bench/small-tank", {{"solver", {{"relaxationMode", "global"}, {"relaxationFactor", factor}}}});
+        scene.duration = 0.1;
+        scene.settling.updates = updates;
+        scene.stopping.plane_contact = false;
+        std::vector<BatchMember> members;
+        for (const int k : {1, 2, 3, 4, 5, 6})
+            members.push_back({wave(scene, k), {k % 2 == 0 ? 1.0 : 0.0, static_cast<std::uint64_t>(k)}});
+        const std::vector<Evaluation> all = evaluate_on_gpu(scene, members);
+        int unstable = 0;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            const Evaluation alone = evaluate_on_gpu(scene, {members[k]}).front();
+            EXPECT_EQ(all[k].hash, alone.hash) << k;
+            EXPECT_EQ(all[k].stopped, alone.stopped) << k;
+            EXPECT_EQ(all[k].instability.has_value(), alone.instability.has_value()) << k;
+            if (alone.instability) {
+                ++unstable;
+                EXPECT_EQ(all[k].instability->time, alone.instability->time) << k;
+            }
+        }
+        EXPECT_GT(unstable, 0) << updates;
+        EXPECT_LT(unstable, 6) << updates;
+    }
+}
+
 }  // namespace
 }  // namespace natator::test

@@ -182,5 +182,18 @@ TEST(MusclesTest, SpringsAreSortedByActuatorFrontAndRearParticle) {
     EXPECT_EQ(model.springs.size(), 2u * 12 * 4);
 }
 
+/// Slices of 90 000 particles, 300 times the largest of the thesis: each finds its partners without looking at all.
+TEST(MusclesTest, LargeSlicesAreJoinedByTheSameRules) {
+    const Model model = build_model(body({300, 300}, {}, {301, 299}));
+    // The rear slice has fewer particles, so it gives, but for its middle column: 4 springs to 4 partners, as the sizes
+    // differ by an odd number, and twice 2 in the outermost rows, which the front slice does not reach.
+    EXPECT_EQ(model.springs.size(), 301u * 298 * 4);
+    std::map<std::pair<int, int>, int> coincident;
+    for (const Spring& spring : model.springs) ++coincident[{spring.a, spring.b}];
+    const auto wide = std::count_if(coincident.begin(), coincident.end(), [](const auto& pair) { return pair.second > 1; });
+    EXPECT_GT(wide, 0);
+    EXPECT_LT(static_cast<std::size_t>(wide), coincident.size());
+}
+
 }  // namespace
 }  // namespace natator

@@ -72,6 +72,9 @@ const BadScene bad_scenes[] = {
     {R"({"solver":{"maxNeighborsPerParticle":0}})", "solver.maxNeighborsPerParticle = 0", "[1, 4096]"},
     {R"({"solver":{"solidRestDistance":0.16}})", "solver.solidRestDistance = 0.16", "at most radius = 0.15"},
     {R"({"solver":{"fluidRestDistance":0.15}})", "solver.fluidRestDistance = 0.15", "less than radius = 0.15"},
+    {R"({"solver":{"radius":1000}})", "solver.fluidRestDistance = 0.1", "at least radius / 20, radius = 1000.0"},
+    {R"({"solver":{"fluidRestDistance":1e-10}})", "solver.fluidRestDistance = 1e-10", "at least radius / 20, radius = 0.15"},
+    {R"({"solver":{"relaxationFactor":-0.1}})", "solver.relaxationFactor = -0.1", "[0, 10]"},
     {R"({"planes":[[0,2,0,0]]})", "planes[0][1] = 2", "[-1, 1]"},
     {R"({"planes":[[0.5,0.5,0,0]]})", "planes[0] = [0.5,0.5,0,0]", "of length 1"},
     {R"({"fluid":{"count":[50,0,17]}})", "fluid.count[1] = 0", "[1, 10000]"},
@@ -92,6 +95,7 @@ const BadScene bad_scenes[] = {
     {R"({"creature":{"joints":[0,8]}})", "creature.joints[0] = 0", "[1, 15]"},
     {R"({"creature":{"joints":[4,16]}})", "creature.joints[1] = 16", "[5, 15]"},
     {R"({"creature":{"joints":[15,15]}})", "creature.joints[1] = 15", "left out"},
+    {R"({"creature":{"muscleSlices":[3]}})", "creature.muscleSlices = [3]", "two slices or more"},
     // What the solver does not do.
     {R"({"scheme":"pbd"})", "scheme = \"pbd\"", "\"flex\""},
     {R"({"solver":{"wind":[0,0,1]}})", "solver.wind = [0,0,1]", "cloth only"},
@@ -100,7 +104,13 @@ const BadScene bad_scenes[] = {
     {R"({"creature":{"rearCentre":[0.45,0.1,0.6]}})", "creature.rearCentre", "outside the tank"},
     {R"({"creature":{"rearCentre":[3.5,0.6,0.6]}})", "beyond planes[3]", "inside all planes"},
     {R"({"fluid":{"origin":[0.05,-0.05,0.05]}})", "fluid.origin", "outside the tank"},
-    {R"({"fluid":{"count":[200,200,200]},"planes":[]})", "fluid.count", "at most 4000000"},
+    {R"({"fluid":{"count":[300,300,300]},"planes":[]})", "fluid.count", "at most 16000000"},
+    {R"({"fluid":null,"planes":[],"creature":{"slices":[{"height":800,"width":800,"count":3},{"height":800,"width":800}],)"
+     R"("joints":[1,2],"springsPerParticle":64}})",
+     "40960000 springs", "at most 16000000"},
+    {R"({"fluid":{"count":[100,100,100],"spacing":0.001,"clearance":10},"planes":[],)"
+     R"("creature":{"slices":[{"height":200,"width":200,"count":3}],"joints":[]}})",
+     "fluid.clearance = 10", "lattice points"},
     {R"({"fluid":null,"creature":null})", "0 particles", "a creature or fluid"},
     {R"({"creature":{"slices":[{"height":5,"width":1,"count":17}],"joints":[4,8,12]}})", "creature.joints[0]",
      "actuator 0"},

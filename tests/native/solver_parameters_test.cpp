@@ -1,6 +1,10 @@
 // Parameters that the thesis leaves at 0, on single particles and solids: what each does, in both schemes.
+#include <nlohmann/json.hpp>
+
 #include "bare_particles.h"
+#include "natator/evaluate.h"
 #include "natator/plan.h"
+#include "natator/scene_json.h"
 
 namespace natator {
 namespace {
@@ -167,6 +171,37 @@ TEST_P(Parameters, NothingIsPlannedAtZero) {
     EXPECT_FALSE(make_plan(model).shock_propagation);
     p.shockPropagation = 1;
     EXPECT_TRUE(make_plan(model).shock_propagation);
+}
+
+/// Two springs pull a particle by 0.5 and by 0.3: factor 0 moves it by their mean in Flex' local mode, and not at all
+/// where the factor multiplies, in global mode and in scheme conserving.
+TEST_P(Parameters, RelaxationFactorZeroIsTheMeanOrNothing) {
+    for (const RelaxationMode mode : {RelaxationMode::local, RelaxationMode::global}) {
+        Model model = bare_model(GetParam(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, solid_phase);
+        model.inverse_mass = {1, 0, 0};
+        model.springs = {{0, 1, 0.5, 1}, {0, 2, 1.7, 1}};
+        model.parameters.numIterations = 1;
+        model.parameters.relaxationMode = mode;
+        model.parameters.relaxationFactor = 0;
+        const bool mean = GetParam() == Scheme::flex && mode == RelaxationMode::local;
+        in_both_precisions([&]<class Real>(Real) {
+            const auto state = run<Real>(model, 1);
+            EXPECT_NEAR(state.position[0].x(), mean ? 0.4 : 0, 1e-6);
+            EXPECT_NEAR(state.position[0].y(), 0, 1e-6);
+        });
+    }
+}
+
+/// A whole scene with it stays finite, with every kind of constraint there is.
+TEST_P(Parameters, RelaxationFactorZeroIsAllowedInAScene) {
+    for (const char* mode : {"local", "global"}) {
+        Scene scene = load_scene("thesis/creature-1", {{"duration", 0.05},
+                                                       {"solver", {{"relaxationFactor", 0}, {"relaxationMode", mode}}}});
+        scene.scheme = GetParam();
+        const Evaluation result = evaluate(scene, {1, {1, 1}, {0, 0.5}, 1});
+        EXPECT_FALSE(result.instability) << mode;
+        EXPECT_TRUE(std::isfinite(result.distance) && std::isfinite(result.laws.density_error_mean)) << mode;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, Parameters, testing::Values(Scheme::flex, Scheme::conserving), scheme_name);

@@ -39,6 +39,19 @@ TEST(StrictJsonTest, RefusesDeepNesting) {
     EXPECT_NE(refusal(std::string(1'000'000, '[')).find("nested deeper than 32"), std::string::npos);
 }
 
+/// The library quotes what it has read last, which may be the whole document.
+TEST(StrictJsonTest, SaysWhatIsWrongShortly) {
+    const std::string message = refusal("[\"" + std::string(1'000'000, 'x'));
+    EXPECT_EQ(message.find("here: not valid JSON: parse error at line 1"), 0u) << message.substr(0, 200);
+    EXPECT_LT(message.size(), 400u);
+    std::string umlauts = "[\"";
+    for (int k = 0; k < 1000; ++k) umlauts += "\u00e4";  // two bytes each: the cut must not leave one
+    const std::string cut = refusal(umlauts);
+    EXPECT_NO_THROW(nlohmann::json(cut).dump()) << cut;
+    const std::string longer = refusal("x" + umlauts), longest = refusal("  " + umlauts);
+    EXPECT_NO_THROW(nlohmann::json(longer).dump() + nlohmann::json(longest).dump());
+}
+
 TEST(StrictJsonTest, ShowsValuesOnOneShortLine) {
     EXPECT_EQ(shown("a\nb"), R"("a\nb")");
     EXPECT_EQ(shown(nlohmann::json::array({1, 2.5})), "[1,2.5]");

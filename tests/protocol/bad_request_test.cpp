@@ -1,6 +1,9 @@
 // natator-sim evaluate with unusable requests: one line on standard error, an error result, exit code 2; never a crash.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "../native/test_name.h"
@@ -82,6 +85,9 @@ const BadRequest bad_requests[] = {
     {request_with("overrides", "{\"creature\":{\"particleMass\":-1}}"), "creature.particleMass = -1"},
     {request_with("overrides", "{\"planes\":[[0,1,0,-1]]}"), "outside the tank"},
     {request_with("overrides", "{\"creature\":null}"), "gait.amplitude has length 2: must have length 0"},
+    {request_with("overrides", "{\"creature\":{\"joints\":[8]}}"), "there is none: an actuator needs two joints"},
+    {request_with("overrides", "{\"solver\":{\"radius\":1000}}"), "solver.fluidRestDistance = 0.1: must be at least"},
+    {request_with("overrides", "{\"settling\":{\"updates\":1000000,\"substeps\":1000}}"), "in 1e+09 substeps"},
 };
 
 class BadRequestTest : public testing::TestWithParam<BadRequest> {};
@@ -108,6 +114,20 @@ TEST(BadRequestTest, TheRequestWithoutFaultIsAccepted) {
     const Outcome outcome = run_simulator({"evaluate"}, request_with("duration", "0.05"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
+}
+
+/// A pipe that nobody writes to would be waited for for ever.
+TEST(BadRequestTest, ASceneOrCreatureFileThatIsNoFileIsRefused) {
+    const std::filesystem::path pipe =
+        std::filesystem::path(testing::TempDir()) / ("pipe-" + std::to_string(getpid()) + ".json");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const json creature = {{"creature", {{"name", pipe.string()}, {"slices", nullptr}}}};
+    for (const auto& [key, value] : {std::pair("scene", json(pipe.string()).dump()), {"overrides", creature.dump()}}) {
+        const Outcome outcome = run_simulator({"evaluate"}, request_with(key, value));
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_NE(outcome.err.find("is no regular file"), std::string::npos) << outcome.err;
+    }
+    std::filesystem::remove(pipe);
 }
 
 TEST(BadRequestTest, WithPlainThereIsNothingOnStandardOutput) {

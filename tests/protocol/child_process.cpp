@@ -28,10 +28,8 @@ std::string content(std::FILE* file) {
     return text;
 }
 
-}  // namespace
-
-Outcome run_simulator(const std::vector<std::string>& arguments, const std::string& input,
-                      const std::string& out_path) {
+Outcome run_program(const char* program, const std::vector<std::string>& arguments, const std::string& input,
+                    const std::string& out_path) {
     const File in = temporary(), out = temporary(), err = temporary();
     std::fwrite(input.data(), 1, input.size(), in.get());
     std::rewind(in.get());
@@ -45,17 +43,31 @@ Outcome run_simulator(const std::vector<std::string>& arguments, const std::stri
     } else {
         posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_path.c_str(), O_WRONLY, 0);
     }
-    std::vector<char*> argv{const_cast<char*>(NATATOR_SIM_PATH)};
+    std::vector<char*> argv{const_cast<char*>(program)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     pid_t child = 0;
-    const int failed = posix_spawn(&child, NATATOR_SIM_PATH, &actions, nullptr, argv.data(), environ);
+    const int failed = posix_spawn(&child, program, &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) throw std::runtime_error("cannot start " NATATOR_SIM_PATH);
+    if (failed != 0) throw std::runtime_error(std::string("cannot start ") + program);
 
     int status = 0;
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out.get()), content(err.get())};
+}
+
+}  // namespace
+
+Outcome run_simulator(const std::vector<std::string>& arguments, const std::string& input,
+                      const std::string& out_path) {
+    return run_program(NATATOR_SIM_PATH, arguments, input, out_path);
+}
+
+Outcome run_with_memory(std::size_t bytes, const std::vector<std::string>& arguments, const std::string& input) {
+    std::vector<std::string> all{"-c", "ulimit -v " + std::to_string(bytes >> 10) + " && exec \"$0\" \"$@\"",
+                                 NATATOR_SIM_PATH};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return run_program("/bin/sh", all, input, "");
 }
 
 int lines(const std::string& text) {

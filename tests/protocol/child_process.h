@@ -17,6 +17,9 @@ struct Outcome {
 Outcome run_simulator(const std::vector<std::string>& arguments, const std::string& input = "",
                       const std::string& out_path = "");
 
+/// The same with so many bytes of address space and no more.
+Outcome run_with_memory(std::size_t bytes, const std::vector<std::string>& arguments, const std::string& input);
+
 /// Number of lines in `text`, counting one without an end.
 int lines(const std::string& text);
 

@@ -291,5 +291,39 @@ TEST(RunTest, BackendAutoRunsEverywhereAndCudaRecordsNothing) {
     }
 }
 
+/// Raw particles are held to the same limits as scenes: time, the results' size, the rest density's sum.
+TEST(ParticlesTest, WhatCostsTooMuchIsRefused) {
+    const TemporaryPath file("dear.json");
+    const auto refusal = [&file](const json& change) {
+        json experiment = json::parse(R"({"name":"dear","dt":0.01,"substeps":1,"pos":[[0,1,0]],"vel":[[0,0,0]],"invm":[1],)"
+                                      R"("phase":[1],"params":{"radius":0.15}})");
+        experiment.merge_patch(change);
+        std::ofstream(file.path) << json::array({experiment});
+        const Outcome outcome = run_simulator({"particles", file.path});
+        EXPECT_EQ(outcome.exit_code, change.empty() ? 0 : 2) << outcome.err;
+        EXPECT_EQ(lines(outcome.err), change.empty() ? 0 : 1) << outcome.err;
+        return outcome.err;
+    };
+    EXPECT_EQ(refusal(json::object()), "");
+    EXPECT_NE(refusal({{"frames", {{{"frame", 1000000000000000000}}}}}).find("NATATOR_MOST_WORK"), std::string::npos);
+    EXPECT_NE(refusal({{"substeps", 1000000}, {"frames", {{{"frame", 10000}}}}}).find("in 1e+10 substeps"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"substeps", 1000000},
+                       {"params", {{"numIterations", 10000}}},
+                       {"frames", {{{"frame", 1}, {"substeps_trace", true}}}}})
+                  .find("NATATOR_MOST_MEMORY"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"params", {{"fluidRestDistance", 1e-9}}}}).find("params.fluidRestDistance is 1e-09"),
+              std::string::npos);
+}
+
+/// A body without two joints has no muscle: who runs it is told so.
+TEST(RunTest, ACreatureThatCannotMoveIsSaid) {
+    const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.02", "--overrides",
+                                           R"({"creature":{"joints":[8]}})"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("it cannot move by itself (an actuator needs two joints)"), std::string::npos) << outcome.out;
+}
+
 }  // namespace
 }  // namespace natator::test

@@ -71,6 +71,41 @@ TEST(ServeProtocolTest, RequestsThatDifferInTheirIdsOnlyAreEvaluatedOnce) {
     EXPECT_NE(fourth, by_id.at(1));
 }
 
+/// A line beyond the limit is answered without being kept, and so is one that needs more memory or time than there is.
+TEST(ServeProtocolTest, ALineThatIsTooLongSpoilsNoOther) {
+    std::string text = R"({"id":1,"scene":"thesis/creature-1-vacuum","gait":[)";
+    text.append(40u << 20, '0').append("]}\n");
+    const Outcome served = run_simulator({"serve"}, text + request(2));
+    EXPECT_EQ(served.exit_code, 0) << served.err;
+    const auto by_id = answers(served);
+    EXPECT_EQ(by_id.at(-1)["error"], "request: larger than 16 MiB");
+    EXPECT_EQ(by_id.at(2)["status"], "ok");
+}
+
+TEST(ServeProtocolTest, ARequestThatCostsTooMuchSpoilsNoOther) {
+    const Outcome served = run_simulator(
+        {"serve"}, request(1, R"(,"overrides":{"solver":{"radius":1000}})") +
+                       request(2, R"(,"overrides":{"settling":{"updates":1000000,"substeps":1000}})") + request(3));
+    EXPECT_EQ(served.exit_code, 0) << served.err;
+    const auto by_id = answers(served);
+    EXPECT_NE(by_id.at(1)["error"].get<std::string>().find("solver.fluidRestDistance = 0.1"), std::string::npos);
+    EXPECT_NE(by_id.at(2)["error"].get<std::string>().find("must be at most 5e+12"), std::string::npos);
+    EXPECT_EQ(by_id.at(3)["status"], "ok");
+}
+
+#if !defined(__SANITIZE_ADDRESS__)  // which reserves more than this
+TEST(ServeProtocolTest, ARequestWithoutMemorySpoilsNoOther) {
+    const std::string large = R"({"id":1,"scene":"thesis/tank","duration":0.1,"overrides":)"
+                              R"({"planes":[],"fluid":{"count":[160,160,160]}}})";
+    const Outcome served = run_with_memory(400u << 20, {"serve", "--no-cache"}, large + "\n" + request(2));
+    EXPECT_EQ(served.exit_code, 0) << served.err;
+    const auto by_id = answers(served);
+    ASSERT_TRUE(by_id.contains(1) && by_id.contains(2)) << served.out << served.err;
+    EXPECT_NE(by_id.at(1)["error"].get<std::string>().find("memory"), std::string::npos) << by_id.at(1);
+    EXPECT_EQ(by_id.at(2)["status"], "ok");
+}
+#endif
+
 TEST(ServeProtocolTest, TheLastLineNeedsNoEnd) {
     std::string text = request(1);
     text.pop_back();

@@ -275,5 +275,39 @@ TEST(StreamCommandTest, ACommandThatIsTooLongIsRefused) {
     EXPECT_EQ(client.ask({{"do", "pause"}})["ok"], true);
 }
 
+/// What would hang the stream is refused, and all stays as it was.
+TEST(StreamCommandTest, ChangesThatCostTooMuchAreRefused) {
+    StreamClient client(paused_in(vacuum, {"--fields", "position,velocity"}));
+    client.expect("SCEN");
+    take_start(client);
+    const auto refusal = [&client](const json& overrides) {
+        return client.ask({{"do", "overrides"}, {"overrides", overrides}}).at("error").get<std::string>();
+    };
+    EXPECT_NE(refusal({{"solver", {{"radius", 1000}}}}).find("solver.fluidRestDistance"), std::string::npos);
+    EXPECT_NE(refusal({{"settling", {{"updates", 1000000}, {"substeps", 1000}}}}).find("NATATOR_MOST_WORK"),
+              std::string::npos);
+    EXPECT_EQ(hash_of(take_step(client, 2)), evaluated(vacuum, 2)["hash"]);
+}
+
+/// Nulls stay in the overrides that are in force, whatever they are of: not without end.
+TEST(StreamCommandTest, OverridesDoNotGrowWithoutEnd) {
+    StreamClient client(paused_in(vacuum));
+    client.expect("SCEN");
+    int accepted = 0;
+    std::string error;
+    while (accepted < 10 && error.empty()) {
+        json overrides;
+        for (int k = 0; k < 10'000; ++k) {
+            std::string key(20, 'x');
+            key.append(std::to_string(10'000 * accepted + k));
+            overrides[key] = nullptr;
+        }
+        const json answer = client.ask({{"do", "overrides"}, {"overrides", overrides}});
+        answer.contains("error") ? static_cast<void>(error = answer["error"]) : static_cast<void>(++accepted);
+    }
+    EXPECT_NE(error.find("larger than 1 MiB"), std::string::npos) << error;
+    EXPECT_EQ(client.ask({{"do", "scene"}, {"scene", vacuum}})["ok"], true);
+}
+
 }  // namespace
 }  // namespace natator::test

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "natator/evaluate.h"
@@ -45,5 +47,17 @@ struct BatchTimes {
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
                                         Precision precision = Precision::single_precision, int device = 0,
                                         BatchTimes* times = nullptr, bool whole_gpu = false);
+
+/// What has become of a member: its evaluation, or one line that says why there is none.
+using MemberResult = std::variant<Evaluation, std::string>;
+
+/// Evaluates members that fit the scene together, in one launch: result k belongs to member k.
+using EvaluateTogether = std::function<std::vector<Evaluation>(const std::vector<BatchMember>&)>;
+
+/// Evaluates members of one scene so that one that can't be used costs the others nothing: each is checked first, the
+/// good ones go together. What is wrong with the scene, or costs too much (cost.h), all are told at once. Throws nothing
+/// but what memory for the results does.
+std::vector<MemberResult> evaluate_members(const Scene& scene, const std::vector<BatchMember>& members,
+                                           const EvaluateTogether& together);
 
 }  // namespace natator

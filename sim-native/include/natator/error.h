@@ -1,5 +1,7 @@
 #pragma once
 
+#include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -16,5 +18,10 @@ class NoDevice : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
+
+/// What an exception says, in words for users.
+inline std::string message_of(const std::exception& error) {
+    return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "out of memory" : error.what();
+}
 
 }  // namespace natator

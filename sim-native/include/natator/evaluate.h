@@ -46,7 +46,7 @@ using FrameObserver = std::function<void(double time, const std::vector<Eigen::V
 
 /// Settles the scene, or takes its settled start from the cache, and runs it with a gait until its duration or an early
 /// stop. The result is the same, bit by bit, with and without it.
-/// Throws InputError when the gait does not fit the scene.
+/// Throws InputError when the gait does not fit the scene, or the evaluation would cost too much (cost.h).
 Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision = Precision::single_precision,
                     const Perturbation& perturbation = {}, const FrameObserver& on_frame = {},
                     const Execution& execution = {}, const SnapshotOrder& snapshot = {});

@@ -24,7 +24,7 @@ struct LiveSetup {
 
 /// A scene that runs frame by frame and can be changed in between. Until a change each frame is, bit by bit, that of
 /// `evaluate`; it goes on past the scene's duration and past what would stop an evaluation early, but for instability.
-/// Where a member throws InputError nothing has changed.
+/// Where a member throws InputError or std::bad_alloc nothing has changed.
 template <class Real>
 class LiveSimulation {
 public:
@@ -65,7 +65,7 @@ private:
     struct Run;
 
     std::unique_ptr<Run> make_run(const LiveSetup& setup) const;
-    void start(std::unique_ptr<Run> run);
+    void start(std::unique_ptr<Run> run);  ///< null: the present one anew
 
     Execution execution_;
     LiveSetup setup_;

@@ -5,13 +5,10 @@
 
 namespace natator {
 
-/// Most particles that a scene may have.
-inline constexpr long max_particles = 4'000'000;
-
 /// Lays out the particles, clusters and muscles of a scene: first the body (by slice from the head, then y, then z),
 /// then the fluid (by x, then y, then z). Springs are sorted by actuator, front particle, rear particle; springs that
 /// join the same two particles are separate, neighbouring entries.
-/// Throws InputError when the scene has no particles or too many, when a particle starts beyond a plane, or when an
+/// Throws InputError when the scene has no particles, or more particles or springs than limits.h allows, when a particle starts beyond a plane, or when an
 /// actuator has no muscle.
 Model build_model(const Scene& scene);
 

@@ -63,7 +63,9 @@ struct SolverParameters {
     double shapeCollisionMargin = 0.0;     ///< added to collisionDistance when plane contacts are found, length
 
     RelaxationMode relaxationMode = RelaxationMode::local;
-    double relaxationFactor = 1.0;  ///< omega
+    /// omega, >= 0. Scheme `flex`: see RelaxationMode; 0 is the plain mean of a particle's corrections in local mode, and
+    /// none of them in global mode. Scheme `conserving`: a factor on every correction, 0 switches the constraints off.
+    double relaxationFactor = 1.0;
 
     /// Fluid neighbours kept per particle, the first found in cell order. Scheme `conserving` keeps at least four times
     /// those of the rest packing, and a pair only if both keep it.

@@ -5,6 +5,7 @@
 
 #include "law_figures.h"
 #include "natator/actuate.h"
+#include "natator/cost.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "perturb.h"
@@ -87,6 +88,7 @@ Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision, c
                     const FrameObserver& on_frame, const Execution& execution, const SnapshotOrder& snapshot) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
     Model model = build_model(scene);
+    check_evaluation_cost(scene, model);
     perturb(perturbation, model);
     Execution own = execution;
     if (perturbation.amplitude != 0) own.starts = nullptr;  // such starts are as many as seeds

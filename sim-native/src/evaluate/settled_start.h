@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "natator/limits.h"
 #include "natator/start_cache.h"
 #include "settle.h"
 
@@ -12,7 +13,7 @@ namespace natator {
 template <class Real>
 State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver, const StartCache* starts,
                           std::optional<Instability>& instability) {
-    if (settling.updates == 0) starts = nullptr;
+    if (settling.updates == 0 || model.particles() > limits::cached_particles) starts = nullptr;
     if (starts)
         if (auto found = starts->find<Real>(model, settling)) return *found;
     State<Real> state = initial_state<Real>(model);

@@ -18,7 +18,8 @@ void check_range(const std::string& name, double value, double low, double high,
 void check_list(const std::string& name, const std::vector<double>& values, int actuators, double high) {
     if (values.size() != static_cast<std::size_t>(actuators)) {
         throw InputError(name + " has length " + std::to_string(values.size()) + ": must have length " +
-                         std::to_string(actuators) + ", one value per actuator of the creature");
+                         std::to_string(actuators) + ", one value per actuator of the creature" +
+                         (actuators == 0 ? " (there is none: an actuator needs two joints)" : ""));
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
         check_range(name + "[" + std::to_string(i) + "]", values[i], 0, high, false, "");

@@ -7,6 +7,7 @@
 
 #include "model/cluster.h"
 #include "natator/error.h"
+#include "natator/limits.h"
 #include "natator/strict_json.h"
 
 namespace natator {
@@ -144,6 +145,9 @@ void read_parameters(const json& params, const Reader& read, Model& model) {
             refuse(read.where, field, value, "no such parameter");
     }
     if (!(p.radius > 0)) refuse(read.where, "params.radius", p.radius, "a length above 0");
+    if (p.fluidRestDistance > 0 && p.radius > limits::radius_ratio * p.fluidRestDistance)
+        refuse(read.where, "params.fluidRestDistance", p.fluidRestDistance,
+               "0 or at least radius / " + std::to_string(limits::radius_ratio));
 }
 
 void read_springs(const json& springs, const Reader& read, Model& model) {

@@ -1,6 +1,7 @@
 #include <charconv>
 #include <string>
 
+#include "natator/cost.h"
 #include "natator/error.h"
 #include "particle_experiment.h"
 #include "solver/gpu_solver.h"
@@ -70,6 +71,11 @@ json frame_of(const json& asked, const State<Real>& state, AnySolver& solver, js
     return frame;
 }
 
+/// Whether the positions of every iteration are asked for.
+bool is_traced(const json& asked) {
+    return asked.contains("substeps_trace") || asked.contains("first_substep");
+}
+
 template <class Real, class AnySolver>
 json run_frames(const ParticleExperiment& experiment, const json& asked_frames, AnySolver solver) {
     State<Real> state = initial_state<Real>(experiment.model);
@@ -77,7 +83,7 @@ json run_frames(const ParticleExperiment& experiment, const json& asked_frames, 
     long updates = 0;
     for (const json& asked : asked_frames) {
         TraceRecorder<Real> recorder;
-        const bool traced = asked.contains("substeps_trace") || asked.contains("first_substep");
+        const bool traced = is_traced(asked);
         while (updates < asked.at("frame").get<long>()) {
             ++updates;
             const bool last = updates == asked.at("frame").get<long>();
@@ -91,6 +97,19 @@ json run_frames(const ParticleExperiment& experiment, const json& asked_frames, 
         frames.push_back(frame_of(asked, state, solver, std::move(recorder.trace)));
     }
     return frames;
+}
+
+/// Refuses what would take too long or too much memory, results included.
+void check_experiment_cost(const ParticleExperiment& experiment, const json& asked_frames, const std::string& where) {
+    constexpr double bytes_of_row = 120;  // three numbers in JSON
+    double rows = 0, updates = 0;
+    for (const json& asked : asked_frames) {
+        const double steps = is_traced(asked) ? experiment.substeps : 0;
+        rows += 3 + steps * (2 + experiment.model.parameters.numIterations);
+        updates = asked.at("frame").get<double>();
+    }
+    check_cost(experiment.model, updates * experiment.substeps, bytes_of_row * rows * experiment.model.particles(),
+               where);
 }
 
 /// The frames to record: as the input lists them, each number larger than the one before.
@@ -113,6 +132,7 @@ json run_particle_experiment(const json& source, const std::string& where, Preci
                              std::optional<int> gpu) {
     const ParticleExperiment experiment = read_particle_experiment(source, where);
     const json asked = asked_frames(source, where);
+    check_experiment_cost(experiment, asked, where);
     const auto frames = [&](auto real) {
         using Real = decltype(real);
         return gpu ? run_frames<Real>(experiment, asked, GpuSolver<Real>(experiment.model, *gpu))

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "natator/error.h"
+#include "natator/limits.h"
 
 namespace natator {
 namespace {
@@ -13,9 +14,9 @@ namespace {
 using nlohmann::json;
 
 constexpr int max_depth = 32;
-constexpr std::size_t max_bytes = 16 << 20;
 constexpr std::size_t max_shown = 60;
-constexpr std::size_t max_quoted = 400;  // paths and names are worth more room than values
+constexpr std::size_t max_quoted = 400;   // paths and names are worth more room than values
+constexpr std::size_t max_message = 300;  // of the library, which quotes what it read last, however long
 
 /// Keys seen so far in each object that is open.
 class OpenObjects {
@@ -50,20 +51,26 @@ private:
     std::vector<std::set<std::string>> keys_;
 };
 
-/// The library's message without its own name in front, on one line.
+/// Cuts text to `longest` bytes, and not in the middle of a UTF-8 character.
+std::string shortened(std::string text, std::size_t longest) {
+    if (text.size() <= longest) return text;
+    const auto continues = [&text](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
+    while (longest > 0 && continues(longest)) --longest;
+    return text.substr(0, longest) + "...";
+}
+
+/// The library's message without its own name in front, on one line, not too long.
 std::string plain_message(const json::exception& error) {
     std::string text = error.what();
     if (const auto end = text.find("] "); text.starts_with('[') && end != std::string::npos) text.erase(0, end + 2);
     for (char& c : text) {
         if (static_cast<unsigned char>(c) < ' ') c = ' ';
     }
-    return text;
+    return shortened(std::move(text), max_message);
 }
 
 std::string on_one_line(const json& value, std::size_t longest) {
-    std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-    if (text.size() > longest) text = text.substr(0, longest) + "...";
-    return text;
+    return shortened(value.dump(-1, ' ', true, json::error_handler_t::replace), longest);
 }
 
 }  // namespace
@@ -73,7 +80,7 @@ std::string read_all(std::FILE* file, const std::string& source) {
     std::array<char, 65536> buffer;
     while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file)) {
         text.append(buffer.data(), count);
-        if (text.size() > max_bytes) throw InputError(source + ": larger than 16 MiB");
+        if (text.size() > limits::document_bytes) throw InputError(source + ": larger than 16 MiB");
     }
     if (std::ferror(file) != 0) throw InputError(source + ": cannot be read");
     return text;

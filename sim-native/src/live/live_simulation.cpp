@@ -1,6 +1,9 @@
 #include "evaluate/settled_start.h"
 #include "merge_patches.h"
 #include "natator/actuate.h"
+#include "natator/cost.h"
+#include "natator/error.h"
+#include "natator/limits.h"
 #include "natator/live.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
@@ -21,13 +24,20 @@ std::vector<Real> densities_at_rest(Model model, State<Real> state) {
     return solver.densities();
 }
 
+/// The scene's model, if a stream of it does not cost too much.
+Model affordable(const Scene& scene) {
+    Model model = build_model(scene);
+    check_live_cost(scene, model);
+    return model;
+}
+
 }  // namespace
 
 /// A scene with all that is made of it. Stays where it is, for the solver refers to the model.
 template <class Real>
 struct LiveSimulation<Real>::Run {
     Run(Scene of, const Execution& execution)
-        : scene(std::move(of)), model(build_model(scene)), solver(model, execution) {}
+        : scene(std::move(of)), model(affordable(scene)), solver(model, execution) {}
 
     Scene scene;
     Model model;
@@ -62,6 +72,9 @@ template <class Real>
 bool LiveSimulation<Real>::merge_overrides(const nlohmann::json& patch) {
     LiveSetup next = setup_;
     next.overrides = merge_patches(std::move(next.overrides), patch);
+    if (next.overrides.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).size() >
+        limits::live_overrides_bytes)
+        throw InputError("overrides: all that are in force together are larger than 1 MiB; load the scene anew");
     std::unique_ptr<Run> run = make_run(next);
     check_gait(*next.gait, run->model.actuators);
     const bool goes_on = !instability_ && same_layout(model(), run->model);
@@ -81,7 +94,7 @@ bool LiveSimulation<Real>::merge_overrides(const nlohmann::json& patch) {
 
 template <class Real>
 void LiveSimulation<Real>::reset() {
-    start(std::move(run_));
+    start(nullptr);
 }
 
 template <class Real>
@@ -122,9 +135,12 @@ std::unique_ptr<typename LiveSimulation<Real>::Run> LiveSimulation<Real>::make_r
 
 template <class Real>
 void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
-    run_ = std::move(run);
-    instability_.reset();
-    state_ = settled_start(model(), scene().settling, run_->solver, execution_.starts, instability_);
+    Run& next = run ? *run : *run_;
+    std::optional<Instability> instability;
+    State<Real> state = settled_start(next.model, next.scene.settling, next.solver, execution_.starts, instability);
+    if (run) run_ = std::move(run);
+    state_ = std::move(state);
+    instability_ = std::move(instability);
     updated_ = false;
     frames_ = base_frame_ = 0;
     base_time_ = 0;

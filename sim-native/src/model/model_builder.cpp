@@ -1,5 +1,6 @@
 #include "natator/model_builder.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <sstream>
 
@@ -7,12 +8,14 @@
 #include "fluid_block.h"
 #include "muscles.h"
 #include "natator/error.h"
+#include "natator/limits.h"
+#include "natator/strict_json.h"
 
 namespace natator {
 namespace {
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& what) {
-    throw InputError("scene \"" + scene.name + "\": " + what);
+    throw InputError("scene " + quoted(scene.name) + ": " + what);
 }
 
 /// Checked before anything is allocated.
@@ -27,7 +30,32 @@ void check_size(const Scene& scene) {
     }
     const std::string found = std::to_string(particles) + " particles (fluid.count and creature.slices together)";
     if (particles == 0) refuse(scene, "0 particles: needs a creature or fluid");
-    if (particles > max_particles) refuse(scene, found + ": must be at most " + std::to_string(max_particles));
+    if (particles > limits::particles) refuse(scene, found + ": must be at most " + std::to_string(limits::particles));
+}
+
+/// Springs that the muscles may have, see muscles.h: those of the smaller slice of each actuator.
+void check_springs(const Scene& scene) {
+    const Creature& creature = *scene.creature;
+    const std::vector<int>& ends = creature.muscle_ends();
+    const auto size = [&](int slice) { return std::int64_t{creature.slices[slice].height} * creature.slices[slice].width; };
+    std::int64_t springs = 0;
+    for (int i = 0; i < creature.actuators(); ++i)
+        springs += std::min(size(ends[i]), size(ends[i + 1])) * creature.springs_per_particle;
+    if (springs > limits::springs)
+        refuse(scene, std::to_string(springs) + " springs (creature.slices, joints and springsPerParticle together): " +
+                          "must be at most " + std::to_string(limits::springs));
+}
+
+/// Lattice points that are looked at around the body's particles, see fluid_block.cpp.
+void check_clearance(const Scene& scene, int body_particles) {
+    const FluidBlock& fluid = *scene.fluid;
+    const double across = 2 * fluid.clearance / fluid.spacing + 3;
+    double points = body_particles;
+    for (const int count : fluid.count) points *= std::min<double>(count, across);
+    if (points > limits::clearance_points)
+        refuse(scene, "fluid.clearance = " + nlohmann::json(fluid.clearance).dump() + ": " + nlohmann::json(points).dump() +
+                          " lattice points to be looked at around the body; must be at most " +
+                          nlohmann::json(limits::clearance_points).dump());
 }
 
 void check_muscles(const Scene& scene, const Model& model) {
@@ -69,12 +97,16 @@ Model build_model(const Scene& scene) {
     model.time_step = scene.time_step;
     model.planes = scene.planes;
     if (scene.creature) {
+        check_springs(scene);
         const BodyLayout layout(*scene.creature);
         add_body(*scene.creature, layout, model);
         add_muscles(*scene.creature, layout, model);
         check_muscles(scene, model);
     }
-    if (scene.fluid) add_fluid(*scene.fluid, model);
+    if (scene.fluid) {
+        check_clearance(scene, model.particles());
+        add_fluid(*scene.fluid, model);
+    }
     check_inside_tank(scene, model);
     return model;
 }

@@ -19,12 +19,16 @@ struct Pair {
     int springs = 0;
 };
 
+Place place_in(const Slice& shape, int slice, int iy, int iz) {
+    return {slice, iy, iz, 2 * iy - (shape.height - 1), 2 * iz - (shape.width - 1)};
+}
+
 std::vector<Place> places(const Creature& creature, int slice) {
     const Slice& shape = creature.slices[slice];
     std::vector<Place> result;
     for (int iy = 0; iy < shape.height; ++iy) {
         for (int iz = 0; iz < shape.width; ++iz) {
-            result.push_back({slice, iy, iz, 2 * iy - (shape.height - 1), 2 * iz - (shape.width - 1)});
+            result.push_back(place_in(shape, slice, iy, iz));
         }
     }
     return result;
@@ -44,20 +48,30 @@ bool inside_between(const Creature& creature, const Place& a, const Place& b) {
     return true;
 }
 
-bool may_pair(const Creature& creature, const Place& a, const Place& b) {
-    const Slice& shape_a = creature.slices[a.slice];
-    const Slice& shape_b = creature.slices[b.slice];
-    const int dy = std::abs(shape_a.height - shape_b.height) % 2;  // half a spacing if odd, else none
-    const int dz = std::abs(shape_a.width - shape_b.width) % 2;
-    const bool same_side = a.z * b.z > 0;
-    return same_side && std::abs(a.y - b.y) == dy && std::abs(a.z - b.z) == dz && inside_between(creature, a, b);
+/// The places of a row of `count` particles that lie `apart` half spacings from `from`: numbers of particles, ascending.
+std::vector<int> at_distance(int count, int from, int apart) {
+    std::vector<int> numbers;
+    for (const int at : {from - apart, from + apart}) {
+        const int twice = at + count - 1;  // at = 2 number - (count - 1)
+        const bool there = twice >= 0 && twice % 2 == 0 && twice / 2 < count;
+        if (there && (numbers.empty() || numbers.back() != twice / 2)) numbers.push_back(twice / 2);
+    }
+    return numbers;
 }
 
-/// Partners of `giver`, nearest the axis first.
-std::vector<Place> partners(const Creature& creature, const Place& giver, const std::vector<Place>& candidates) {
+/// Partners of `giver` in another slice, nearest the axis first.
+std::vector<Place> partners(const Creature& creature, const Place& giver, int slice) {
+    const Slice& own = creature.slices[giver.slice];
+    const Slice& other = creature.slices[slice];
+    const int dy = std::abs(own.height - other.height) % 2;  // half a spacing if odd, else none
+    const int dz = std::abs(own.width - other.width) % 2;
     std::vector<Place> result;
-    for (const Place& candidate : candidates) {
-        if (may_pair(creature, giver, candidate)) result.push_back(candidate);
+    for (const int iy : at_distance(other.height, giver.y, dy)) {
+        for (const int iz : at_distance(other.width, giver.z, dz)) {
+            const Place candidate = place_in(other, slice, iy, iz);
+            const bool same_side = giver.z * candidate.z > 0;
+            if (same_side && inside_between(creature, giver, candidate)) result.push_back(candidate);
+        }
     }
     std::stable_sort(result.begin(), result.end(),
                      [](const Place& a, const Place& b) { return a.y * a.y + a.z * a.z < b.y * b.y + b.z * b.z; });
@@ -71,7 +85,7 @@ std::vector<Pair> pairs_between(const Creature& creature, int front_joint, int r
 
     std::vector<Pair> pairs;
     for (const Place& giver : front_gives ? front : rear) {
-        const std::vector<Place> takers = partners(creature, giver, front_gives ? rear : front);
+        const std::vector<Place> takers = partners(creature, giver, front_gives ? rear_joint : front_joint);
         const int count = static_cast<int>(takers.size());
         for (int i = 0; i < count; ++i) {
             const int share = creature.springs_per_particle / count;

@@ -78,6 +78,8 @@ Creature read_creature(const json& value, const Place& place) {
     if (value.contains("muscleSlices")) {
         creature.muscle_slices =
             read_ascending(value.at("muscleSlices"), place.key("muscleSlices"), 0, last, "slice index, ascending");
+        if (creature.muscle_slices.size() == 1)
+            refuse(place.key("muscleSlices"), value.at("muscleSlices"), "two slices or more, or left out");
     }
     return creature;
 }

@@ -45,7 +45,13 @@ bool is_plain_name(const std::string& name) {
 }  // namespace
 
 nlohmann::json read_data_file(const std::string& kind, const std::string& name) {
-    if (name.ends_with(suffix)) return read_json_file(name);
+    if (name.ends_with(suffix)) {
+        std::error_code failed;
+        const fs::file_status status = fs::status(name, failed);
+        if (fs::exists(status) && !fs::is_regular_file(status))  // a pipe may never end, or never begin
+            throw InputError("file " + quoted(name) + ": is no regular file; must be one");
+        return read_json_file(name);
+    }
     if (is_plain_name(name)) {
         for (const fs::path& directory : data_directories()) {
             const fs::path path = directory / kind / (name + suffix);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "natator/limits.h"
 #include "readers.h"
 
 namespace natator::fields {
@@ -42,7 +43,7 @@ const std::vector<Field<SolverParameters>>& solver_fields() {
         {"collisionDistance", &P::collisionDistance, {0, 1000, false, "length"}},
         {"particleCollisionMargin", &P::particleCollisionMargin, {0, 1000, false, "length"}},
         {"shapeCollisionMargin", &P::shapeCollisionMargin, {0, 1000, false, "length"}},
-        {"relaxationFactor", &P::relaxationFactor, {0, 10, true}},
+        {"relaxationFactor", &P::relaxationFactor, {0, 10}},
         {"maxNeighborsPerParticle", &P::maxNeighborsPerParticle, {1, 4096}},
     };
     return fields;
@@ -56,6 +57,10 @@ void check_rest_distances(const SolverParameters& solver, const Place& place) {
     }
     if (solver.fluidRestDistance >= solver.radius) {
         refuse(place.key("fluidRestDistance"), solver.fluidRestDistance, "less than radius = " + radius.dump());
+    }
+    if (solver.radius > limits::radius_ratio * solver.fluidRestDistance) {
+        refuse(place.key("fluidRestDistance"), solver.fluidRestDistance,
+               "at least radius / " + std::to_string(limits::radius_ratio) + ", radius = " + radius.dump());
     }
 }
 

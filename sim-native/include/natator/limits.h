@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+
+/// Most that may be asked for, each refused with one line beyond it: no small request keeps a program busy for hours or
+/// takes all memory. Two of them, `work` and memory, can be raised by the environment; see cost.h.
+namespace natator::limits {
+
+/// Bytes of a JSON document: a request, a scene file, a file of experiments.
+inline constexpr std::size_t document_bytes = 16 << 20;
+/// Bytes of requests that wait in `serve` before it reads on (and one request more).
+inline constexpr std::size_t waiting_bytes = 64 << 20;
+/// Bytes of all overrides that are in force in a stream.
+inline constexpr std::size_t live_overrides_bytes = 1 << 20;
+
+/// Particles of a scene: their numbers, and those of their neighbours, stay well within 32 bits.
+inline constexpr long particles = 16'000'000;
+/// Springs of a creature; the largest of the thesis has 96. Some 100 bytes each.
+inline constexpr long springs = 16'000'000;
+/// Entries of all neighbour lists together: they are counted in 32 bits.
+inline constexpr double neighbours = 2e9;
+/// radius / fluidRestDistance: the rest density is a sum over that many particles cubed, and fluid at rest has 3000
+/// neighbours at a ratio of 8 already. Room for four times those at 20 is still counted in 32 bits.
+inline constexpr int radius_ratio = 20;
+/// Lattice points that are looked at when the fluid is kept clear of a body, a minute's worth.
+inline constexpr double clearance_points = 1e10;
+
+/// Visits of a pair of particles in one evaluation, an estimate that is rather too high (cost.h): a core does one to two
+/// thousand million a second, so this is about an hour of one. 4 s of the thesis' tank are 3e9, of 10 million particles
+/// 5e12. $NATATOR_MOST_WORK replaces it.
+inline constexpr double work = 5e12;
+/// Part of this machine's memory that one evaluation may take. $NATATOR_MOST_MEMORY (GiB) replaces it.
+inline constexpr double part_of_memory = 0.9;
+/// Frames that a stream must be able to compute within `work`.
+inline constexpr double live_frames = 100;
+
+/// Particles of which a settled start is kept in the cache of starts, whose files else fill the disk.
+inline constexpr int cached_particles = 250'000;
+
+}  // namespace natator::limits

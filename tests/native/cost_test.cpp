@@ -1,0 +1,152 @@
+// What a scene takes is known before it runs, and what is beyond the limits is refused in one line.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "bare_particles.h"
+#include "natator/actuate.h"
+#include "natator/cost.h"
+#include "natator/error.h"
+#include "natator/evaluate.h"
+#include "natator/limits.h"
+#include "natator/live.h"
+#include "natator/model_builder.h"
+#include "natator/scene_json.h"
+#include "test_name.h"
+
+namespace natator {
+namespace {
+
+Scene with(const std::string& name, const std::string& overrides) {
+    return load_scene(name, nlohmann::json::parse(overrides));
+}
+
+/// The line that an evaluation of the scene is refused with; empty if it is not.
+std::string refusal(const Scene& scene) {
+    try {
+        check_evaluation_cost(scene, build_model(scene));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// Sets a variable of the environment for as long as it lives.
+class Variable {
+public:
+    Variable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
+    ~Variable() { unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+private:
+    const char* name_;
+};
+
+TEST(CostTest, EveryNamedSceneIsWithinTheLimits) {
+    for (const std::string& name : scene_names()) EXPECT_EQ(refusal(load_scene(name)), "") << name;
+}
+
+/// 4 s of ten million particles, or an hour of the thesis' tank, are meant to be computed.
+TEST(CostTest, LongRunsAreWithinTheLimits) {
+    EXPECT_EQ(refusal(with("thesis/creature-1", R"({"duration":3600})")), "");
+    const Model tank = build_model(load_scene("thesis/tank"));
+    const double of_particle = cost_of(tank).per_substep / tank.particles();
+    EXPECT_LT(1e7 * of_particle * 960, limits::work);
+    EXPECT_LT(1e7 * cost_of(tank).bytes / tank.particles(), 20e9);
+}
+
+/// The estimate is never below what the solver finds, and not absurdly above it.
+TEST(CostTest, NeighboursAreEstimatedFromAbove) {
+    for (const char* name : {"thesis/creature-1", "thesis/creature-4", "thesis/tank", "bench/small-tank"}) {
+        for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
+            Scene scene = load_scene(name);
+            scene.scheme = scheme;
+            const Model model = build_model(scene);
+            Solver<float> solver(model);
+            State<float> state = initial_state<float>(model);
+            for (int frame = 0; frame < 5; ++frame) ASSERT_FALSE(solver.frame(state, resting_gait(model.actuators)));
+            const std::vector<int> counts = solver.neighbour_counts();
+            const double found = std::accumulate(counts.begin(), counts.end(), 0.0);
+            EXPECT_GE(cost_of(model).neighbours, found) << name;
+            EXPECT_LE(cost_of(model).neighbours, 6 * found) << name;
+        }
+    }
+}
+
+/// Particles in one place, or so far apart that the grid puts them into a few cells, are all each other's candidates.
+TEST(CostTest, CrowdsAndFarFlungParticlesAreSeen) {
+    const test::Points crowd(1000, {1, 1, 1});
+    EXPECT_GE(cost_of(test::bare_model(Scheme::flex, crowd, test::fluid_phase)).candidates, 1e6);
+    test::Points far = test::lattice(10, 10, 10, 0.1);
+    EXPECT_LT(cost_of(test::bare_model(Scheme::flex, far, test::fluid_phase)).candidates, 2e5);
+    far.push_back({1e30, 1e30, 1e30});
+    EXPECT_GE(cost_of(test::bare_model(Scheme::flex, far, test::fluid_phase)).candidates, 1e6);
+}
+
+struct Dear {
+    const char* overrides;  ///< merged into thesis/creature-1
+    const char* expected;   ///< must be in the message
+};
+
+void PrintTo(const Dear& dear, std::ostream* out) {
+    test::print_name(dear.overrides, out);
+}
+
+const Dear dear_scenes[] = {
+    {R"({"duration":160000})", "4 iterations are about"},
+    {R"({"solver":{"substeps":1000,"numIterations":1000}})", "1000 iterations are about"},
+    {R"({"settling":{"updates":1000000,"substeps":1000}})", "in 1e+09 substeps"},
+    {R"({"duration":0.1,"fluid":{"count":[200,100,100],"spacing":0.0001},"creature":null,"planes":[]})", "neighbours"},
+    {R"({"fluid":{"count":[100,100,100]},"creature":{"rearCentre":[9000,9000,9000]},"planes":[]})", "neighbours"},
+    {R"({"solver":{"radius":900,"solidRestDistance":1,"fluidRestDistance":50,"maxNeighborsPerParticle":4096},)"
+     R"("fluid":{"count":[100,100,100]},"planes":[]})",
+     "neighbours"},
+};
+
+class DearSceneTest : public testing::TestWithParam<Dear> {};
+
+TEST_P(DearSceneTest, IsRefusedInOneLineBeforeItRuns) {
+    const std::string message = refusal(with("thesis/creature-1", GetParam().overrides));
+    EXPECT_EQ(message.find("scene \"thesis/creature-1\": "), 0u) << message;
+    EXPECT_NE(message.find(GetParam().expected), std::string::npos) << message;
+    EXPECT_NE(message.find("must be at most "), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DearSceneTest, testing::ValuesIn(dear_scenes));
+
+TEST(CostTest, AnEvaluationThatCostsTooMuchDoesNotBegin) {
+    const Scene scene = with("thesis/creature-1-vacuum", R"({"settling":{"updates":1000000,"substeps":1000}})");
+    EXPECT_THROW(evaluate(scene, resting_gait(2)), InputError);
+    LiveSetup setup;
+    setup.scene = "thesis/creature-1-vacuum";
+    setup.overrides = {{"settling", {{"updates", 1000000}, {"substeps", 1000}}}};
+    EXPECT_THROW(LiveSimulation<float>{setup}, InputError);
+}
+
+TEST(CostTest, TheEnvironmentReplacesTheLimits) {
+    const Scene scene = load_scene("thesis/creature-1");
+    {
+        const Variable work("NATATOR_MOST_WORK", "1e6");
+        EXPECT_NE(refusal(scene).find("must be at most 1e+06 (NATATOR_MOST_WORK)"), std::string::npos) << refusal(scene);
+    }
+    {
+        const Variable memory("NATATOR_MOST_MEMORY", "0.001");
+        EXPECT_NE(refusal(scene).find("must be at most 0.001 GiB (NATATOR_MOST_MEMORY)"), std::string::npos)
+            << refusal(scene);
+    }
+    {
+        const Variable work("NATATOR_MOST_WORK", "1e15");
+        EXPECT_EQ(refusal(with("thesis/creature-1", R"({"duration":160000})")), "");
+    }
+    for (const char* value : {"much", "-1", "0", "nan", "1e6x"}) {
+        const Variable work("NATATOR_MOST_WORK", value);
+        EXPECT_NE(refusal(scene).find("NATATOR_MOST_WORK"), std::string::npos) << value;
+    }
+}
+
+}  // namespace
+}  // namespace natator
