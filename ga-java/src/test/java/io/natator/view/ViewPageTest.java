@@ -207,6 +207,7 @@ class ViewPageTest extends BrowserTest {
               const next = () => {
                 const until = performance.now() + 25;
                 while (performance.now() < until && !window.isQuick) { }
+                sample.clearRect(0, 0, 30, 30);
                 sample.drawImage(document.querySelector('.picture canvas'), 0, 0, 30, 30);
                 const {data} = sample.getImageData(0, 0, 30, 30);
                 window.black += data.every((value, i) => i % 4 === 3 || value < 8) ? 1 : 0;
