@@ -9,6 +9,7 @@ import {listen} from './keys.js';
 import {LookControls} from './look.js';
 import {Meter} from './meter.js';
 import {Recording} from './recording.js';
+import {fixed} from './scaling.js';
 import {DEFAULT_LOOK, Stage} from './stage.js';
 import {Theme} from './theme.js';
 
@@ -155,7 +156,7 @@ class Player {
     }
     const index = Math.round(this.#time / this.#recording.duration * (this.#history.length - 1));
     for (const output of document.querySelectorAll('[data-chart]')) {
-      output.textContent = this.#history.at(output.dataset.chart, index).toFixed(3);
+      output.textContent = fixed(this.#history.at(output.dataset.chart, index), 3);
     }
   }
 

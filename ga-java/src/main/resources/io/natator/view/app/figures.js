@@ -1,5 +1,7 @@
 /** The figures that are always shown on a stage. */
 
+import {fixed} from './scaling.js';
+
 const SLOW_FPS = 50;
 
 /** Time, frames drawn and dropped, pace, distance and detail of the picture. */
@@ -28,7 +30,7 @@ export class Figures {
     this.#write('fps', moving ? `${view.fps.toFixed(0)} /s` : 'paused', moving && view.pace > 0.9 && view.fps < SLOW_FPS);
     this.#write('dropped', String(view.dropped), false);
     this.#write('pace', moving ? `${view.pace.toFixed(2)} ×` : '–');
-    this.#write('distance', scene.bodyLength > 0 ? `${frame.distance.toFixed(3)}` : '–');
+    this.#write('distance', scene.bodyLength > 0 ? fixed(frame.distance, 3) : '–');
     this.#write('quality', `${Math.round(100 * view.stage.share)} %`);
   }
 

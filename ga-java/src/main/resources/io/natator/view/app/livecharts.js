@@ -2,6 +2,7 @@
 
 import {EnvelopeChart, TimeChart, chartColours} from './charts.js';
 import {byId, make} from './element.js';
+import {fixed} from './scaling.js';
 
 /** Frames of the screen between two drawings of charts. */
 const TURN = 4;
@@ -45,7 +46,7 @@ export class LiveCharts {
 
   #draw(which, views) {
     const [name, chart] = this.#charts[which];
-    const text = views.map(view => this.#text(name, view)).join(' | ');
+    const text = views.map(view => this.#text(name, view)).filter(one => one !== '').join(' | ');
     if (this.#outputs.get(name).textContent !== text) {
       this.#outputs.get(name).textContent = text;
     }
@@ -63,6 +64,6 @@ export class LiveCharts {
     }
     const column = {distance: 'distance', speed: 'beatSpeed', momentum: 'momentum', density: 'densityMean'}[name];
     const value = history.last(column);
-    return Number.isNaN(value) ? '' : value.toFixed(name === 'density' ? 2 : 3) + (name === 'density' ? ' %' : '');
+    return Number.isNaN(value) ? '' : fixed(value, name === 'density' ? 2 : 3) + (name === 'density' ? ' %' : '');
   }
 }

@@ -35,7 +35,7 @@ class Page {
   #runs;
   #lastFigures = 0;
   #vacuumBusy = false;
-  #lockstep = new Lockstep();
+  #lockstep;
   #browsed = null;
 
   constructor(setup, memory) {
@@ -46,7 +46,7 @@ class Page {
     this.#gait = new GaitControls(gait => this.#view.setGait(gait));
     this.#solver = new SolverControls((key, patch) => this.#view.setOverrides(key, patch));
     this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watch(run, best, beside), () => this.#markRun());
-    this.#lockstep.onStep = error => this.#stepped(error);
+    this.#lockstep = this.#newLockstep();
     fillSelect(byId('scheme'), setup.schemes.map(scheme => [scheme, scheme]));
     const cameras = CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]);
     fillSegments(byId('cameras'), 'camera', cameras, mode => this.setCamera(mode));
@@ -115,6 +115,7 @@ class Page {
 
   #removeSecond() {
     this.#views.pop().close();
+    this.#lockstep = this.#newLockstep();
     this.#views[0].isLed = false;
     this.#figures.pop();
     this.#ranges.length = 1;
@@ -311,6 +312,13 @@ class Page {
   reset() {
     return this.#views.length > 1 ? this.#lockstep.reset(this.#views)
         : this.#all(view => view.reset(), 'transport-error');
+  }
+
+  /** What leads two views; one that was led before has no more say, though its last step may still be under way. */
+  #newLockstep() {
+    const lockstep = new Lockstep();
+    lockstep.onStep = error => lockstep === this.#lockstep && this.#stepped(error);
+    return lockstep;
   }
 
   /** After a step of two views: where one cannot go on, neither does. */

@@ -32,3 +32,9 @@ export function axisText(value, step) {
   const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(step) + 1e-9)));
   return (Math.abs(value) < step / 1e3 ? 0 : value).toFixed(digits);
 }
+
+/** A number with so many digits after the point; what rounds to nothing has no sign. */
+export function fixed(value, digits) {
+  const text = value.toFixed(digits);
+  return Number(text) === 0 ? text.replace('-', '') : text;
+}
