@@ -48,7 +48,9 @@ int run_evaluate(Options& options) {
 
 void add_evaluate(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand(
-        "evaluate", "Read one JSON request on standard input, write one JSON result on standard output.");
+        "evaluate",
+        "Read one JSON request on standard input, write one JSON result on standard output. The request holds all that "
+        "`run` has options for: scene, gait, scheme, duration, overrides.");
     const auto options = std::make_shared<Options>();
     add_backend_options(command, options->backend);
     command->add_flag("--plain", options->plain, "Write only the fitness, as a number.");

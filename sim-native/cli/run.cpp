@@ -50,6 +50,9 @@ Gait load_gait(const Options& options, int actuators) {
     return resting_gait(actuators);
 }
 
+/// For people, who take -0 for a mistake.
+double without_sign_of_zero(double value) { return value == 0 ? 0 : value; }
+
 std::string summary(const Options& options, const Scene& scene, const Evaluation& result, double wall_seconds) {
     std::ostringstream text;
     text << "scene      " << scene.name << "\n";
@@ -69,9 +72,9 @@ std::string summary(const Options& options, const Scene& scene, const Evaluation
     } else if (scene.creature) {
         const double length = scene.creature->spacing * (static_cast<double>(scene.creature->slices.size()) - 1);
         const double speed = result.simulated > 0 ? result.distance / result.simulated : 0;
-        text << "distance   " << result.distance << "\n";
-        text << "speed      " << speed << " 1/s";
-        if (length > 0) text << ", " << speed / length << " body lengths/s";
+        text << "distance   " << without_sign_of_zero(result.distance) << " units\n";
+        text << "speed      " << without_sign_of_zero(speed) << " units/s";
+        if (length > 0) text << ", " << without_sign_of_zero(speed / length) << " body lengths/s";
         text << "\n";
     }
     text << "hash       " << hash_text(result.hash) << "\n";

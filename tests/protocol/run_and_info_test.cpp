@@ -53,6 +53,15 @@ TEST(InfoTest, DescribesASceneAsJson) {
     EXPECT_GT(info["plan"].size(), 5u);
 }
 
+// At rest in vacuum nothing moves, by whichever sign.
+TEST(RunTest, SaysUnitsAndNoMinusBeforeNothing) {
+    const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.05"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(" units\nspeed      "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" units/s, "), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("-0 "), std::string::npos) << outcome.out;
+}
+
 // What a vacuum scene is by its file, any scene becomes by a merge patch; both then have the same definition.
 TEST(InfoTest, DefinesASceneWithAllThatItBuildsOn) {
     const std::string patch =

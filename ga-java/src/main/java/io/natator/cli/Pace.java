@@ -50,7 +50,8 @@ final class Pace {
             from.history().stream().filter(one -> one.generation() > 0).mapToInt(GenerationSummary::evaluations)
                     .forEach(this::count);
         }
-        expected = done;
+        estimate(from == null ? settings.population() : done,
+                settings.generations() - (from == null ? 0 : from.generation()));
     }
 
     private void count(int simulations) {
@@ -63,12 +64,21 @@ final class Pace {
         if (generation > 0) {
             count(simulations);
         }
+        estimate(done + simulations, settings.generations() - generation);
+    }
+
+    /**
+     * Estimates the total.
+     *
+     * @param known simulations done or known to be needed
+     * @param later generations of which nothing is known yet
+     */
+    private void estimate(long known, int later) {
         long budget = settings.evaluations() == null ? Long.MAX_VALUE : settings.evaluations();
-        int later = settings.generations() - generation;
         boolean varies = settings.optimizer() == OptimizerKind.JGAP;
         double each = varies ? (USUAL_GENERATIONS * CHILDREN_PER_SELECTED * settings.population() + children)
-                / (USUAL_GENERATIONS + bred) : simulations;
-        double all = done + simulations + later * each;
+                / (USUAL_GENERATIONS + bred) : settings.population();
+        double all = known + later * each;
         certain = !varies || later == 0 || settings.generations() == EvolutionSettings.NO_LIMIT;
         if (all >= budget) {
             expected = budget;

@@ -90,6 +90,7 @@ class PaceTest {
     void aContinuedRunIsCountedFromItsStart() {
         Pace pace = new Pace(SETTINGS, after(10, 19), 29 + 6, clock::get);
         assertThat(pace.done()).isEqualTo(29);
+        assertThat(pace.total()).isEqualTo("about 50");
 
         pace.generationStarted(2, 16);
         evaluate(pace, 6, 2);

@@ -64,7 +64,14 @@ class ReproduceTest {
 
         assertThat(Files.readString(run.resolve("report/README.md"))).contains("# thesis/creature-2, seed 1",
                 "![rotation over time](rotation.png)", "flow-side.png", "| e against anguilliform fish (α, β) | 0.")
-                .doesNotContain("NaN");
+                .doesNotContain("NaN", "not finished");
+
+        Path config = run.resolve("config.json");
+        Files.writeString(config, Files.readString(config).replaceFirst("\"generations\" : 0", "\"generations\" : 3"));
+        assertThat(command.execute("report", "--simulator-path", SIMULATOR.toString(), run.toString()))
+                .as(err.toString()).isZero();
+        assertThat(Files.readString(run.resolve("report/README.md")))
+                .startsWith("# thesis/creature-2, seed 1\n\n**This run is not finished.** Done are generation 0 of 3 and ");
         assertThat(command.execute("report", folder.toString())).isEqualTo(2);
         assertThat(err.toString()).contains("is not a run folder");
     }
