@@ -106,5 +106,5 @@ KINDS = {
     "scene": (10, info_scene, lambda program, limit: Once(program, ["info", "--definition"], limit, as_file=True,
                                                          nulls=("fluid", "creature", "base"))),
     "particles": (10, particles, lambda program, limit: Once(program, ["particles"], limit, as_file=True,
-                                                            nulls=("w", "result", "hash"))),
+                                                            nulls=("w", "result", "hash"), echoes=True)),
 }
