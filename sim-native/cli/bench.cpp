@@ -349,16 +349,14 @@ void add_roofline(CLI::App* bench, int& status) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, int& status) {
-    CLI::App* bench = app.add_subcommand("bench", "Run a study of the solver and write its results as CSV.");
-    bench->require_subcommand(1);
-    add_precision(bench, status);
-    add_ensemble(bench, status);
-    add_roofline(bench, status);
-    add_speed(bench, status);
-    add_stability(bench, status);
-    add_stages(bench, status);
-    add_validation(bench, status);
+void add_studies(CLI::App& app, int& status) {
+    add_precision(&app, status);
+    add_ensemble(&app, status);
+    add_roofline(&app, status);
+    add_speed(&app, status);
+    add_stability(&app, status);
+    add_stages(&app, status);
+    add_validation(&app, status);
 }
 
 }  // namespace natator::cli

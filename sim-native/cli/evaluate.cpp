@@ -11,14 +11,14 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct EvaluateOptions {
     BackendChoice backend;
     ExecutionOptions execution;
     bool plain = false;
 };
 
 /// Evaluates one request. Sets `id` as soon as it is known, for messages.
-int evaluate_request(const std::string& text, Options& options, json& id) {
+int evaluate_request(const std::string& text, EvaluateOptions& options, json& id) {
     const json value = parse_json(text, "request");
     id = request_id(value);
     const Job job = read_job(value, options.backend);
@@ -32,7 +32,7 @@ int evaluate_request(const std::string& text, Options& options, json& id) {
     return unstable;
 }
 
-int run_evaluate(Options& options) {
+int run_evaluate(EvaluateOptions& options) {
     json id;
     try {
         return evaluate_request(read_all(stdin, "request"), options, id);
@@ -51,7 +51,7 @@ void add_evaluate(CLI::App& app, int& status) {
         "evaluate",
         "Read one JSON request on standard input, write one JSON result on standard output. The request holds all that "
         "`run` has options for: scene, gait, scheme, duration, overrides.");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<EvaluateOptions>();
     add_backend_options(command, options->backend);
     command->add_flag("--plain", options->plain, "Write only the fitness, as a number.");
     add_execution_options(command, options->execution);

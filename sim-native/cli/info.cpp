@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct InfoOptions {
     std::string scene, overrides;
     bool json = false, definition = false;
 };
@@ -80,7 +80,7 @@ std::string as_text(const ordered_json& info) {
     return text.str();
 }
 
-void run_info(const Options& options) {
+void run_info(const InfoOptions& options) {
     if (options.scene.empty() && !options.overrides.empty()) throw InputError("--overrides: needs a scene");
     if (options.scene.empty() && options.definition) throw InputError("--definition: needs a scene");
     const auto overrides =
@@ -100,7 +100,7 @@ void run_info(const Options& options) {
 void add_info(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand(
         "info", "Describe a scene: particles, constraints, the plan of a step. Without one: version and named scenes.");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<InfoOptions>();
     command->add_option("scene", options->scene, "Name or path of the scene.");
     command->add_flag("--json", options->json, "Write one JSON object.");
     command->add_flag("--definition", options->definition,

@@ -9,7 +9,7 @@
 namespace natator::cli {
 namespace {
 
-struct Options {
+struct ParticlesOptions {
     std::string file;
     std::string output;
     std::string precision = "float";
@@ -23,7 +23,7 @@ std::string experiment_name(const std::string& file, const nlohmann::json& exper
     return where;
 }
 
-void run_particles(const Options& options, int& status) {
+void run_particles(const ParticlesOptions& options, int& status) {
     const nlohmann::json experiments = read_json_file(options.file);
     if (!experiments.is_array()) throw InputError(options.file + ": is not an array of experiments");
     const Precision precision =
@@ -48,7 +48,7 @@ void run_particles(const Options& options, int& status) {
 }  // namespace
 
 void add_particles(CLI::App& app, int& status) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ParticlesOptions>();
     CLI::App* command =
         app.add_subcommand("particles", "Run experiments on raw particles and write them back with results");
     command->add_option("file", options->file, "JSON array of experiments; format: tests/conformance/README.md")

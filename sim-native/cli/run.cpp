@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct RunOptions {
     std::string scene, gait, overrides, trajectory, snapshot, scheme;
     std::string precision = "float";
     std::optional<double> duration, snapshot_at;
@@ -29,14 +29,14 @@ struct Options {
 };
 
 /// Recordings are made on the CPU.
-bool run_on_gpu(const Options& options, const Scene& scene) {
+bool run_on_gpu(const RunOptions& options, const Scene& scene) {
     if (options.trajectory.empty() && options.snapshot.empty()) return on_gpu(options.backend, scene);
     if (options.backend.name == "cuda")
         throw InputError("--backend cuda: records no --trajectory and no --snapshot; must be cpu or auto with them");
     return false;
 }
 
-Scene load(const Options& options) {
+Scene load(const RunOptions& options) {
     json overrides = json::object();
     if (!options.overrides.empty()) overrides = read_json_argument(options.overrides, "--overrides");
     if (options.duration) overrides["duration"] = *options.duration;
@@ -45,7 +45,7 @@ Scene load(const Options& options) {
 }
 
 /// The gait asked for; without one the muscles rest.
-Gait load_gait(const Options& options, int actuators) {
+Gait load_gait(const RunOptions& options, int actuators) {
     if (!options.gait.empty()) return parse_gait(read_json_argument(options.gait, "--gait"), "--gait");
     return resting_gait(actuators);
 }
@@ -53,7 +53,7 @@ Gait load_gait(const Options& options, int actuators) {
 /// For people, who take -0 for a mistake.
 double without_sign_of_zero(double value) { return value == 0 ? 0 : value; }
 
-std::string summary(const Options& options, const Scene& scene, const Evaluation& result, double wall_seconds) {
+std::string summary(const RunOptions& options, const Scene& scene, const Evaluation& result, double wall_seconds) {
     std::ostringstream text;
     text << "scene      " << scene.name << "\n";
     if (scene.creature) {
@@ -82,7 +82,7 @@ std::string summary(const Options& options, const Scene& scene, const Evaluation
     return text.str();
 }
 
-int run_scene(Options& options) {
+int run_scene(RunOptions& options) {
     const Scene scene = load(options);
     const Gait gait = load_gait(options, scene.creature ? scene.creature->actuators() : 0);
     const Precision precision =
@@ -132,7 +132,7 @@ int run_scene(Options& options) {
 
 void add_run(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand("run", "Run a scene once and print a summary.");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RunOptions>();
     command->add_option("scene", options->scene, "Name or path of the scene.")->required();
     command->add_option("--gait", options->gait,
                         R"(File or JSON text: {"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]}. )"

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct ServeOptions {
     BackendChoice backend;
     ExecutionOptions execution;
     std::size_t most = 1024;
@@ -109,7 +109,7 @@ std::optional<MemberResult> evaluate_unless_on_gpu(const Job& job, const Executi
 }
 
 /// Answers a batch of requests: those for the GPU in groups, the others one after another.
-void serve_batch(const std::vector<std::string>& lines, Options& options, Tally& tally) {
+void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, Tally& tally) {
     std::map<GroupKey, std::vector<SharedJob>> groups;
     for (const SharedJob& shared : read_jobs(lines, options.backend)) {
         const auto& [job, ids] = shared;
@@ -125,7 +125,7 @@ void serve_batch(const std::vector<std::string>& lines, Options& options, Tally&
     for (const auto& [key, jobs] : groups) evaluate_group(jobs);
 }
 
-int serve(Options& options) {
+int serve(ServeOptions& options) {
     if (options.backend.name == "cuda") on_gpu(options.backend, {});  // ends the program if there is none
     constexpr std::chrono::milliseconds lull(5);
     LineQueue queue(STDIN_FILENO, {.lines = options.most,
@@ -150,7 +150,7 @@ void add_serve(CLI::App& app, int& status) {
                            "Read JSON requests on standard input, one a line, and answer each with one line, in any "
                            "order, by its id. What comes together is computed together where the backend does batches, "
                            "and once where requests differ in nothing but their ids. Ends with the input.");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ServeOptions>();
     add_backend_options(command, options->backend);
     command->add_option("--batch", options->most, "Most requests that are taken together.")
         ->check(CLI::Range(1, 1 << 20))

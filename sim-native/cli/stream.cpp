@@ -12,7 +12,7 @@
 namespace natator::cli {
 namespace {
 
-struct Options {
+struct StreamOptions {
     std::string scene, gait, overrides, scheme;
     std::string precision = "float";
     std::vector<std::string> fields{"position"};
@@ -22,7 +22,7 @@ struct Options {
 
 constexpr std::size_t most_waiting = 64;  // commands, beside as many that were taken together
 
-LiveSetup read_setup(const Options& options) {
+LiveSetup read_setup(const StreamOptions& options) {
     LiveSetup setup;
     setup.scene = options.scene;
     if (!options.overrides.empty()) setup.overrides = read_json_argument(options.overrides, "--overrides");
@@ -42,13 +42,13 @@ stream::Fields read_fields(const std::vector<std::string>& names) {
 }
 
 template <class Real>
-void run_stream(Options& options) {
+void run_stream(StreamOptions& options) {
     StreamSession<Real> session(read_setup(options), options.execution.execution(), options.settings);
     LineQueue commands(STDIN_FILENO, {.lines = most_waiting, .bytes = stream::longest_command});
     session.run(commands);
 }
 
-int stream_scene(Options& options) {
+int stream_scene(StreamOptions& options) {
     if (!stream::is_rate(options.settings.rate))
         throw InputError("--rate " + nlohmann::json(options.settings.rate).dump() +
                          ": must be 0 or a number in [0.001, 1000]");
@@ -65,7 +65,7 @@ void add_stream(CLI::App& app, int& status) {
                            "Run a scene that is watched and changed meanwhile: JSON commands on standard input, one a "
                            "line; binary frames on standard output (sim-native/protocol/stream.md). Ends with the "
                            "input.");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StreamOptions>();
     StreamSettings& settings = options->settings;
     command->add_option("scene", options->scene, "Name or path of the scene.")->required();
     command->add_option("--gait", options->gait, "File or JSON text. Default: muscles at rest.");

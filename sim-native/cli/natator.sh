@@ -1,0 +1,31 @@
+#!/bin/sh
+# Runs the Java half of Natator: evolve, show, view ... Its jar is looked for in the source tree that this was built in, or
+# is named by NATATOR_JAR.
+self=$0
+while [ -L "$self" ]; do
+    target=$(readlink "$self")
+    case $target in
+        /*) self=$target ;;
+        *) self=$(dirname "$self")/$target ;;
+    esac
+done
+bin=$(cd "$(dirname "$self")" && pwd -P) || exit 1
+jar=${NATATOR_JAR:-$bin/../../../ga-java/target/natator.jar}
+
+if [ ! -f "$jar" ]; then
+    if [ -n "${NATATOR_JAR:-}" ]; then
+        echo "natator: no jar $jar, which NATATOR_JAR names" >&2
+    else
+        echo "natator: no jar $(cd "$bin/../../.." && pwd -P)/ga-java/target/natator.jar: build it there by mvn package -DskipTests, or name one by NATATOR_JAR" >&2
+    fi
+    exit 1
+fi
+if [ -n "${JAVA_HOME:-}" ] && [ -x "$JAVA_HOME/bin/java" ]; then
+    java=$JAVA_HOME/bin/java
+elif command -v java >/dev/null 2>&1; then
+    java=java
+else
+    echo "natator: no java on the PATH nor in JAVA_HOME: install a Java runtime, version 17 or later" >&2
+    exit 1
+fi
+exec "$java" -jar "$jar" "$@"

@@ -1,0 +1,22 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "commands.h"
+
+namespace natator::cli {
+
+void start_bench(char** arguments) {
+    const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    const std::string program = (folder / "natator-bench").string();
+    ::execv(program.c_str(), arguments);
+    if (errno != ENOENT) throw std::system_error(errno, std::generic_category(), program);
+    throw std::runtime_error("the benchmarks are a program of their own, which is not built; build it by: cmake --build " +
+                             folder.parent_path().string() + " --target natator-bench");
+}
+
+}  // namespace natator::cli

@@ -1,0 +1,110 @@
+"""What is mutated, by kind: a generator of texts, and the program that each text is given to."""
+import json
+import pathlib
+
+from mutate import cheap, dump, mutate, mutate_text
+from programs import Once, Serve, Stream
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+GAIT = {"frequency": 1.861, "amplitude": [0.973, 0.69], "phase": [0, 0.648], "power": 1}
+TANK = json.loads((ROOT / "sim-native/scenes/bench/small-tank.json").read_text())
+SETTLING = {"updates": 2}
+SOLVER = [("substeps", 2), ("numIterations", 2), ("gravity", [0, -9.81, 0]), ("radius", 0.1), ("solidRestDistance", 0.1),
+          ("fluidRestDistance", 0.05), ("dynamicFriction", 0.1), ("staticFriction", 0.1), ("particleFriction", 0.1),
+          ("restitution", 0.5), ("adhesion", 1), ("sleepThreshold", 0.1), ("maxSpeed", 10), ("maxAcceleration", 100),
+          ("shockPropagation", 1), ("dissipation", 0.1), ("damping", 0.1), ("cohesion", 0.1), ("surfaceTension", 1),
+          ("viscosity", 1), ("vorticityConfinement", 1), ("solidPressure", 1), ("freeSurfaceDrag", 0.1), ("buoyancy", 1),
+          ("collisionDistance", 0.05), ("particleCollisionMargin", 0.01), ("shapeCollisionMargin", 0.01),
+          ("relaxationFactor", 1), ("relaxationMode", "local"), ("maxNeighborsPerParticle", 96)]
+SCENE = [("scheme", "conserving"), ("base", "thesis/tank"), ("duration", 0.02), ("timeStep", 1 / 60), ("fluid", None),
+         ("planes", [[0, 1, 0, 0]]), ("settling", {"updates": 1}), ("stopping", {"planeContact": False}),
+         ("solver", {"substeps": 2}), ("creature", None), ("count", [5, 5, 5]), ("joints", [2])]
+REQUEST = [("duration", 0.02), ("scheme", "flex"), ("precision", "double"), ("backend", "cpu"), ("gait", GAIT),
+           ("perturbation", {"amplitude": 0.001, "seed": 3}), ("power", 2)]
+
+
+def overrides(random):
+    """A patch of the small tank's scene, with some solver settings that its mutation can reach."""
+    patch = {"settling": dict(SETTLING), "solver": dict(random.sample(SOLVER, random.randrange(4)))}
+    if random.random() < 0.3:
+        patch["fluid"] = {"count": [7, 5, 5]}
+    if random.random() < 0.3:
+        patch["scheme"] = "conserving"
+    return patch
+
+
+def text_of(random, document, keys):
+    document = cheap(mutate(random, document, keys)) if random.random() < 0.95 else document
+    text = dump(document)
+    return mutate_text(random, text) if random.random() < 0.1 else text
+
+
+def one_line(text):
+    return text.replace("\n", " ")
+
+
+def request(random):
+    document = {"id": random.randrange(1000), "scene": "bench/small-tank", "duration": 0.034, "gait": dict(GAIT),
+                "overrides": overrides(random)}
+    return one_line(text_of(random, document, SCENE + SOLVER + REQUEST))
+
+
+def gait(random):
+    text = text_of(random, GAIT, [("power", 1), ("frequency", 1), ("amplitude", [1, 1]), ("phase", [0, 0])])
+    return one_line('{"id":1,"scene":"bench/small-tank","duration":0.034,"overrides":{"settling":{"updates":2},'
+                    f'"fluid":{{"count":[7,5,5]}}}},"gait":{text}}}')
+
+
+def scene(random):
+    return text_of(random, TANK | {"settling": SETTLING, "duration": 0.034} | ({"solver": dict(random.sample(SOLVER, 3))}),
+                   SCENE + SOLVER)
+
+
+def stream(random):
+    commands = []
+    for _ in range(random.randrange(1, 5)):
+        command = random.choice([
+            {"do": "credit", "frames": 2}, {"do": "run"}, {"do": "pause"}, {"do": "step", "frames": 1},
+            {"do": "step", "frames": 2}, {"do": "rate", "value": 0}, {"do": "reset"}, {"do": "gait", "gait": GAIT},
+            {"do": "overrides", "overrides": {"solver": dict(random.sample(SOLVER, 2))}},
+            {"do": "overrides", "overrides": overrides(random)},
+            {"do": "scene", "scene": "bench/small-tank", "overrides": overrides(random), "gait": GAIT}])
+        if random.random() < 0.5:
+            command = command | {"id": random.randrange(100)}
+        commands.append(one_line(text_of(random, command, [("do", "run"), ("frames", 1), ("id", 1)] + SCENE + SOLVER)))
+    return "\n".join(commands)
+
+
+def experiments():
+    """The smallest measured experiments of each file, a few of each."""
+    found = []
+    for path in sorted((ROOT / "tests/conformance/micro").glob("*.json")):
+        all_of = sorted(json.loads(path.read_text()), key=lambda one: len(json.dumps(one)))
+        found += all_of[:3]
+    return [one for one in found if len(json.dumps(one)) < 20000]
+
+
+EXPERIMENTS = []
+
+
+def particles(random):
+    if not EXPERIMENTS:
+        EXPERIMENTS.extend(experiments())
+    return text_of(random, [random.choice(EXPERIMENTS)], SOLVER + [("dt", 0.01), ("substeps", 1), ("params", {})])
+
+
+def info_scene(random):
+    return scene(random)
+
+
+# How often a kind comes, its texts, and what runs them: (program, limit) -> runner.
+KINDS = {
+    "request": (40, request, lambda program, limit: Serve(program, limit)),
+    "gait": (15, gait, lambda program, limit: Serve(program, limit)),
+    "stream": (20, stream, lambda program, limit: Stream(program, limit)),
+    "evaluate": (5, request, lambda program, limit: Once(program, ["evaluate"], limit)),
+    "scene": (10, info_scene, lambda program, limit: Once(program, ["info", "--definition"], limit, as_file=True,
+                                                         nulls=("fluid", "creature", "base"))),
+    "particles": (10, particles, lambda program, limit: Once(program, ["particles"], limit, as_file=True,
+                                                            nulls=("w", "result", "hash"), echoes=True)),
+}

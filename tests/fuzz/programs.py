@@ -1,0 +1,238 @@
+"""Runs natator-sim for a case and says what is wrong with how it went: the errors of a case are the texts of Fault."""
+import json
+import os
+import select
+import struct
+import subprocess
+import tempfile
+import time
+
+
+class Fault(Exception):
+    """What a case must not do."""
+
+
+SANITIZER = ("ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "runtime error:", "SUMMARY: ")
+
+
+def refuse_constant(text):
+    raise Fault(f"a number that is none in an answer: {text}")
+
+
+def parse(text, nulls):
+    """JSON without NaN and infinities, and with null only at the keys of `nulls` (None: anywhere) and inside overrides, which are patches."""
+    try:
+        value = json.loads(text, parse_constant=refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise Fault(f"an answer that is no JSON ({error}): {text[:300]}") from None
+    check_values(value, nulls, "", text)
+    return value
+
+
+def check_values(value, nulls, key, text):
+    if isinstance(value, dict):
+        for name, one in value.items():
+            if name != "overrides":
+                check_values(one, nulls, name, text)
+    elif isinstance(value, list):
+        for one in value:
+            check_values(one, nulls, key, text)
+    elif value is None and nulls is not None and key not in nulls or isinstance(value, float) and value - value != 0:
+        raise Fault(f"{value} at {key} in {text[:300]}")
+
+
+def encode(text):
+    return text.encode("utf-8", "surrogateescape" if not any("\ud800" <= c < "\udc80" for c in text) else "surrogatepass")
+
+
+def check_end(code, errors):
+    """How a program may end on any input: documented code, one line for what it refuses, nothing from a sanitizer."""
+    for sign in SANITIZER:
+        if sign in errors:
+            raise Fault(f"sanitizer: {errors[errors.index(sign):][:1500]}")
+    if code < 0:
+        raise Fault(f"ended by signal {-code}: {errors[-500:]}")
+    if code not in (0, 2, 3):
+        raise Fault(f"exit code {code}: {errors[-500:]}")
+    if code and len(errors.strip("\n").split("\n")) != 1:
+        raise Fault(f"exit code {code} with {len(errors.splitlines())} lines on standard error: {errors[:500]}")
+
+
+class Once:
+    """A process for each case. The text is its standard input, or a file that is its last argument."""
+
+    def __init__(self, program, arguments, limit, as_file=False, nulls=("id", "distance"), echoes=False):
+        self.command, self.limit, self.as_file, self.nulls = [program, *arguments], limit, as_file, nulls
+        self.echoes = echoes  # the answer holds the input as well, with the nulls that it has
+
+    def run(self, text):
+        with tempfile.TemporaryDirectory(prefix="natator-fuzz-") as folder:
+            command, given = self.command, encode(text)
+            if self.as_file:
+                path = os.path.join(folder, "case.json")
+                with open(path, "wb") as file:
+                    file.write(given)
+                command, given = [*command, path], b""
+            try:
+                done = subprocess.run(command, input=given, capture_output=True, timeout=self.limit)
+            except subprocess.TimeoutExpired:
+                raise Fault(f"no end within {self.limit} s") from None
+        check_end(done.returncode, done.stderr.decode("utf-8", "replace"))
+        out = done.stdout.decode("utf-8", "strict")
+        if done.returncode == 0 and not out.strip():
+            raise Fault("exit code 0 without an answer")
+        if out.strip():
+            parse(out, None if self.echoes and "null" in text else self.nulls)
+
+    def close(self):
+        pass
+
+
+class Resident:
+    """A process that takes one case after another; started anew when it ended or had `most` cases."""
+
+    def __init__(self, command, limit, most):
+        self.command, self.limit, self.most = command, limit, most
+        self.process, self.cases, self.buffer, self.before = None, 0, b"", []
+
+    def start(self):
+        if self.process and self.cases < self.most:
+            return
+        self.close()
+        self.errors = tempfile.TemporaryFile()
+        self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.errors)
+        os.set_blocking(self.process.stdin.fileno(), False)
+        self.cases, self.buffer, self.before = 0, b"", []
+
+    def close(self):
+        """Ends the process by the end of its input, as a user of it does; anything but 0 is a fault."""
+        if not self.process:
+            return
+        process, self.process = self.process, None
+        try:
+            process.communicate(timeout=self.limit)
+        except subprocess.TimeoutExpired:
+            raise Fault(f"no end within {self.limit} s of the end of the input") from None
+        finally:
+            process.kill()
+            process.wait()
+        self.check(process)
+
+    def check(self, process):
+        self.errors.seek(0)
+        errors = self.errors.read().decode("utf-8", "replace")
+        check_end(process.returncode, errors)
+        if process.returncode:
+            raise Fault(f"exit code {process.returncode}: {errors[-500:]}")
+
+    def kill(self):
+        if self.process:
+            self.process.kill()
+            self.process.wait()
+            self.process = None
+
+    def exchange(self, given, finished):
+        """Writes while it reads, until finished(buffer) is not None; that is returned."""
+        end = time.monotonic() + self.limit
+        while True:
+            result = finished()
+            if result is not None:
+                return result
+            left = end - time.monotonic()
+            if left <= 0:
+                raise Fault(f"no answer within {self.limit} s")
+            stdin, stdout = self.process.stdin, self.process.stdout
+            readable, writable, _ = select.select([stdout], [stdin] if given else [], [], left)
+            if writable:
+                try:
+                    given = given[os.write(stdin.fileno(), given[:65536]):]
+                except BrokenPipeError:
+                    given = b""
+            if readable:
+                more = os.read(stdout.fileno(), 1 << 20)
+                if not more:
+                    process, self.process = self.process, None
+                    process.wait()
+                    self.check(process)
+                    raise Fault("it ended before it answered")
+                self.buffer += more
+
+
+class Serve(Resident):
+    """Requests, one at a time; a request that is refused at once marks where the answers to the one before it end."""
+
+    def __init__(self, program, limit):
+        super().__init__([program, "serve", "--batch", "1"], limit, 500)
+
+    def run(self, text):
+        self.start()
+        self.cases += 1
+        self.before.append(text)
+        mark = 9_000_000_000_000_000 + self.cases
+        given = encode(text) + b"\n" + b'{"id":%d}\n' % mark
+        answers = []
+
+        def finished():
+            while b"\n" in self.buffer:
+                line, self.buffer = self.buffer.split(b"\n", 1)
+                answer = parse(line.decode("utf-8", "strict"), ("id", "distance"))
+                if answer.get("id") == mark:
+                    return answers
+                answers.append(answer)
+            return None
+
+        self.exchange(given, finished)
+        expected = 1 if text.strip(" \t\r") else 0
+        if len(answers) != expected:
+            raise Fault(f"{len(answers)} answers to {expected} requests")
+
+
+class Stream(Resident):
+    """Commands of a stream, a few a case; the last is ours and marks the end of the answers."""
+
+    def __init__(self, program, limit):
+        command = [program, "stream", "bench/small-tank", "--overrides", '{"settling":{"updates":2}}', "--paused",
+                   "--rate", "0", "--fields", "position,velocity,density"]
+        super().__init__(command, limit, 100)
+
+    def run(self, text):
+        self.start()
+        self.cases += 1
+        self.before.append(text)
+        mark = 9_000_000_000_000_000 + self.cases
+        commands = [line for line in text.split("\n") if line.strip(" \t\r")]
+        given = b"".join(encode(line) + b"\n" for line in text.split("\n"))
+        given += b'{"do":"pause"}\n{"do":"credit","frames":1,"id":%d}\n' % mark
+        answers = []
+
+        def finished():
+            while len(self.buffer) >= 8:
+                name, length = self.buffer[:4], struct.unpack_from("<I", self.buffer, 4)[0]
+                if len(self.buffer) < 8 + length:
+                    return None
+                body, self.buffer = self.buffer[8:8 + length], self.buffer[8 + length:]
+                if name == b"FRAM":
+                    check_frame(body)
+                elif name in (b"SCEN", b"STOP"):
+                    parse(body.decode("utf-8", "strict"), ("mass",))
+                elif name == b"ANSW":
+                    answer = parse(body.decode("utf-8", "strict"), ("id",))
+                    if answer["id"] == mark:
+                        return answers
+                    answers.append(answer)
+                else:
+                    raise Fault(f"a message {name!r}")
+            return None
+
+        self.exchange(given, finished)
+        if len(answers) != len(commands) + 1:
+            raise Fault(f"{len(answers) - 1} answers to {len(commands)} commands")
+
+
+def check_frame(body):
+    """All numbers of a frame are finite."""
+    doubles = struct.unpack_from("<3d", body, 16)
+    floats = struct.unpack_from(f"<{(len(body) - 40) // 4}f", body, 40)
+    for value in (*doubles, sum(floats)):
+        if value - value != 0:
+            raise Fault("a number in a frame that is not finite")
