@@ -1,12 +1,12 @@
 // Compiled once per instruction set, like the solver's kernels and with their vectors.
 #include "roof_kernels.h"
 
-#include "solver/cpu/lanes.h"
+#include "physics/number.h"
 
 namespace natator::bench::NATATOR_ISA {
 namespace {
 
-using namespace natator::cpu::NATATOR_ISA;
+using namespace natator::physics;
 
 float total(Floats v) {
     float sum = 0;
@@ -37,7 +37,7 @@ float sum(const float* from, int count) {
 float sum_quadruples(const float* packed, const std::int32_t* index, int count) {
     Floats x{}, y{}, z{}, w{};
     for (int k = 0; k < count; k += width) {
-        const Floats4 v = gather(packed, index + k);
+        const Four<Floats> v = gather(packed, index + k);
         x += v.x;
         y += v.y;
         z += v.z;

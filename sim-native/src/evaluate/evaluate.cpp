@@ -9,16 +9,11 @@
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "perturb.h"
+#include "physics/early_stop.h"
 #include "settled_start.h"
 
 namespace natator {
 namespace {
-
-/// Whether the last `window` frames brought no gain in mean x (thesis 2.6). `mean_x` has one entry per frame from the
-/// start on; a window of 0 frames never ends a run.
-bool without_progress(const std::vector<double>& mean_x, std::size_t window) {
-    return window > 0 && mean_x.size() > window && mean_x.back() - mean_x[mean_x.size() - 1 - window] <= 0;
-}
 
 template <class Real>
 void observe(const Body& body, const State<Real>& state, const FrameObserver& on_frame) {
@@ -67,7 +62,7 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
         }
         if (scene.stopping.plane_contact && touches_plane(model, state)) {
             result.stopped = Stopped::touched_plane;
-        } else if (without_progress(path, static_cast<std::size_t>(window))) {
+        } else if (physics::without_progress(path.data(), result.frames, static_cast<long>(window))) {
             result.stopped = Stopped::no_progress;
         }
     }

@@ -1,7 +1,5 @@
-#include <cmath>
-#include <numbers>
-
 #include "natator/gait.h"
+#include "physics/muscle.h"
 
 namespace natator {
 
@@ -13,10 +11,7 @@ Gait resting_gait(int actuators) {
 }
 
 double activation(const Gait& gait, int actuator, double time) {
-    const double turns = gait.frequency * time + gait.phase.at(static_cast<std::size_t>(actuator));
-    const double sine = std::sin(2 * std::numbers::pi * turns);
-    if (gait.power == 1.0) return sine;
-    return std::pow((sine + 1) / 2, gait.power) * 2 - 1;
+    return physics::activation(gait.frequency, gait.power, gait.phase.at(static_cast<std::size_t>(actuator)), time);
 }
 
 }  // namespace natator

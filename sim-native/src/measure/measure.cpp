@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "physics/early_stop.h"
+
 namespace natator {
 
 template <class Real>
@@ -15,10 +17,9 @@ double mean_x(const Body& body, const State<Real>& state) {
 template <class Real>
 bool touches_plane(const Model& model, const State<Real>& state) {
     return std::any_of(model.planes.begin(), model.planes.end(), [&](const Plane& plane) {
-        const double rounding = 1e-6 * (std::abs(plane.offset) + 1);
-        const double limit = model.parameters.collisionDistance + rounding;
         return std::any_of(model.body.particles.begin(), model.body.particles.end(), [&](int particle) {
-            return plane.distance(state.position[particle].template cast<double>()) <= limit;
+            const double distance = plane.distance(state.position[particle].template cast<double>());
+            return physics::touches(distance, model.parameters.collisionDistance, plane.offset);
         });
     });
 }

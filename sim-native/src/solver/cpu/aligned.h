@@ -6,6 +6,8 @@
 #include <new>
 #include <vector>
 
+#include "physics/vec3.h"
+
 namespace natator::cpu {
 
 /// Allocates on cache-line boundaries, so that a block of 16 lanes never straddles two more lines than it must.
@@ -26,6 +28,17 @@ struct CacheLineAllocator {
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
+using physics::Vec3;
+
+template <class Real>
+Vec3<Real> vec3(const Eigen::Matrix<Real, 3, 1>& v) {
+    return {v.x(), v.y(), v.z()};
+}
+template <class Real>
+Eigen::Matrix<Real, 3, 1> eigen(const Vec3<Real>& v) {
+    return {v.x, v.y, v.z};
+}
+
 /// Three coordinates, one array each.
 template <class Real>
 struct Vector3Array {
@@ -37,17 +50,13 @@ struct Vector3Array {
         z.resize(n, value);
     }
     std::array<Real*, 3> pointers() { return {x.data(), y.data(), z.data()}; }
-    Eigen::Matrix<Real, 3, 1> at(int i) const { return {x[i], y[i], z[i]}; }
-    void set(int i, const Eigen::Matrix<Real, 3, 1>& value) {
-        x[i] = value.x();
-        y[i] = value.y();
-        z[i] = value.z();
+    Vec3<Real> at(int i) const { return {x[i], y[i], z[i]}; }
+    void set(int i, const Vec3<Real>& value) {
+        x[i] = value.x;
+        y[i] = value.y;
+        z[i] = value.z;
     }
-    void add(int i, const Eigen::Matrix<Real, 3, 1>& value) {
-        x[i] += value.x();
-        y[i] += value.y();
-        z[i] += value.z();
-    }
+    void add(int i, const Vec3<Real>& value) { set(i, at(i) + value); }
 };
 
 }  // namespace natator::cpu

@@ -15,17 +15,17 @@ bool Substep<Real>::finite() const {
         });
     };
     const auto& [x, y, z] = ws_.position;
-    check(new_velocity_[0].data(), 3 * new_velocity_.size());
+    check(&new_velocity_[0].x, 3 * new_velocity_.size());
     for (const auto* coordinate : {&x, &y, &z}) check(coordinate->data(), coordinate->size());
     return all_finite;
 }
 
 template <class Real>
 void Substep<Real>::forget() {
-    std::fill(new_velocity_.begin(), new_velocity_.end(), Vector3<Real>::Zero());
+    std::fill(new_velocity_.begin(), new_velocity_.end(), Vec3<Real>{});
     for (const int slot : ws_.slot_of) {
-        ws_.position.set(slot, Vector3<Real>::Zero());
-        ws_.correction.set(slot, Vector3<Real>::Zero());
+        ws_.position.set(slot, {});
+        ws_.correction.set(slot, {});
     }
 }
 
@@ -33,9 +33,9 @@ template <class Real>
 std::optional<int> Substep<Real>::first_not_finite() const {
     for (int i = 0; i < ws_.particles; ++i) {
         const int slot = ws_.slot_of[i];
-        if (!new_velocity_[i].allFinite() || !ws_.predicted_position[i].allFinite() ||
-            !position_of_slot(slot).allFinite() || !ws_.correction.at(slot).allFinite())
-            return i;
+        for (const Vec3<Real>& v : {new_velocity_[i], vec3(ws_.predicted_position[i]), position_of_slot(slot),
+                                    ws_.correction.at(slot)})
+            if (!eigen(v).allFinite()) return i;
     }
     return std::nullopt;
 }
@@ -45,12 +45,12 @@ void Substep<Real>::commit() {
     team_->for_parts(ws_.particles, shortest_part * lanes, [this](int, int begin, int end) {
         for (int i = begin; i < end; ++i) {
             if (inverse_mass_[i] == 0) continue;
-            state_->position[i] = position_of_slot(ws_.slot_of[i]);
-            state_->velocity[i] = new_velocity_[i];
+            state_->position[i] = eigen(position_of_slot(ws_.slot_of[i]));
+            state_->velocity[i] = eigen(new_velocity_[i]);
         }
     });
     state_->cluster_rotation = cluster_rotation_;
-    state_->cluster_centre = cluster_centre_;
+    for (std::size_t k = 0; k < cluster_centre_.size(); ++k) state_->cluster_centre[k] = eigen(cluster_centre_[k]);
 }
 
 template void Substep<float>::forget();

@@ -72,8 +72,8 @@ template <class Real>
 FluidKernels<Real> scalar_fluid_kernels();
 }  // namespace avx512
 
-/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give
-/// the portable ones.
+/// The kernels for an instruction set, and the same particle by particle; sets that this build lacks give the portable
+/// ones.
 template <class Real>
 const FluidKernels<Real>& fluid_kernels(InstructionSet set);
 template <class Real>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "natator/instruction_set.h"
+#include "physics/velocity.h"
 
 namespace natator::cpu {
 
@@ -16,29 +17,17 @@ struct MotionView {
     Real* velocity[3];
 };
 
-/// What makes a velocity out of a displacement, see FlexStages::update_velocities. The booleans say what applies.
-template <class Real>
-struct VelocityRule {
-    int viscous_blocks;  ///< the first blocks, whose velocity changes are in MotionView::correction
-    Real viscosity_step;
-    bool damping;
-    Real damping_step;
-    bool clamp_acceleration;
-    Real most_change;
-    bool clamp_speed;
-    Real max_speed;
-};
-
 /// What happens to each particle by itself, in one instruction set. No product is fused with a sum, so that all sets
 /// give the same bits.
 template <class Real>
 struct MotionKernels {
-    /// x += min(1, most / max(n, 1)) * correction, n = constraint_count; or x += most * correction.
-    void (*relax)(const MotionView<Real>& slots, Real most, bool local);
+    /// x += relaxation * correction.
+    void (*relax)(const MotionView<Real>& slots, Real omega, bool local);
     /// velocity = (x - start) / h.
     void (*displacement_velocity)(const MotionView<Real>& slots, Real inverse_h);
-    /// Velocity of the displacement to velocity of the particle.
-    void (*finish_velocity)(const MotionView<Real>& slots, const VelocityRule<Real>& rule);
+    /// Velocity of the displacement to velocity of the particle; the first blocks have the viscosity's sums in
+    /// MotionView::correction.
+    void (*finish_velocity)(const MotionView<Real>& slots, int viscous_blocks, const physics::VelocityRule<Real>& rule);
     /// Are all of them finite?
     bool (*finite)(const Real* values, int count);
 };

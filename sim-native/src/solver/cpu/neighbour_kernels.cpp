@@ -2,10 +2,12 @@
 // definition, and what double runs; beside each stands the same for vectors.
 #include "neighbour_kernels.h"
 
-#include "lanes.h"
+#include "physics/pair.h"
 
 namespace natator::cpu::NATATOR_ISA {
 namespace {
+
+using namespace physics;
 
 constexpr int lanes = 16;
 
@@ -50,7 +52,7 @@ int find_by_vectors(const float* const position[3], int slot, const SlotRuns& ru
             const Floats dx = xi - load_unaligned(x + j);
             const Floats dy = yi - load_unaligned(y + j);
             const Floats dz = zi - load_unaligned(z + j);
-            const unsigned near = positive_and_below(square(dx, dy, dz), limit) & first_lanes(end - j);
+            const unsigned near = positive_and_below(squared_length(Vec3<Floats>{dx, dy, dz}), limit) & first_lanes(end - j);
             n += store_chosen(found + n, consecutive(j), near);
         }
     }

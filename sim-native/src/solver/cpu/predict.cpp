@@ -1,20 +1,20 @@
+#include "physics/velocity.h"
 #include "substep.h"
 
 namespace natator::cpu {
 
-/// v* = v + h g (g times buoyancy for fluid; no gravity on particles of infinite mass), |v*| <= maxSpeed,
-/// x* = x + h v*. A particle of infinite mass moves within the substep and is put back at its end.
+/// v* (physics::drift_velocity; g times buoyancy for fluid) and x* = x + h v*. A particle of infinite mass moves within the substep and is put back at its end.
 template <class Real>
 void Substep<Real>::predict() {
-    const Vector3<Real> gravity = model_.parameters.gravity.template cast<Real>();
-    const Vector3<Real> fluid_gravity = gravity * Real(model_.parameters.buoyancy);
+    const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
+    const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
     team_->for_parts(ws_.particles, shortest_part * lanes, [&](int, int begin, int end) {
         for (int i = begin; i < end; ++i) {
-            Vector3<Real> v = state_->velocity[i];
-            if (inverse_mass_[i] > 0) v += h_ * (model_.is_fluid(i) ? fluid_gravity : gravity);
-            if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
-            ws_.predicted_velocity[i] = v;
-            ws_.predicted_position[i] = state_->position[i] + h_ * v;
+            const Vec3<Real> v =
+                drift_velocity(vec3(state_->velocity[i]), inverse_mass_[i],
+                               model_.is_fluid(i) ? fluid_gravity : gravity, h_, plan_.clamp_speed, constants_.max_speed);
+            ws_.predicted_velocity[i] = eigen(v);
+            ws_.predicted_position[i] = eigen(vec3(state_->position[i]) + h_ * v);
         }
     });
 }

@@ -43,19 +43,21 @@ Substep<Real>::Substep(const Model& model, const Plan& plan)
     for (const Spring& spring : model.springs) spring_stiffness_.push_back(static_cast<Real>(spring.stiffness));
     for (const Cluster& cluster : model.clusters) {
         cluster_offset_.emplace_back();
-        for (const auto& offset : cluster.rest_offset) cluster_offset_.back().push_back(offset.cast<Real>());
+        for (const auto& offset : cluster.rest_offset) cluster_offset_.back().push_back(vec3<Real>(offset.cast<Real>()));
     }
+    up_ = vec3<Real>(-model.parameters.gravity.normalized().template cast<Real>());
 }
 
 template <class Real>
 void Substep<Real>::gather_slots() {
     cluster_rotation_ = state_->cluster_rotation;
-    cluster_centre_ = state_->cluster_centre;
+    cluster_centre_.clear();
+    for (const Vector3<Real>& centre : state_->cluster_centre) cluster_centre_.push_back(vec3(centre));
     for_each_slot([this](int slot) {
         const int i = ws_.particle_of[slot];
-        ws_.position.set(slot, ws_.predicted_position[i]);
-        ws_.start.set(slot, state_->position[i]);
-        ws_.predicted.set(slot, ws_.predicted_velocity[i]);
+        ws_.position.set(slot, vec3(ws_.predicted_position[i]));
+        ws_.start.set(slot, vec3(state_->position[i]));
+        ws_.predicted.set(slot, vec3(ws_.predicted_velocity[i]));
         ws_.inverse_mass[slot] = inverse_mass_[i];
     });
 }
@@ -102,19 +104,9 @@ bool Substep<Real>::collides(int i, int j) const {
 }
 
 template <class Real>
-Vector3<Real> Substep<Real>::friction(const Vector3<Real>& moved, const Vector3<Real>& normal, Real depth,
-                                      Real coefficient) const {
-    const Vector3<Real> tangential = moved - moved.dot(normal) * normal;
-    const Real m = tangential.norm();
-    if (!(m > 0)) return Vector3<Real>::Zero();
-    const Real held = m < constants_.static_friction * depth ? m : std::min(coefficient * depth, m);
-    return held / m * tangential;
-}
-
-template <class Real>
 std::vector<Vector3<Real>> Substep<Real>::positions() const {
     std::vector<Vector3<Real>> positions;
-    for (const int slot : ws_.slot_of) positions.push_back(position_of_slot(slot));
+    for (const int slot : ws_.slot_of) positions.push_back(eigen(position_of_slot(slot)));
     return positions;
 }
 

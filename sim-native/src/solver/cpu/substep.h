@@ -9,6 +9,7 @@
 #include "motion_kernels.h"
 #include "natator/plan.h"
 #include "natator/solver.h"
+#include "physics/contact.h"
 #include "neighbour_kernels.h"
 #include "plane_kernels.h"
 #include "thread_team.h"
@@ -30,13 +31,6 @@ struct Constants {
     Real relaxation_factor;
     Real max_speed;
 };
-
-/// The vector, shortened to `longest` if it is longer.
-template <class Real>
-Vector3<Real> clamped(const Vector3<Real>& vector, Real longest) {
-    const Real length = vector.norm();
-    return length > longest ? Vector3<Real>(vector * (longest / length)) : vector;
-}
 
 /// What both schemes do in a substep on the CPU, one source file per stage, and what they share to do it.
 /// step.h gives the order of the stages.
@@ -142,9 +136,7 @@ protected:
             work(block, chosen, view);
         }
     }
-    /// Where the distance d to a plane is below collisionDistance: moves out by e = collisionDistance - d, then takes
-    /// min(dynamicFriction * e, m) off the tangential displacement m since the substep's start (all of it if
-    /// m < staticFriction * e).
+    /// Moves what is near planes out of them, see physics::leave_plane.
     void leave_planes(const NearPlanes<Real>& slots) {
         for_each_plane_group(ws_.all_blocks(), [&](int block, unsigned chosen, const PlaneView<Real>& plane) {
             plane_kernels_->leave(slots, block, chosen, plane);
@@ -152,8 +144,8 @@ protected:
     }
     /// Densities of the fluid by particle as the last density stage left them; 0 for solids and infinite masses.
     std::vector<Real> densities_by_particle() const;
-    Vector3<Real> position_of_slot(int slot) const { return ws_.position.at(slot); }
-    Vector3<Real> start_of_slot(int slot) const { return ws_.start.at(slot); }
+    Vec3<Real> position_of_slot(int slot) const { return ws_.position.at(slot); }
+    Vec3<Real> start_of_slot(int slot) const { return ws_.start.at(slot); }
 
     const Model& model_;
     Plan plan_;
@@ -162,23 +154,36 @@ protected:
     State<Real>* state_ = nullptr;
     Real h_ = 0;
 
-    /// What Coulomb friction takes off the displacement `moved` of a contact of this depth: the tangential part as a
-    /// whole if it is below staticFriction * depth, else at most friction * depth of it.
-    Vector3<Real> friction(const Vector3<Real>& moved, const Vector3<Real>& normal, Real depth, Real coefficient) const;
-
-    /// How shock propagation changes the weight of contact partner `other` relative to that of `slot`.
-    Real shock_factor(int slot, int other) const;
+    /// Of contacts of particles.
+    physics::Friction<Real> particle_friction() const {
+        return {plan_.particle_friction, constants_.static_friction, constants_.particle_friction};
+    }
+    /// What a contact of this depth pushes a slot by, before its share is taken.
+    Vec3<Real> contact_push(int slot, int other, Real depth) const {
+        const Vec3<Real> difference = position_of_slot(slot) - position_of_slot(other);
+        return physics::contact_push(difference, norm(difference), depth, particle_friction(), [&] {
+            return (position_of_slot(slot) - start_of_slot(slot)) - (position_of_slot(other) - start_of_slot(other));
+        });
+    }
+    /// Inverse mass of contact partner `other` as `slot` feels it: shock propagation changes it.
+    Real partner_weight(int slot, int other) const {
+        const Real w = ws_.inverse_mass[other];
+        if (!plan_.shock_propagation) return w;
+        return w * physics::shock_factor(up_, static_cast<Real>(model_.parameters.shockPropagation),
+                                         start_of_slot(slot) - start_of_slot(other));
+    }
     /// Calls visit(other slot, vector from other to this, r, q = r/R) for the fluid neighbours with 0 < r < R.
     template <class Visit>
     void for_each_fluid_neighbour(int slot, const Visit& visit) const;
 
     int most_neighbours_;                      ///< fluid neighbours kept per particle
     std::vector<Real> inverse_mass_;           ///< by particle
-    std::vector<Vector3<Real>> new_velocity_;  ///< by particle, the substep's outcome
+    Vec3<Real> up_;                            ///< against gravity; 0 without it
+    std::vector<Vec3<Real>> new_velocity_;     ///< by particle, the substep's outcome
     std::vector<Real> spring_stiffness_;
-    std::vector<std::vector<Vector3<Real>>> cluster_offset_;
+    std::vector<std::vector<Vec3<Real>>> cluster_offset_;
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep
-    std::vector<Vector3<Real>> cluster_centre_;
+    std::vector<Vec3<Real>> cluster_centre_;
     std::unique_ptr<ThreadTeam> team_ = std::make_unique<ThreadTeam>(1);
     const FluidKernels<Real>* kernels_;
     const NeighbourKernels<Real>* neighbour_kernels_;
@@ -193,9 +198,9 @@ private:
     void sort_by_cell(const std::vector<int>& ids, int first_slot, std::vector<int>& cell_begin);
     std::vector<std::vector<int>> next_slot_;  ///< by part of the particles and cell, room for the sort
 
-    std::vector<Vector3<Real>> velocity_change_;  ///< by particle; empty unless an effect needs it
-    std::vector<Vector3<Real>> normal_, curl_;    ///< by fluid slot; empty unless an effect needs them
-    std::vector<int> overlaps_;                   ///< by slot; empty unless an effect needs it
+    std::vector<Vec3<Real>> velocity_change_;  ///< by particle; empty unless an effect needs it
+    std::vector<Vec3<Real>> normal_, curl_;    ///< by fluid slot; empty unless an effect needs them
+    std::vector<int> overlaps_;                ///< by slot; empty unless an effect needs it
 
     /// Room for the neighbours of one block, and for the rows of a part of the blocks.
     struct ListRoom {

@@ -1,5 +1,7 @@
 #include "workspace.h"
 
+#include "physics/constants.h"
+
 namespace natator::cpu {
 
 template <class Real>
@@ -15,7 +17,7 @@ Workspace<Real>::Workspace(const Model& model) : particles(model.particles()) {
     predicted_velocity.resize(particles);
     cell_of.resize(particles);
 
-    constexpr Real far_away = Real(1e9);
+    constexpr Real far_away = Real(physics::far_away);
     const std::size_t all = round_up_to_block(slots + 1) + lanes;  // what searches may read behind the last slot
     for (auto* array : {&position, &start}) array->resize(all, far_away);
     for (auto* array : {&predicted, &correction, &velocity}) array->resize(all);

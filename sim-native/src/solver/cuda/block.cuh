@@ -183,6 +183,12 @@ __device__ void for_each_unit(Block& block, int count, const Work& work) {
     }
 }
 
+/// The sum over a warp, the same in all of its threads.
+__device__ inline double sum_of_warp(double value) {
+    for (int step = 16; step > 0; step /= 2) value += __shfl_xor_sync(0xffffffff, value, step);
+    return value;
+}
+
 __device__ inline int number_in(float w) {
     return __float_as_int(w);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scheme conserving: its iteration and its velocities. As step.h and cpu/conserving, which cite the papers.
+// Scheme conserving: its iteration and its velocities.
 #include "conserving_density.cuh"
 #include "conserving_solids.cuh"
 #include "effects.cuh"
@@ -120,16 +120,12 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, Block& block) {
 template <class Real, class Block>
 __device__ Vec3<Real> viscosity_change(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x,
                                        const Quad<Real>& u) {
-    const Real inverse_radius_square = model.inverse_radius * model.inverse_radius;
-    Vec3<Real> sum{0, 0, 0};
+    physics::PairwiseSmoothing<Real> sums;
     for_each_neighbour(model, block, s, [&](int other) {
         const Quad<Real> moves = block.next()[other];
-        const Vec3<Real> difference = x - xyz(block.position()[other]);
-        const Real t = max(1 - dot(difference, difference) * inverse_radius_square, Real(0));
-        const Real share = t * t * t * 2 * u.w / (u.w + moves.w + Real(1e-30));
-        sum = sum + share * (xyz(moves) - xyz(u));
+        sums.add(x - xyz(block.position()[other]), model.inverse_radius, u.w, moves.w, xyz(moves) - xyz(u));
     });
-    return model.kernel_scale * sum;
+    return model.fluid_kernel.scale * sums.sum;
 }
 
 /// The velocity that the displacement of slot s means, with its inverse mass.

@@ -1,74 +1,36 @@
 #pragma once
 
-// The density constraint of scheme conserving. As cpu/conserving/density.cpp and density_kernels.cpp, which cite the
-// papers.
+// The density constraint of scheme conserving.
 #include "conserving_move.cuh"
 #include "conserving_overlap.cuh"
 
 namespace natator::cuda {
 
-/// 1 - q for a particle at `distance` from a plane; between 0 and 1.
-template <class Real>
-__device__ Real plane_nearness(const ModelView<Real>& model, Real distance) {
-    return min(max(1 - (distance + model.plane_gap) * model.inverse_radius, Real(0)), Real(1));
-}
-
 /// Minus the derivative of a plane's part of the density by the distance.
 template <class Real>
 __device__ Real plane_slope(const ModelView<Real>& model, Real distance) {
-    const Real t = plane_nearness(model, distance);
-    return model.plane_scale * model.inverse_radius * t * t * t * t * (Real(1) / 4 - t / 5);
+    const Real t = physics::plane_nearness(distance, model.plane_gap, model.inverse_radius);
+    return physics::plane_slope(t, model.plane_scale, model.inverse_radius);
 }
-
-/// Calls visit(plane, distance) for the planes near slot s, the last plane first.
-template <class Real, class Block, class Visit>
-__device__ void for_each_near_plane(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x,
-                                    const Visit& visit) {
-    const unsigned near = block.plane_contact()[s];
-    if (near == 0) return;
-    for (int k = model.planes - 1; k >= 0; --k)
-        if (near >> k & 1) visit(model.plane[k], dot(model.plane[k].normal, x) + model.plane[k].offset);
-}
-
-/// What planes and solids add to C_i, to its gradient and to sum_k w_k |grad_k C_i|^2.
-template <class Real>
-struct Boundary {
-    Real density = 0;
-    Vec3<Real> gradient{0, 0, 0};
-    Real square = 0;
-};
 
 template <class Real, class Block>
-__device__ Boundary<Real> boundary_terms(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x) {
-    Boundary<Real> boundary;
-    for_each_near_plane(model, block, s, x, [&](const PlaneView<Real>& plane, Real distance) {
-        const Real t = plane_nearness(model, distance);
-        boundary.density += model.plane_scale * t * t * t * t * t * (Real(1) / 20 - t / 30);
-        boundary.gradient = boundary.gradient - plane_slope(model, distance) * plane.normal;
+__device__ physics::Boundary<Real> boundary_terms(const ModelView<Real>& model, const Block& block, int s,
+                                                  const Vec3<Real>& x) {
+    physics::Boundary<Real> boundary;
+    for_each_near_plane(model, block, s, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {
+        const Real t = physics::plane_nearness(distance, model.plane_gap, model.inverse_radius);
+        boundary.density += physics::plane_density(t, model.plane_scale);
+        boundary.gradient -= plane_slope(model, distance) * plane.normal;
     });
-    if (!model.plan.solid_pressure) return boundary;
-    Real sum = 0;
-    for_each_contact(model, block, s, [&](int other) {
-        const Vec3<Real> difference = x - xyz(block.position()[other]);
-        const Real r = norm(difference);
-        const Real q = r * model.inverse_radius;
-        if (q >= 1) return;
-        const Real slope = model.solid_pressure * model.gradient_scale * (1 - q) * (1 - q);
-        sum += (1 - q) * (1 - q) * (1 - q);
-        if (r > 0) boundary.gradient = boundary.gradient - slope / r * difference;
-        boundary.square += block.position()[other].w * slope * slope;
-    });
-    boundary.density += model.solid_pressure * model.kernel_scale * sum;
+    if (model.plan.solid_pressure)
+        for_each_contact(model, block, s, [&](int other) {
+            const Quad<Real> there = block.position()[other];
+            add_solid(boundary, x - xyz(there), model.inverse_radius, model.solid_pressure, model.fluid_kernel, there.w);
+        });
     return boundary;
 }
 
-/// 1 / v, or 0 where v comes from neighbours that the kernel ends at alone and 1 / v may be infinite.
-template <class Real>
-__device__ Real finite_inverse(Real v) {
-    return v > Real(1e-30f) ? 1 / v : Real(0);
-}
-
-/// C_i and 1 / (w_i |grad_i C_i|^2 + sum_k w_k |grad_k C_i|^2).
+/// C_i and its response.
 template <class Real>
 struct Density {
     Real above, response;
@@ -77,24 +39,17 @@ struct Density {
 /// Of slot s, with the fluid at `positions`.
 template <class Real, class Block>
 __device__ Density<Real> density_of(const ModelView<Real>& model, const Block& block, int s,
-                                    const Quad<Real>* positions, const Boundary<Real>& boundary) {
+                                    const Quad<Real>* positions, const physics::Boundary<Real>& boundary) {
     const Quad<Real> here = positions[s];
-    const Vec3<Real> x = xyz(here);
-    Real sum = 0, square = 0;
-    Vec3<Real> gradient{0, 0, 0};
+    physics::LambdaSums<Real> sums;
     for_each_neighbour(model, block, s, [&](int other) {
         const Quad<Real> there = positions[other];
-        const auto [difference, r, inverse_r] = separation(x, xyz(there));
-        const Real t = max(1 - r * model.inverse_radius, Real(0));
-        const Real g = t * t;
-        sum += g * t;
-        gradient = gradient - g * inverse_r * difference;
-        square += there.w * g * g;
+        const Vec3<Real> difference = xyz(here) - xyz(there);
+        const physics::Distance<Real> distance = physics::distance_of(difference);
+        sums.add(difference, distance, 1 - distance.r * model.inverse_radius, there.w);
     });
-    const Vec3<Real> c = model.gradient_scale * gradient + boundary.gradient;
-    const Real others = model.gradient_scale * model.gradient_scale * square + boundary.square;
-    return {model.kernel_scale * (sum - model.rest_sum) + boundary.density,
-            finite_inverse(here.w * dot(c, c) + others)};
+    return {sums.above_rest(model.fluid_kernel, boundary.density),
+            sums.gradients.response(here.w, model.fluid_kernel.gradient_scale, boundary.gradient, boundary.square)};
 }
 
 /// lambda of all fluid slots at the present positions, beside the positions in `next`; true if any is an overlap. Ends
@@ -108,14 +63,14 @@ __device__ bool compute_lambda(const ModelView<Real>& model, Block& block) {
         const Vec3<Real> x = xyz(block.position()[s]);
         Real lambda = 0;
         if (s < model.fluid) {
-            const Boundary<Real> boundary = boundary_terms(model, block, s, x);
+            const physics::Boundary<Real> boundary = boundary_terms(model, block, s, x);
             block.boundary()[s] = quad(boundary.gradient, boundary.square);
             const Density<Real> density = density_of(model, block, s, block.position(), boundary);
             if (block.overlapping)
                 lambda = limited_lambda(model, block, s, density.above, density.response);
             else if (density.above > 0)
                 lambda = -density.above * density.response;
-            high |= density.above > cpu::overlap_tolerance<Real>;
+            high |= density.above > Real(physics::overlap_tolerance);
             block.lambda_sum()[s] += lambda;
         }
         block.next()[s] = quad(x, lambda);
@@ -128,7 +83,7 @@ template <class Real, class Block>
 __device__ void compute_density_above_rest(const ModelView<Real>& model, Block& block) {
     for (int s = threadIdx.x; s < model.fluid; s += threads) {
         const Vec3<Real> x = xyz(block.position()[s]);
-        const Boundary<Real> boundary = boundary_terms(model, block, s, x);
+        const physics::Boundary<Real> boundary = boundary_terms(model, block, s, x);
         block.next()[s] = quad(x, density_of(model, block, s, block.position(), boundary).above);
     }
     __syncthreads();
@@ -137,9 +92,9 @@ __device__ void compute_density_above_rest(const ModelView<Real>& model, Block& 
 /// Notes C_i of slot s if it began the substep overlapping; true if it did.
 template <class Real, class Block>
 __device__ bool note_overlap(const ModelView<Real>& model, Block& block, int s) {
-    const Boundary<Real> boundary = boundary_terms(model, block, s, xyz(block.position()[s]));
+    const physics::Boundary<Real> boundary = boundary_terms(model, block, s, xyz(block.position()[s]));
     const Real above = density_of(model, block, s, block.start(), boundary).above;
-    const Real overlap = above > cpu::overlap_tolerance<Real> ? above : Real(0);
+    const Real overlap = above > Real(physics::overlap_tolerance) ? above : Real(0);
     block.overlap()[s] = overlap;
     block.overlap_lambda()[s] = 0;
     return overlap > 0;
@@ -159,30 +114,23 @@ __device__ Vec3<Real> density_push(const ModelView<Real>& model, const Block& bl
                                    const LambdaOf& lambda_of) {
     const Quad<Real> here = positions[s];
     const Real own = lambda_of(s, here);
-    Vec3<Real> sum{0, 0, 0};
+    physics::PressurePush<Real> push;
     for_each_neighbour(model, block, s, [&](int other) {
         const Quad<Real> there = positions[other];
-        const auto [difference, r, inverse_r] = separation(xyz(here), xyz(there));
-        const Real t = max(1 - r * model.inverse_radius, Real(0));
-        sum = sum - (own + lambda_of(other, there)) * t * t * inverse_r * difference;
+        const Vec3<Real> difference = xyz(here) - xyz(there);
+        const physics::Distance<Real> distance = physics::distance_of(difference);
+        push.add(difference, distance, 1 - distance.r * model.inverse_radius, own + lambda_of(other, there));
     });
-    return model.gradient_scale * sum;
+    return model.fluid_kernel.gradient_scale * push.sum;
 }
 
-/// -lambda |grad C| n for the contact of a fluid particle and a solid: what it pushes the one at `difference` from the
-/// other by.
 template <class Real>
 __device__ Vec3<Real> solid_pressure_push(const ModelView<Real>& model, const Vec3<Real>& difference, Real lambda) {
-    const Real r = norm(difference);
-    const Real q = r * model.inverse_radius;
-    if (q >= 1 || !(r > 0)) return {0, 0, 0};
-    const Real slope = model.solid_pressure * model.gradient_scale * (1 - q) * (1 - q);
-    return -lambda * slope / r * difference;
+    return physics::solid_pressure_push(difference, model.inverse_radius,
+                                        model.solid_pressure * model.fluid_kernel.gradient_scale, lambda);
 }
 
-constexpr float pair_share = 0.5f;  ///< of each of a pair's two constraints, see conserving_stages.h
-
-/// Moves the solids of a unit of touched slots by the fluid's pressure. As cpu/conserving/density.cpp.
+/// Moves the solids of a unit of touched slots by the fluid's pressure.
 template <class Real, class Block>
 __device__ void push_solids_by_pressure(const ModelView<Real>& model, Block& block, int unit) {
     work_on_touched(block, unit, [&](int s, int lane) {
@@ -199,7 +147,7 @@ __device__ void push_solids_by_pressure(const ModelView<Real>& model, Block& blo
         push = {sum_of_lanes(push.x), sum_of_lanes(push.y), sum_of_lanes(push.z)};
         if (lane != 0 || !solid) return;  // one thread alone reads and writes the slot
         const Real inverse_mass = block.position()[s].w;
-        if (inverse_mass > 0) move(block, s, model.relaxation_factor * Real(pair_share) * inverse_mass * push);
+        if (inverse_mass > 0) move(block, s, model.relaxation_factor * Real(physics::pair_share) * inverse_mass * push);
     });
 }
 
@@ -210,14 +158,14 @@ __device__ void push_fluid_by_pressure(const ModelView<Real>& model, Block& bloc
     if (!(inverse_mass > 0)) return;
     const Quad<Real> here = block.next()[s];
     Vec3<Real> push = density_push(model, block, s, block.next(), [](int, const Quad<Real>& there) { return there.w; });
-    for_each_near_plane(model, block, s, xyz(here), [&](const PlaneView<Real>& plane, Real distance) {
+    for_each_near_plane(model, block, s, xyz(here), [&](const physics::PlaneSurface<Real>& plane, Real distance) {
         push = push - here.w * plane_slope(model, distance) * plane.normal;
     });
     if (model.plan.solid_pressure)
         for_each_contact(model, block, s, [&](int other) {
             push = push + solid_pressure_push(model, xyz(here) - xyz(block.next()[other]), here.w);
         });
-    move(block, s, model.relaxation_factor * Real(pair_share) * inverse_mass * push);
+    move(block, s, model.relaxation_factor * Real(physics::pair_share) * inverse_mass * push);
 }
 
 /// Moves fluid and solids by the density constraints, where lambda is beside the positions in `next`.
@@ -231,7 +179,7 @@ __device__ void push_by_pressure(const ModelView<Real>& model, Block& block) {
     });
 }
 
-/// As cpu/conserving/density.cpp. Ends with a barrier.
+/// Ends with a barrier.
 template <class Real, class Block>
 __device__ void solve_density_constraint(const ModelView<Real>& model, Block& block, bool first) {
     const bool high = compute_lambda(model, block);
@@ -253,23 +201,17 @@ __device__ void compute_rate_lambda(const ModelView<Real>& model, Block& block) 
         if (s >= model.fluid) return;
         const Vec3<Real> x = xyz(block.position()[s]);
         const Quad<Real> u = block.next()[s];
-        Real rate = 0, square = 0;
-        Vec3<Real> gradient{0, 0, 0};
+        physics::RateSums<Real> sums;
         for_each_neighbour(model, block, s, [&](int other) {
             const Quad<Real> moves = block.next()[other];
-            const auto [difference, r, inverse_r] = separation(x, xyz(block.position()[other]));
-            const Real t = max(1 - r * model.inverse_radius, Real(0));
-            const Real g = t * t, slope = g * inverse_r;
-            rate += slope * dot(xyz(moves) - xyz(u), difference);
-            gradient = gradient - slope * difference;
-            square += moves.w * g * g;
+            const Vec3<Real> difference = x - xyz(block.position()[other]);
+            const physics::Distance<Real> distance = physics::distance_of(difference);
+            sums.add(difference, distance, 1 - distance.r * model.inverse_radius, moves.w, xyz(moves) - xyz(u));
         });
         const Quad<Real> boundary = block.boundary()[s];
-        const Vec3<Real> c = model.gradient_scale * gradient + xyz(boundary);
-        const Real others = model.gradient_scale * model.gradient_scale * square + boundary.w;
-        const Real lambda = -model.gradient_scale * rate * finite_inverse(u.w * dot(c, c) + others);
-        const Real sum = block.lambda_sum()[s], most = -sum / block.h;
-        const Real limited = most > 0 ? min(lambda, most) : Real(0);
+        const Real scale = model.fluid_kernel.gradient_scale, sum = block.lambda_sum()[s];
+        const Real response = sums.gradients.response(u.w, scale, xyz(boundary), boundary.w);
+        const Real limited = sums.lambda(scale, response, -sum / block.h);
         block.lambda()[s] = limited;
         block.lambda_sum()[s] = sum + block.h * limited;
     });
@@ -283,11 +225,11 @@ __device__ void push_by_rate_lambda(const ModelView<Real>& model, Block& block) 
         const Quad<Real> u = block.next()[s];
         const Vec3<Real> push = density_push(model, block, s, block.position(),
                                              [&](int slot, const Quad<Real>&) { return block.lambda()[slot]; });
-        block.next()[s] = quad(xyz(u) + Real(pair_share) * u.w * push, u.w);
+        block.next()[s] = quad(xyz(u) + Real(physics::pair_share) * u.w * push, u.w);
     });
 }
 
-/// Takes the rate of change of the density to 0 where the fluid is under pressure. As cpu/conserving/velocities.cpp:
+/// Takes the rate of change of the density to 0 where the fluid is under pressure.:
 /// `next` holds velocities, with inverse masses, before and after. Ends with a barrier.
 template <class Real, class Block>
 __device__ void solve_density_rate(const ModelView<Real>& model, Block& block) {

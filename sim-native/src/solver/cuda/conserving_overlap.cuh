@@ -2,47 +2,32 @@
 
 // Starts that overlap, see cpu/conserving/overlap.cpp.
 #include "contacts.cuh"
-#include "solver/cpu/conserving/constants.h"
+#include "physics/pbf_density.h"
 
 namespace natator::cuda {
 
-/// Puts what starts behind a plane on it. As cpu/conserving/overlap.cpp.
+/// Puts what starts behind a plane on it.
 template <class Real>
 __device__ Vec3<Real> put_before_planes(const ModelView<Real>& model, Vec3<Real> x) {
-    for (int k = 0; k < model.planes; ++k) {
-        const PlaneView<Real>& plane = model.plane[k];
-        const Real distance = dot(plane.normal, x) + (plane.offset - model.collision_distance);
-        if (distance < -cpu::overlap_tolerance<Real> * model.collision_distance) x = x - distance * plane.normal;
-    }
+    for (int k = 0; k < model.planes; ++k) x = put_before(model.plane[k].surface, model.collision_distance, x);
     return x;
 }
 
 /// Depth of a contact beyond what this substep may leave of it.
 template <class Real, class Block>
 __device__ Real contact_depth(const ModelView<Real>& model, const Block& block, int s, int other) {
-    const Real rest = model.solid_rest_distance;
-    const Real depth = rest - norm(xyz(block.position()[s]) - xyz(block.position()[other]));
-    const Real push = model.overlap_acceleration * block.h * block.h;
-    if (!(depth > push)) return depth;
-    const Real at_start = rest - norm(xyz(block.start()[s]) - xyz(block.start()[other]));
-    if (!(at_start > push)) return depth;
-    const Real predicted = rest - norm(xyz(block.base()[s]) - xyz(block.base()[other]));
-    return depth - max(min(at_start, predicted) - push, Real(0));
+    const auto distance = [&](const Quad<Real>* places) { return norm(xyz(places[s]) - xyz(places[other])); };
+    return physics::limited_depth(
+        model.solid_rest_distance, distance(block.position()), model.overlap_acceleration * block.h * block.h,
+        [&] { return distance(block.start()); }, [&] { return distance(block.base()); });
 }
 
-/// Limits what takes C_i = `above` from its value at the start to 0; what takes it back there acts in full. Returns
-/// lambda_i.
+/// lambda_i of a slot where some particles began the substep overlapping.
 template <class Real, class Block>
 __device__ Real limited_lambda(const ModelView<Real>& model, Block& block, int s, Real above, Real response) {
-    const Real at_start = block.overlap()[s], inverse_mass = block.position()[s].w;
-    above = max(above, Real(0));
-    if (!(at_start > 0) || !(inverse_mass > 0)) return -above * response;
-    const Real push = model.overlap_acceleration * block.h * block.h;
-    const Real most = push / (inverse_mass * model.gradient_scale * cbrt(1 + at_start));
-    const Real wanted = min(above, at_start) * response;
-    const Real given = min(wanted, max(most - block.overlap_lambda()[s], Real(0)));
-    block.overlap_lambda()[s] += given;
-    return -(max(above - at_start, Real(0)) * response + given);
+    return physics::limited_lambda(above, response, block.overlap()[s],
+                                   model.overlap_acceleration * block.h * block.h, block.position()[s].w,
+                                   model.fluid_kernel.gradient_scale, block.overlap_lambda()[s]);
 }
 
 /// Keeps a pair of fluid particles only if both keep it, where lists are full. Ends with a barrier if it does anything.

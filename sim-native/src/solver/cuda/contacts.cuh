@@ -1,33 +1,10 @@
 #pragma once
 
 #include "block.cuh"
+#include "physics/pair.h"
+#include "physics/plane.h"
 
 namespace natator::cuda {
-
-template <class Real>
-__device__ float inverse_root(float v) {
-    return rsqrtf(v);
-}
-template <class Real>
-__device__ double inverse_root(double v) {
-    return rsqrt(v);
-}
-
-/// Distance r of two particles and 1/r, which stays finite at r = 0, where the direction is 0 anyway.
-template <class Real>
-struct Separation {
-    Vec3<Real> difference;
-    Real r, inverse_r;
-};
-
-template <class Real>
-__device__ Separation<Real> separation(const Vec3<Real>& x, const Vec3<Real>& other) {
-    constexpr Real tiny = Real(1e-30);  // too small to change any other r^2
-    const Vec3<Real> d = x - other;
-    const Real r2 = d.x * d.x + (d.y * d.y + (d.z * d.z + tiny));
-    const Real inverse_r = inverse_root<Real>(r2);
-    return {d, r2 * inverse_r, inverse_r};
-}
 
 /// Calls visit(slot) for every `step`th contact of slot s, from `first` on.
 template <class Real, class Block, class Visit>
@@ -69,7 +46,7 @@ __device__ void for_each_neighbour(const ModelView<Real>& model, const Block& bl
 /// What the far slot holds: beyond the reach of all others, without weight.
 template <class Real>
 __device__ Quad<Real> far_away() {
-    return {Real(1e9), Real(1e9), Real(1e9), Real(0)};
+    return {Real(physics::far_away), Real(physics::far_away), Real(physics::far_away), Real(0)};
 }
 
 constexpr int contact_lanes = 8;  ///< threads that share the contacts of a slot
@@ -93,15 +70,33 @@ __device__ void work_on_touched(const Block& block, int unit, const Work& work) 
     work(k < block.shared().touched ? static_cast<int>(block.touched()[k]) : -1, lane % contact_lanes);
 }
 
-/// What Coulomb friction takes off the displacement of a contact. As Substep::friction.
+/// Of contacts of particles, and of planes.
 template <class Real>
-__device__ Vec3<Real> friction(const ModelView<Real>& model, const Vec3<Real>& moved, const Vec3<Real>& normal,
-                               Real depth, Real coefficient) {
-    const Vec3<Real> tangential = moved - dot(moved, normal) * normal;
-    const Real m = norm(tangential);
-    if (!(m > 0)) return {0, 0, 0};
-    const Real held = m < model.static_friction * depth ? m : min(coefficient * depth, m);
-    return (held / m) * tangential;
+__device__ physics::Friction<Real> particle_friction(const ModelView<Real>& model) {
+    return {model.plan.particle_friction, model.static_friction, model.particle_friction};
+}
+template <class Real>
+__device__ physics::Friction<Real> plane_friction(const ModelView<Real>& model) {
+    return {model.plan.plane_friction, model.static_friction, model.dynamic_friction};
+}
+
+/// What a contact of this depth pushes slot s by, before its share is taken.
+template <class Real, class Block>
+__device__ Vec3<Real> contact_push(const ModelView<Real>& model, const Block& block, int s, int other, Real depth) {
+    const Vec3<Real> x = xyz(block.position()[s]), there = xyz(block.position()[other]);
+    return physics::contact_push(x - there, norm(x - there), depth, particle_friction(model), [&] {
+        return (x - xyz(block.start()[s])) - (there - xyz(block.start()[other]));
+    });
+}
+
+/// Calls visit(plane, distance) for the planes near slot s, the last plane first; x may change between two calls.
+template <class Real, class Block, class Visit>
+__device__ void for_each_near_plane(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x,
+                                    const Visit& visit) {
+    const unsigned near = block.plane_contact()[s];
+    if (near == 0) return;
+    for (int k = model.planes - 1; k >= 0; --k)
+        if (near >> k & 1) visit(model.plane[k].surface, distance_to(model.plane[k].surface, x));
 }
 
 }  // namespace natator::cuda

@@ -7,7 +7,6 @@
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/conserving/constants.h"
 #include "solver/cpu/effects/cohesion_spline.h"
-#include "solver/cpu/effects/touching.h"
 #include "solver/cpu/substep.h"
 
 namespace natator::cuda {
@@ -57,7 +56,7 @@ DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
     view_.max_acceleration = static_cast<Real>(p.maxAcceleration);
     view_.solid_pressure = static_cast<Real>(p.solidPressure);
     view_.restitution = static_cast<Real>(p.restitution);
-    view_.touching_distance = constants.collision_distance + Real(cpu::touching_tolerance) * constants.radius;
+    view_.touching_distance = constants.collision_distance + Real(physics::touching_tolerance) * constants.radius;
     view_.slowest_impact = 2 * static_cast<Real>(p.gravity.norm());
     view_.dissipation = static_cast<Real>(p.dissipation);
     view_.cohesion_strength = static_cast<Real>(p.cohesion) * constants.radius;
@@ -70,10 +69,8 @@ DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
     view_.planes = static_cast<int>(model.planes.size());
     for (int k = 0; k < view_.planes; ++k) {
         const Plane& plane = model.planes[k];
-        view_.plane[k] = {vec3<Real>(plane.normal),
-                          static_cast<Real>(plane.offset),
-                          {plane.normal.x(), plane.normal.y(), plane.normal.z()},
-                          plane.offset};
+        view_.plane[k] = {{vec3<Real>(plane.normal), static_cast<Real>(plane.offset)},
+                          {vec3<double>(plane.normal), plane.offset}};
     }
 
     number_of_.resize(model.particles());
@@ -105,9 +102,7 @@ template <class Real>
 void DeviceModel<Real>::set_conserving(const Model& model) {
     const cpu::ConservingConstants<Real> own(model.parameters);
     view_.most_neighbours = own.most_neighbours;
-    view_.kernel_scale = own.kernel_scale;
-    view_.gradient_scale = own.gradient_scale;
-    view_.rest_sum = own.rest_sum;
+    view_.fluid_kernel = {own.kernel_scale, own.gradient_scale, own.rest_sum};
     view_.plane_scale = own.plane_scale;
     view_.plane_gap = own.plane_gap;
     view_.overlap_acceleration = own.overlap_acceleration;

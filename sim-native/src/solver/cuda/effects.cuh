@@ -9,16 +9,12 @@ namespace natator::cuda {
 template <class Real, class Block>
 __device__ Vec3<Real> rebound(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x,
                               const Vec3<Real>& predicted, Vec3<Real> v) {
-    const unsigned near = block.plane_contact()[s];
-    for (int k = model.planes - 1; k >= 0; --k) {
-        if (!(near >> k & 1)) continue;
-        const PlaneView<Real>& plane = model.plane[k];
-        if (dot(plane.normal, x) + plane.offset > model.touching_distance) continue;
-        const Real impact = -dot(plane.normal, predicted);
-        if (!(impact > block.h * model.slowest_impact)) continue;
-        const Real missing = model.restitution * impact - dot(plane.normal, v);
-        if (missing > 0) v = v + missing * plane.normal;
-    }
+    for_each_near_plane(model, block, s, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {
+        if (distance > model.touching_distance) return;
+        const Real missing =
+            rebound_speed(plane.normal, predicted, v, model.restitution, block.h * model.slowest_impact);
+        if (missing > 0) v += missing * plane.normal;
+    });
     return v;
 }
 

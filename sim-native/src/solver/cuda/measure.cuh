@@ -1,6 +1,7 @@
 #pragma once
 
 #include "block.cuh"
+#include "physics/early_stop.h"
 
 namespace natator::cuda {
 
@@ -17,17 +18,16 @@ __device__ void measure_path(const ModelView<Real>& model, const Block& block, d
     __syncthreads();
 }
 
-/// Does a particle of the body touch a plane? As measure/measure.cpp.
+/// Does a particle of the body touch a plane?
 template <class Real, class Block>
 __device__ bool touches_plane(const ModelView<Real>& model, const Block& block) {
     bool touches = false;
     for (int b = threadIdx.x; b < model.body; b += threads) {
         const Quad<Real> x = block.position()[block.slot_of_solid()[model.body_particle[b]]];
         for (int k = 0; k < model.planes; ++k) {
-            const PlaneView<Real>& plane = model.plane[k];
-            const double distance =
-                plane.normal_d[0] * x.x + plane.normal_d[1] * x.y + plane.normal_d[2] * x.z + plane.offset_d;
-            touches |= distance <= double(model.collision_distance) + 1e-6 * (fabs(plane.offset_d) + 1);
+            const physics::PlaneSurface<double>& plane = model.plane[k].exact;
+            touches |= physics::touches(distance_to(plane, physics::cast<double>(xyz(x))),
+                                        double(model.collision_distance), plane.offset);
         }
     }
     return __syncthreads_or(touches);

@@ -3,6 +3,9 @@
 #include <cstdint>
 
 #include "natator/plan.h"
+#include "physics/pbf_density.h"
+#include "physics/plane.h"
+#include "physics/velocity.h"
 #include "vec3.cuh"
 
 namespace natator::cuda {
@@ -43,9 +46,8 @@ struct GridView {
 
 template <class Real>
 struct PlaneView {
-    Vec3<Real> normal;
-    Real offset;
-    double normal_d[3], offset_d;  ///< for the measurement
+    physics::PlaneSurface<Real> surface;
+    physics::PlaneSurface<double> exact;  ///< for the measurement
 };
 
 template <class Real>
@@ -94,7 +96,8 @@ struct ModelView {
     Real dissipation, cohesion_strength, cohesion_slope;
 
     // Scheme conserving, see cpu/conserving/constants.h.
-    Real kernel_scale, gradient_scale, rest_sum, plane_scale, plane_gap, overlap_acceleration;
+    physics::FluidKernel<Real> fluid_kernel;
+    Real plane_scale, plane_gap, overlap_acceleration;
     Real fluid_inverse_mass;  ///< of every fluid particle; negative if they differ
 
     GridView<Real> grid;

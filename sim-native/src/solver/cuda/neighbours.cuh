@@ -10,12 +10,11 @@ __device__ bool needs_cells(const ModelView<Real>& model) {
     return model.plan.fluid || model.plan.contacts;
 }
 
-/// v* = v + h g, |v*| <= maxSpeed. As cpu/predict.cpp.
 template <class Real>
-__device__ Vec3<Real> drift_velocity(const ModelView<Real>& model, Vec3<Real> v, Real inverse_mass, bool fluid,
+__device__ Vec3<Real> drift_velocity(const ModelView<Real>& model, const Vec3<Real>& v, Real inverse_mass, bool fluid,
                                      Real h) {
-    if (inverse_mass > 0) v = v + h * (fluid ? model.fluid_gravity : model.gravity);
-    return model.plan.clamp_speed ? clamped(v, model.max_speed) : v;
+    return physics::drift_velocity(v, inverse_mass, fluid ? model.fluid_gravity : model.gravity, h,
+                                   model.plan.clamp_speed, model.max_speed);
 }
 
 /// v*, x* = x + h v*; counts the particles of each cell, the fluid's first. Ends with a barrier.
@@ -249,7 +248,7 @@ __device__ void find_neighbours(const ModelView<Real>& model, Block& block) {
         }
         unsigned planes = 0;
         for (int k = 0; k < model.planes; ++k)
-            if (dot(model.plane[k].normal, x) + model.plane[k].offset <= model.plane_search_distance) planes |= 1u << k;
+            if (distance_to(model.plane[k].surface, x) <= model.plane_search_distance) planes |= 1u << k;
         block.plane_contact()[s] = static_cast<std::uint16_t>(here.w > 0 ? planes : 0);
     });
     __syncthreads();

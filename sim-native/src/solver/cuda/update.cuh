@@ -6,6 +6,7 @@
 #include "flex.cuh"
 #include "measure.cuh"
 #include "neighbours.cuh"
+#include "physics/muscle.h"
 
 namespace natator::cuda {
 
@@ -19,25 +20,19 @@ __device__ void rest(const BatchView<Real>& batch, int state, Block& block) {
     __syncthreads();
 }
 
-/// Muscles as gait/actuate.cpp has them. Ends with a barrier.
+/// Ends with a barrier.
 template <Scheme scheme, class Real, class Block>
 __device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time, Block& block) {
     if (!gait.frequency) return;
-    double ramp = 1;
-    if (scheme == Scheme::conserving) {
-        const double s = fmin(fmax(time / 0.25, 0.0), 1.0);
-        ramp = s * s * (3 - 2 * s);
-    }
+    const double ramp = scheme == Scheme::conserving ? physics::start_ramp(time) : 1;
     for (int m = threadIdx.x; m < model.muscles; m += threads) {
         const MuscleView muscle = model.muscle[m];
         const int a = state * model.actuators + muscle.actuator;
-        const double sine = sinpi(2 * (gait.frequency[state] * time + gait.phase[a]));
-        const double power = gait.power[state];
-        const double activation = power == 1 ? sine : pow((sine + 1) / 2, power) * 2 - 1;
-        constexpr double epsilon = 0.5;  // thesis 2.8
+        const double activation =
+            physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
         const double drive = ramp * gait.amplitude[a] * activation;
-        const double length = muscle.rest_length * (1 + epsilon * muscle.lateral * drive);
-        block.rest_length()[muscle.spring] = static_cast<Real>(length);
+        block.rest_length()[muscle.spring] =
+            static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }
     __syncthreads();
 }
@@ -81,7 +76,7 @@ __device__ bool substep(const ModelView<Real>& model, const Trace<Real>& trace, 
     return all_finite;
 }
 
-/// As cpu/commit.cpp: particles of infinite mass keep their place. Ends with a barrier.
+/// Particles of infinite mass keep their place. Ends with a barrier.
 template <class Real, class Block>
 __device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Block& block, int number) {
     for (int s = threadIdx.x; s < model.particles; s += threads) {
@@ -150,10 +145,9 @@ __device__ void end_frame(const BatchView<Real>& batch, int state, int update, B
     const bool touches = batch.stop_at_planes && touches_plane(batch.model, block);
     if (threadIdx.x == 0) {
         progress.frames = update + 1;
-        const int window = batch.no_progress_frames;
         if (touches)
             progress.stopped = static_cast<int>(Stopped::touched_plane);
-        else if (window > 0 && update + 1 >= window && path[update + 1] - path[update + 1 - window] <= 0)
+        else if (physics::without_progress(path, update + 1, batch.no_progress_frames))
             progress.stopped = static_cast<int>(Stopped::no_progress);
     }
     __syncthreads();

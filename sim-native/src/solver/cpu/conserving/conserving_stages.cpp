@@ -34,13 +34,14 @@ ConservingStages<Real>::ConservingStages(const Model& model, const Plan& plan)
         for (const int i : cluster.particles) bonded[i] = true;
     for (int i = 0; i < model.particles(); ++i)
         if (bonded[i]) bonded_.push_back(i);
-    internal_.assign(bonded_.empty() ? 0 : model.particles(), Vector3<Real>::Zero());
+    internal_.assign(bonded_.empty() ? 0 : model.particles(), Vec3<Real>{});
 
     cluster_offset_.clear();
     for (SplitCluster<Real>& split : split_clusters<Real>(model)) {
         cluster_displacement_.emplace_back(split.mass.size());
         cluster_mass_.push_back(std::move(split.mass));
-        cluster_offset_.push_back(std::move(split.offset));
+        cluster_offset_.emplace_back();
+        for (const Vector3<Real>& offset : split.offset) cluster_offset_.back().push_back(vec3(offset));
     }
 }
 
@@ -53,16 +54,16 @@ void ConservingStages<Real>::begin_iterations() {
         for (auto* coordinate : {&array->x, &array->y, &array->z})
             std::fill(coordinate->begin(), coordinate->end(), Real(0));
     std::fill(lambda_sum_.begin(), lambda_sum_.end(), Real(0));
-    std::fill(internal_.begin(), internal_.end(), Vector3<Real>::Zero());
+    std::fill(internal_.begin(), internal_.end(), Vec3<Real>{});
     std::fill(spring_lambda_.begin(), spring_lambda_.end(), Real(0));
     for (auto& displacements : cluster_displacement_)
-        std::fill(displacements.begin(), displacements.end(), Vector3<Real>::Zero());
+        std::fill(displacements.begin(), displacements.end(), Vec3<Real>{});
 }
 
 template <class Real>
 void ConservingStages<Real>::apply_correction(int slot, Real share) {
     if (ws_.inverse_mass[slot] > 0) move(slot, constants_.relaxation_factor * share * ws_.correction.at(slot));
-    ws_.correction.set(slot, Vector3<Real>::Zero());
+    ws_.correction.set(slot, {});
 }
 
 template <class Real>

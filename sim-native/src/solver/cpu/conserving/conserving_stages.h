@@ -3,13 +3,14 @@
 #include "../substep.h"
 #include "constants.h"
 #include "density_kernels.h"
+#include "physics/pbf_density.h"
 
 namespace natator::cpu {
 
 /// The density constraints of both particles of a pair correct the pair, each in full if it were alone. Half of each
 /// makes a collision inelastic (restitution 0); the whole of both would make it elastic, and a fluid at rest boil.
 template <class Real>
-inline constexpr Real pair_share = Real(0.5);
+inline constexpr Real pair_share = Real(physics::pair_share);
 
 /// The stages of scheme `conserving`: each group of constraints in turn, within a group all at once with split masses
 /// (Tonge, Benevolenski, Voroshilov: Mass Splitting for Jitter-Free Parallel Rigid Body Simulation, 2012), so that
@@ -52,6 +53,9 @@ private:
     bool find_overlap();
     void limit_overlap_pressure();
     Real contact_depth(int i, int j) const;
+    physics::FluidKernel<Real> fluid_kernel() const {
+        return {own_.kernel_scale, own_.gradient_scale, own_.rest_sum};
+    }
     void clear_boundary_terms();
     void add_plane_pressure();
     void push_from_planes();
@@ -63,7 +67,7 @@ private:
     void apply_correction(int slot, Real share = 1);
     /// Applies the corrections of springs or clusters and books them as internal to their body.
     void apply_internal_corrections();
-    void move(int slot, const Vector3<Real>& by) {
+    void move(int slot, const Vec3<Real>& by) {
         displacement_.add(slot, by);
         ws_.position.set(slot, base_.at(slot) + displacement_.at(slot));
     }
@@ -71,9 +75,9 @@ private:
     /// Particles that springs and clusters hang together; none of infinite mass.
     struct FreeBody {
         std::vector<int> particles;
-        Vector3<double> linear = Vector3<double>::Zero();   ///< velocity to add, so that internal forces kept momentum
-        Vector3<double> angular = Vector3<double>::Zero();  ///< angular velocity to add, about `centre`
-        Vector3<double> centre = Vector3<double>::Zero();
+        Vec3<double> linear{};   ///< velocity to add, so that internal forces kept momentum
+        Vec3<double> angular{};  ///< angular velocity to add, about `centre`
+        Vec3<double> centre{};
     };
 
     const DensityKernels<Real>* density_kernels_;
@@ -89,12 +93,12 @@ private:
     std::vector<Real> contact_depth_;  ///< by contact
 
     std::vector<int> bonded_;              ///< particles in springs or clusters
-    std::vector<Vector3<Real>> internal_;  ///< by particle: its displacement by springs and clusters
+    std::vector<Vec3<Real>> internal_;     ///< by particle: its displacement by springs and clusters
     std::vector<FreeBody> bodies_;
     std::vector<int> springs_per_particle_;  ///< n of the springs' mass splitting
     std::vector<Real> spring_lambda_;
-    std::vector<std::vector<Real>> cluster_mass_;                   ///< m_j / n_j per member
-    std::vector<std::vector<Vector3<Real>>> cluster_displacement_;  ///< sum of the substep's corrections per member
+    std::vector<std::vector<Real>> cluster_mass_;                ///< m_j / n_j per member
+    std::vector<std::vector<Vec3<Real>>> cluster_displacement_;  ///< sum of the substep's corrections per member
 
     using Substep<Real>::model_;
     using Substep<Real>::plan_;

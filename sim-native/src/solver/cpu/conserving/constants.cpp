@@ -16,10 +16,6 @@ double softness(double stiffness) {
     return left_over / (1 - left_over);
 }
 
-double relative_compliance(double stiffness, double h) {
-    return softness(stiffness) * (thesis_substep / h) * (thesis_substep / h);
-}
-
 /// Overlaps are pushed apart at maxAcceleration, but enough to win against gravity. Unlimited only nominally, so that
 /// it can be multiplied.
 template <class Real>

@@ -21,10 +21,6 @@ struct ConservingConstants {
     Real overlap_acceleration;  ///< at which overlaps are pushed apart
 };
 
-/// Share of the rest density, or of a distance held, that a substep may begin with before it counts as an overlap.
-template <class Real>
-inline constexpr Real overlap_tolerance = Real(0.1);
-
 /// Groups of particles that springs and clusters hang together; none with a particle of infinite mass.
 std::vector<std::vector<int>> free_bodies(const Model& model);
 
@@ -37,12 +33,10 @@ struct SplitCluster {
 template <class Real>
 std::vector<SplitCluster<Real>> split_clusters(const Model& model);
 
-/// Compliance of a constraint of `stiffness` k in [0, 1] relative to its inverse mass, at substep length h (s):
-/// alpha = softness(k) (h0 / h)^2, softness = r / (1 - r) with r = (1 - k)^4, so that a fully solved constraint leaves
+/// Compliance of a constraint of stiffness k in [0, 1] relative to its inverse mass at substep length h0 (s),
+/// physics::relative_compliance at others: r / (1 - r) with r = (1 - k)^4, so that a fully solved constraint leaves
 /// over as much of its error as 4 iterations of stiffness k do in the thesis' substep h0 = 1/240 s. Infinite (never
 /// solved) at k = 0.
 double softness(double stiffness);
-double relative_compliance(double stiffness, double h);
-inline constexpr double thesis_substep = 1.0 / 240;
 
 }  // namespace natator::cpu

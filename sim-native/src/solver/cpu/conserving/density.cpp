@@ -68,36 +68,27 @@ void ConservingStages<Real>::add_plane_pressure() {
     });
 }
 
-/// A solid particle counts in the density of the fluid around it with weight solidPressure, like a fluid particle in
-/// value and gradient; other than in scheme `flex` it takes the reaction, see push_solids_by_pressure.
 template <class Real>
 void ConservingStages<Real>::add_solid_pressure() {
     const Real weight = static_cast<Real>(model_.parameters.solidPressure);
     for (std::size_t k = 0; k < ws_.touched.size() && ws_.touched[k] < ws_.fluid; ++k) {
         const int i = ws_.touched[k];
-        Real sum = 0, square = 0;
-        Vector3<Real> gradient = Vector3<Real>::Zero();
+        physics::Boundary<Real> boundary;
         for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
             const int j = ws_.contact[c];
-            const Vector3<Real> difference = position_of_slot(i) - position_of_slot(j);
-            const Real r = difference.norm();
-            const Real q = r * constants_.inverse_radius;
-            if (q >= 1) continue;
-            const Real slope = weight * own_.gradient_scale * (1 - q) * (1 - q);
-            sum += (1 - q) * (1 - q) * (1 - q);
-            if (r > 0) gradient -= slope / r * difference;
-            square += ws_.inverse_mass[j] * slope * slope;
+            add_solid(boundary, position_of_slot(i) - position_of_slot(j), constants_.inverse_radius, weight,
+                      fluid_kernel(), ws_.inverse_mass[j]);
         }
-        ws_.solid_density[i] += weight * own_.kernel_scale * sum;
-        solid_gradient_.add(i, gradient);
-        solid_gradient_square_[i] += square;
+        ws_.solid_density[i] += boundary.density;
+        solid_gradient_.add(i, boundary.gradient);
+        solid_gradient_square_[i] += boundary.square;
     }
 }
 
 /// The solids' side of the density constraints: Dx_s = w_s sum over fluid i of lambda_i grad_s C_i.
 template <class Real>
 void ConservingStages<Real>::push_solids_by_pressure() {
-    const Real weight = static_cast<Real>(model_.parameters.solidPressure);
+    const Real scale = static_cast<Real>(model_.parameters.solidPressure) * own_.gradient_scale;
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
         const int s = ws_.touched[k];
         for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
@@ -105,13 +96,10 @@ void ConservingStages<Real>::push_solids_by_pressure() {
             const bool solid_pushed = s >= ws_.solid_begin && other < ws_.fluid;
             const bool fluid_pushed = s < ws_.fluid && other >= ws_.solid_begin;
             if (!solid_pushed && !fluid_pushed) continue;
-            const Vector3<Real> difference = position_of_slot(s) - position_of_slot(other);
-            const Real r = difference.norm();
-            const Real q = r * constants_.inverse_radius;
-            if (q >= 1 || !(r > 0)) continue;
-            const Real slope = weight * own_.gradient_scale * (1 - q) * (1 - q);
             const Real lambda = lambda_[solid_pushed ? other : s];
-            ws_.correction.add(s, -ws_.inverse_mass[s] * lambda * slope / r * difference);
+            ws_.correction.add(s, ws_.inverse_mass[s] *
+                                      physics::solid_pressure_push(position_of_slot(s) - position_of_slot(other),
+                                                                   constants_.inverse_radius, scale, lambda));
         }
     }
 }
@@ -145,8 +133,6 @@ void ConservingStages<Real>::compute_lambda() {
     compute_lambda_of_fluid(density_view());
 }
 
-/// Density constraint C_i = rho_i / rho0 - 1 <= 0 of Position Based Fluids (Macklin, Müller 2013) with inverse masses:
-/// Dx_i = w_i / rho0 sum_j (lambda_i + lambda_j) / 2 grad W_ij. Sums of it over a pair are equal and opposite in m Dx.
 template <class Real>
 void ConservingStages<Real>::solve_density_constraint() {
     compute_lambda();
@@ -177,9 +163,8 @@ std::vector<Real> ConservingStages<Real>::pressures() const {
         Real virial = 0;
         for (int row = ws_.row_begin[block]; row < ws_.row_begin[block + 1]; ++row) {
             const int j = ws_.neighbour[row * lanes + slot % lanes];
-            const Real r = (position_of_slot(slot) - position_of_slot(j)).norm();
-            const Real t = std::max(1 - r * constants_.inverse_radius, Real(0));
-            virial += own_.gradient_scale * t * t * r;
+            const Real r = norm(position_of_slot(slot) - position_of_slot(j));
+            virial += own_.gradient_scale * physics::positive_square(1 - r * constants_.inverse_radius) * r;
         }
         pressures[i] = -scale * lambda_sum_[slot] * virial;
     }

@@ -84,7 +84,7 @@ DensityKernels<Real> scalar_density_kernels();
 template <class Real>
 const DensityKernels<Real>& density_kernels(InstructionSet set);
 
-/// The plain loops that define them, compiled for an instruction set.
+/// The same particle by particle.
 template <class Real>
 const DensityKernels<Real>& scalar_density_kernels(InstructionSet set);
 

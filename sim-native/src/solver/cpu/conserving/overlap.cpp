@@ -6,36 +6,28 @@
 #include <cmath>
 
 #include "conserving_stages.h"
+#include "physics/plane.h"
 
 namespace natator::cpu {
 
-/// Particles that start behind a plane are put on it before they move, which gives them no velocity: pre-stabilisation,
-/// Macklin, Müller, Chentanez, Kim: Unified Particle Physics for Real-Time Applications (2014), 4.4.
 template <class Real>
 void ConservingStages<Real>::predict() {
     for (const Plane& plane : model_.planes) {
-        const Vector3<Real> normal = plane.normal.template cast<Real>();
-        const Real offset = static_cast<Real>(plane.offset) - constants_.collision_distance;
-        for (int i = 0; i < ws_.particles; ++i) {
-            const Real distance = normal.dot(state_->position[i]) + offset;
-            if (distance < -overlap_tolerance<Real> * constants_.collision_distance && inverse_mass_[i] > 0)
-                state_->position[i] -= distance * normal;
-        }
+        const physics::PlaneSurface<Real> surface{vec3<Real>(plane.normal.template cast<Real>()),
+                                                  static_cast<Real>(plane.offset)};
+        for (int i = 0; i < ws_.particles; ++i)
+            if (inverse_mass_[i] > 0)
+                state_->position[i] =
+                    eigen(put_before(surface, constants_.collision_distance, vec3(state_->position[i])));
     }
     Substep<Real>::predict();
 }
 
-/// Depth of a contact beyond what this substep may leave of it: a contact that was deep at the start gets shallower by
-/// at most a h^2 in a substep, a = overlap_acceleration, or by what its motion does.
 template <class Real>
 Real ConservingStages<Real>::contact_depth(int i, int j) const {
-    const Real rest = constants_.solid_rest_distance;
-    const Real depth = rest - (position_of_slot(i) - position_of_slot(j)).norm();
-    if (!(depth > overlap_push_)) return depth;
-    const Real at_start = rest - (start_of_slot(i) - start_of_slot(j)).norm();
-    if (!(at_start > overlap_push_)) return depth;
-    const Real predicted = rest - (base_.at(i) - base_.at(j)).norm();
-    return depth - std::max(std::min(at_start, predicted) - overlap_push_, Real(0));
+    return physics::limited_depth(
+        constants_.solid_rest_distance, norm(position_of_slot(i) - position_of_slot(j)), overlap_push_,
+        [&] { return norm(start_of_slot(i) - start_of_slot(j)); }, [&] { return norm(base_.at(i) - base_.at(j)); });
 }
 
 /// Finds the fluid particles that start the substep more than 10 % above rest density, true if there are any. Looks
@@ -43,7 +35,7 @@ Real ConservingStages<Real>::contact_depth(int i, int j) const {
 template <class Real>
 bool ConservingStages<Real>::find_overlap() {
     const auto end = ws_.density.begin() + ws_.fluid;
-    if (!(*std::max_element(ws_.density.begin(), end) > 1 + overlap_tolerance<Real>)) return false;
+    if (!(*std::max_element(ws_.density.begin(), end) > 1 + Real(physics::overlap_tolerance))) return false;
     DensityView<Real> view = density_view();
     view.position[0] = ws_.start.x.data();
     view.position[1] = ws_.start.y.data();
@@ -54,27 +46,20 @@ bool ConservingStages<Real>::find_overlap() {
     bool any = false;
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         const Real above = ws_.density[slot] - 1;
-        overlap_[slot] = above > overlap_tolerance<Real> ? above : 0;
+        overlap_[slot] = above > Real(physics::overlap_tolerance) ? above : 0;
         any |= overlap_[slot] > 0;
     }
     compute_lambda();
     return any;
 }
 
-/// Splits lambda_i where a particle began the substep with C_i = C0 > 0.1: what takes C_i back to C0 acts in full, what
-/// takes it from C0 to 0 up to the lambda that moves a pair by a h^2 / (1 + C0)^(1/3) at most, so that the pressure
-/// grows little with the number of pairs.
 template <class Real>
 void ConservingStages<Real>::limit_overlap_pressure() {
     for (int slot = 0; slot < ws_.fluid; ++slot) {
-        if (!(overlap_[slot] > 0) || !(ws_.inverse_mass[slot] > 0)) continue;
-        const Real above = std::max(ws_.density[slot] - 1, Real(0));
-        const Real most =
-            overlap_push_ / (ws_.inverse_mass[slot] * own_.gradient_scale * std::cbrt(1 + overlap_[slot]));
-        const Real wanted = std::min(above, overlap_[slot]) * response_[slot];
-        const Real push = std::min(wanted, std::max(most - overlap_lambda_[slot], Real(0)));
-        overlap_lambda_[slot] += push;
-        const Real limited = -(std::max(above - overlap_[slot], Real(0)) * response_[slot] + push);
+        const Real w = ws_.inverse_mass[slot];
+        if (!(overlap_[slot] > 0) || !(w > 0)) continue;
+        const Real limited = physics::limited_lambda(ws_.density[slot] - 1, response_[slot], overlap_[slot],
+                                                     overlap_push_, w, own_.gradient_scale, overlap_lambda_[slot]);
         lambda_sum_[slot] += limited - lambda_[slot];
         lambda_[slot] = limited;
     }

@@ -11,37 +11,36 @@ template <class Real>
 void ConservingStages<Real>::keep_body_momentum() {
     for (FreeBody& body : bodies_) {
         double total = 0;
-        Vector3<double> start_centre = Vector3<double>::Zero();
-        body.centre.setZero();
+        Vec3<double> start_centre{};
+        body.centre = {};
         for (const int i : body.particles) {
             const double mass = 1 / static_cast<double>(inverse_mass_[i]);
             total += mass;
-            start_centre += mass * state_->position[i].template cast<double>();
-            body.centre += mass * position_of_slot(ws_.slot_of[i]).template cast<double>();
+            start_centre += mass * cast<double>(vec3(state_->position[i]));
+            body.centre += mass * cast<double>(position_of_slot(ws_.slot_of[i]));
         }
-        start_centre /= total;
-        body.centre /= total;
+        start_centre = start_centre / total;
+        body.centre = body.centre / total;
 
-        Vector3<double> momentum = Vector3<double>::Zero(), moment = Vector3<double>::Zero();
+        Vec3<double> momentum{}, moment{};
         Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
         for (const int i : body.particles) {
             const double mass = 1 / static_cast<double>(inverse_mass_[i]);
-            const Vector3<double> impulse = mass / static_cast<double>(h_) * internal_[i].template cast<double>();
+            const Vec3<double> impulse = mass / static_cast<double>(h_) * cast<double>(internal_[i]);
             momentum += impulse;
-            moment += (state_->position[i].template cast<double>() - start_centre).cross(impulse);
-            const Vector3<double> arm = position_of_slot(ws_.slot_of[i]).template cast<double>() - body.centre;
+            moment += cross(cast<double>(vec3(state_->position[i])) - start_centre, impulse);
+            const Eigen::Vector3d arm = eigen(cast<double>(position_of_slot(ws_.slot_of[i])) - body.centre);
             inertia += mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
         }
-        body.linear = -momentum / total;
+        body.linear = -1 / total * momentum;
         // A straight chain has no inertia about its own axis, and no moment either: least-norm solution.
-        body.angular = -inertia.completeOrthogonalDecomposition().solve(moment);
+        body.angular = vec3<double>(-inertia.completeOrthogonalDecomposition().solve(eigen(moment)));
     }
 }
 
 /// Takes the rate of change of the density to 0 where the fluid is under pressure, as an inelastic contact does:
 /// pushing particles apart must not leave them flying apart. Pairwise and along their lines, so momenta are kept; what
-/// it takes away is kinetic energy. The velocity constraint is that of Bender, Koschier: Divergence-Free SPH (2015),
-/// eq. 8-10.
+/// it takes away is kinetic energy.
 template <class Real>
 void ConservingStages<Real>::solve_density_rate() {
     for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
@@ -66,13 +65,13 @@ void ConservingStages<Real>::update_velocities() {
 
     for (int i = 0; i < ws_.particles; ++i) {
         const int slot = ws_.slot_of[i];
-        this->new_velocity_[i] = ws_.predicted.at(slot) + displacement_.at(slot) / h_;
+        this->new_velocity_[i] = ws_.predicted.at(slot) + 1 / h_ * displacement_.at(slot);
     }
     keep_body_momentum();
     for (const FreeBody& body : bodies_) {
         for (const int i : body.particles) {
-            const Vector3<double> arm = position_of_slot(ws_.slot_of[i]).template cast<double>() - body.centre;
-            this->new_velocity_[i] += (body.linear + body.angular.cross(arm)).template cast<Real>();
+            const Vec3<double> arm = cast<double>(position_of_slot(ws_.slot_of[i])) - body.centre;
+            this->new_velocity_[i] += cast<Real>(body.linear + cross(body.angular, arm));
         }
     }
     if (plan_.fluid) solve_density_rate();
@@ -84,8 +83,8 @@ void ConservingStages<Real>::update_velocities() {
         this->on_all_threads(fluid, density_kernels_->smooth_velocities);
         for (const int i : ws_.fluid_ids) this->new_velocity_[i] += smoothing * ws_.correction.at(ws_.slot_of[i]);
     }
-    for (Vector3<Real>& v : this->new_velocity_) {
-        v *= kept;
+    for (Vec3<Real>& v : this->new_velocity_) {
+        v = kept * v;
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
     }
 }

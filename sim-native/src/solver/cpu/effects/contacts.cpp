@@ -1,21 +1,8 @@
 #include <algorithm>
-#include <cmath>
 
 #include "../substep.h"
 
 namespace natator::cpu {
-
-/// Masses fall with the height against gravity, m exp(-k height), from wherever heights are counted: only the ratio
-/// exp(-k (height_i - height_j)) enters a contact (Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking,
-/// 2003, sec. 7.2 have infinite mass below instead). Positions are those of the substep's start.
-template <class Real>
-Real Substep<Real>::shock_factor(int slot, int other) const {
-    constexpr Real largest_exponent = 20;  // keeps the ratio finite
-    const Vector3<Real> up = -model_.parameters.gravity.normalized().template cast<Real>();
-    const Real rate = static_cast<Real>(model_.parameters.shockPropagation);
-    const Real exponent = -rate * up.dot(start_of_slot(slot) - start_of_slot(other));
-    return std::exp(std::clamp(exponent, -largest_exponent, largest_exponent));
-}
 
 /// Contacts are pairs that would overlap without the solver: closer than solidRestDistance when predicted. With n of
 /// them on a particle and d = dissipation, implicitly,
@@ -34,7 +21,7 @@ void Substep<Real>::damp_contacts() {
         count = 0;
         for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c)
             count += touch(i, ws_.particle_of[ws_.contact[c]]);
-        velocity_change_[i].setZero();
+        velocity_change_[i] = {};
     }
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
         const int slot = ws_.touched[k];
@@ -60,8 +47,6 @@ void Substep<Real>::damp_contacts() {
     }
 }
 
-template float Substep<float>::shock_factor(int, int) const;
-template double Substep<double>::shock_factor(int, int) const;
 template void Substep<float>::damp_contacts();
 template void Substep<double>::damp_contacts();
 

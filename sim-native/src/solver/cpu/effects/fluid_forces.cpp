@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "../rest_packing.h"
+#include "physics/constants.h"
 #include "cohesion_spline.h"
 #include "fluid_neighbours.h"
 
@@ -29,16 +30,16 @@ void Substep<Real>::add_surface_tension() {
     const Real scale = static_cast<Real>(gradient_scale(model_.parameters));
     const Real strength = static_cast<Real>(model_.parameters.surfaceTension);
     for (int slot = 0; slot < ws_.fluid; ++slot) {
-        Vector3<Real> sum = Vector3<Real>::Zero();
+        Vec3<Real> sum{};
         for_each_fluid_neighbour(
-            slot, [&](int, const Vector3<Real>& difference, Real r, Real q) { sum += (1 - q) / r * difference; });
+            slot, [&](int, const Vec3<Real>& difference, Real r, Real q) { sum += (1 - q) / r * difference; });
         normal_[slot] = scale * sum;
     }
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         const Real w = ws_.inverse_mass[slot];
         if (w == 0) continue;
-        Vector3<Real> sum = Vector3<Real>::Zero();
-        for_each_fluid_neighbour(slot, [&](int other, const Vector3<Real>&, Real, Real) {
+        Vec3<Real> sum{};
+        for_each_fluid_neighbour(slot, [&](int other, const Vec3<Real>&, Real, Real) {
             sum += share(w, ws_.inverse_mass[other]) * (normal_[slot] - normal_[other]);
         });
         velocity_change_[ws_.particle_of[slot]] -= h_ * strength * sum;
@@ -52,38 +53,38 @@ void Substep<Real>::add_vorticity_confinement() {
     const Real scale = static_cast<Real>(gradient_scale(model_.parameters)) * constants_.inverse_radius;
     const Real strength = static_cast<Real>(model_.parameters.vorticityConfinement);
     for (int slot = 0; slot < ws_.fluid; ++slot) {
-        const Vector3<Real> velocity = new_velocity_[ws_.particle_of[slot]];
-        Vector3<Real> sum = Vector3<Real>::Zero();
-        for_each_fluid_neighbour(slot, [&](int other, const Vector3<Real>& difference, Real r, Real q) {
-            const Vector3<Real> relative = new_velocity_[ws_.particle_of[other]] - velocity;
-            sum += (1 - q) / r * relative.cross(difference);
+        const Vec3<Real> velocity = new_velocity_[ws_.particle_of[slot]];
+        Vec3<Real> sum{};
+        for_each_fluid_neighbour(slot, [&](int other, const Vec3<Real>& difference, Real r, Real q) {
+            const Vec3<Real> relative = new_velocity_[ws_.particle_of[other]] - velocity;
+            sum += (1 - q) / r * cross(relative, difference);
         });
         curl_[slot] = scale * sum;
     }
     for (int slot = 0; slot < ws_.fluid; ++slot) {
-        const Real magnitude = curl_[slot].norm();
-        Vector3<Real> towards_stronger = Vector3<Real>::Zero();
-        for_each_fluid_neighbour(slot, [&](int other, const Vector3<Real>& difference, Real r, Real q) {
-            towards_stronger -= (curl_[other].norm() - magnitude) * (1 - q) / r * difference;
+        const Real magnitude = norm(curl_[slot]);
+        Vec3<Real> towards_stronger{};
+        for_each_fluid_neighbour(slot, [&](int other, const Vec3<Real>& difference, Real r, Real q) {
+            towards_stronger -= (norm(curl_[other]) - magnitude) * (1 - q) / r * difference;
         });
-        const Real length = towards_stronger.norm();
+        const Real length = norm(towards_stronger);
         if (!(length > 0)) continue;
-        velocity_change_[ws_.particle_of[slot]] += h_ * strength / length * towards_stronger.cross(curl_[slot]);
+        velocity_change_[ws_.particle_of[slot]] += h_ * strength / length * cross(towards_stronger, curl_[slot]);
     }
 }
 
 /// The pull of CohesionSpline as a force, in units of R per h0^2, h0 = 1/240 s the substep of the thesis.
 template <class Real>
 void Substep<Real>::add_cohesion() {
-    constexpr Real thesis_substep = Real(1) / 240;
+    constexpr Real thesis_substep = static_cast<Real>(physics::thesis_substep);
     const CohesionSpline<Real> pull(model_.parameters);
     const Real strength = static_cast<Real>(model_.parameters.cohesion) * constants_.radius;
     const Real step = h_ / (thesis_substep * thesis_substep);
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         const Real w = ws_.inverse_mass[slot];
         if (w == 0) continue;
-        Vector3<Real> sum = Vector3<Real>::Zero();
-        for_each_fluid_neighbour(slot, [&](int other, const Vector3<Real>& difference, Real r, Real q) {
+        Vec3<Real> sum{};
+        for_each_fluid_neighbour(slot, [&](int other, const Vec3<Real>& difference, Real r, Real q) {
             sum += share(w, ws_.inverse_mass[other]) * pull(q) / r * difference;
         });
         velocity_change_[ws_.particle_of[slot]] -= step * strength * sum;
@@ -93,7 +94,7 @@ void Substep<Real>::add_cohesion() {
 /// All from the same final positions and velocities.
 template <class Real>
 void Substep<Real>::apply_fluid_forces() {
-    std::fill(velocity_change_.begin(), velocity_change_.end(), Vector3<Real>::Zero());
+    std::fill(velocity_change_.begin(), velocity_change_.end(), Vec3<Real>{});
     if (plan_.cohesion && model_.scheme == Scheme::conserving) add_cohesion();
     if (plan_.surface_tension) add_surface_tension();
     if (plan_.vorticity) add_vorticity_confinement();

@@ -11,7 +11,7 @@ void Substep<Real>::drag_free_surface() {
     const Real step = h_ * static_cast<Real>(model_.parameters.freeSurfaceDrag);
     for (const int i : ws_.fluid_ids) {
         const Real lacking = std::max(1 - ws_.density[ws_.slot_of[i]], Real(0));
-        new_velocity_[i] /= 1 + step * lacking;
+        new_velocity_[i] = new_velocity_[i] / (1 + step * lacking);
     }
 }
 

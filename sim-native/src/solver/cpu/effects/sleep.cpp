@@ -8,9 +8,9 @@ template <class Real>
 void Substep<Real>::hold_slow_particles() {
     const Real threshold = static_cast<Real>(model_.parameters.sleepThreshold);
     for (int i = 0; i < ws_.particles; ++i) {
-        if (!(new_velocity_[i].norm() < threshold)) continue;
-        new_velocity_[i].setZero();
-        ws_.position.set(ws_.slot_of[i], state_->position[i]);
+        if (!(norm(new_velocity_[i]) < threshold)) continue;
+        new_velocity_[i] = {};
+        ws_.position.set(ws_.slot_of[i], vec3(state_->position[i]));
     }
 }
 

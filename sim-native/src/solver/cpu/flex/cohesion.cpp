@@ -11,9 +11,9 @@ void FlexStages<Real>::solve_cohesion() {
     const CohesionSpline<Real> pull(model_.parameters);
     const Real strength = static_cast<Real>(model_.parameters.cohesion) * constants_.radius;
     for (int slot = 0; slot < ws_.fluid; ++slot) {
-        Vector3<Real> sum = Vector3<Real>::Zero();
+        Vec3<Real> sum{};
         this->for_each_fluid_neighbour(
-            slot, [&](int, const Vector3<Real>& difference, Real r, Real q) { sum += pull(q) / r * difference; });
+            slot, [&](int, const Vec3<Real>& difference, Real r, Real q) { sum += pull(q) / r * difference; });
         ws_.correction.add(slot, -ws_.inverse_mass[slot] * strength * sum);
     }
 }

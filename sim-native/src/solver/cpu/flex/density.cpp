@@ -2,8 +2,7 @@
 
 namespace natator::cpu {
 
-/// rho_i = sum over fluid j of W_ij + solidPressure * sum over solid j of W_ij, W = (1 - r/R)^2 / S, without the
-/// particle itself and without masses; C_i = max(rho_i - 1, 0). Solids have no density.
+/// rho_i and C_i (physics/flex_density.h); solids have no density, but add solidPressure * W to that of the fluid.
 template <class Real>
 void FlexStages<Real>::compute_density() {
     if (plan_.solid_pressure) {
@@ -13,9 +12,8 @@ void FlexStages<Real>::compute_density() {
             const int slot = ws_.touched[k];
             Real sum = 0;
             for (int c = ws_.contact_begin[k]; c < ws_.contact_begin[k + 1]; ++c) {
-                const Real r = (position_of_slot(slot) - position_of_slot(ws_.contact[c])).norm();
-                const Real t = std::max(1 - r * constants_.inverse_radius, Real(0));
-                sum += t * t;
+                const Real r = norm(position_of_slot(slot) - position_of_slot(ws_.contact[c]));
+                sum += physics::positive_square(1 - r * constants_.inverse_radius);
             }
             ws_.solid_density[slot] = weight * sum;
         }
@@ -25,7 +23,6 @@ void FlexStages<Real>::compute_density() {
     this->on_all_threads(fluid, kernels_->compute_density);
 }
 
-/// Dx_i = w_i R sum over fluid j of 1/2 (C_i + C_j) (1 - r/R) n, n from j to i. The weight is w_i itself, not a share.
 template <class Real>
 void FlexStages<Real>::solve_density_constraint() {
     const FluidView<Real> fluid = fluid_view();

@@ -33,7 +33,7 @@ public:
     std::vector<Real> pressures() const { return {}; }
 
 private:
-    void add_correction(int slot, const Vector3<Real>& correction) {
+    void add_correction(int slot, const Vec3<Real>& correction) {
         ws_.correction.add(slot, correction);
         ws_.constraint_count[slot] += 1;
     }

@@ -2,14 +2,13 @@
 
 namespace natator::cpu {
 
-/// Local relaxation: x_i += min(1, (1 + omega) / n_i) * sum of corrections, n_i = constraints of particle i (contacts
-/// with depth > 0, fluid neighbours with r < R, springs, clusters). Global relaxation: x_i += omega * sum.
+/// By the number of constraints of each particle: contacts with depth > 0, fluid neighbours with r < R, springs,
+/// clusters.
 template <class Real>
 void FlexStages<Real>::relax_and_apply() {
     const bool local = model_.parameters.relaxationMode == RelaxationMode::local;
-    const Real omega = constants_.relaxation_factor;
     this->on_all_threads(this->motion_view(), [&](const MotionView<Real>& slots) {
-        motion_kernels_->relax(slots, local ? 1 + omega : omega, local);
+        motion_kernels_->relax(slots, constants_.relaxation_factor, local);
     });
 }
 

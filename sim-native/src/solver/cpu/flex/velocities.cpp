@@ -2,8 +2,7 @@
 
 namespace natator::cpu {
 
-/// u = (x - x_start) / h; Du_i = h (viscosity * sum over fluid j of W_ij (u_j - u_i) - damping * u_i), W from the final
-/// positions; v = v* + clamp(u + Du - v*, maxAcceleration * h), |v| <= maxSpeed. Positions are not clamped.
+/// See physics::flex_velocity; W of the viscosity is taken from the final positions. Positions are not clamped.
 template <class Real>
 void FlexStages<Real>::update_velocities() {
     const SolverParameters& p = model_.parameters;
@@ -16,15 +15,17 @@ void FlexStages<Real>::update_velocities() {
         this->on_all_threads(fluid, kernels_->pack_velocity);
         this->on_all_threads(fluid, kernels_->smooth_velocities);
     }
-    const VelocityRule<Real> rule{.viscous_blocks = plan_.viscosity ? ws_.blocks() : 0,
-                                  .viscosity_step = h_ * static_cast<Real>(p.viscosity),
-                                  .damping = plan_.damping,
-                                  .damping_step = h_ * static_cast<Real>(p.damping),
-                                  .clamp_acceleration = plan_.clamp_acceleration,
-                                  .most_change = static_cast<Real>(p.maxAcceleration) * h_,
-                                  .clamp_speed = plan_.clamp_speed,
-                                  .max_speed = constants_.max_speed};
-    this->on_all_threads(all, [&](const MotionView<Real>& slots) { motion_kernels_->finish_velocity(slots, rule); });
+    const physics::VelocityRule<Real> rule{.viscosity = plan_.viscosity,
+                                           .viscosity_step = h_ * static_cast<Real>(p.viscosity),
+                                           .damping = plan_.damping,
+                                           .damping_step = h_ * static_cast<Real>(p.damping),
+                                           .clamp_acceleration = plan_.clamp_acceleration,
+                                           .most_change = h_ * static_cast<Real>(p.maxAcceleration),
+                                           .clamp_speed = plan_.clamp_speed,
+                                           .max_speed = constants_.max_speed};
+    this->on_all_threads(all, [&](const MotionView<Real>& slots) {
+        motion_kernels_->finish_velocity(slots, ws_.blocks(), rule);
+    });
     team_->for_parts(ws_.particles, shortest_part * lanes, [this](int, int begin, int end) {
         for (int i = begin; i < end; ++i) this->new_velocity_[i] = ws_.velocity.at(ws_.slot_of[i]);
     });

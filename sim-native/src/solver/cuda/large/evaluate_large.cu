@@ -5,6 +5,7 @@
 
 #include "evaluate/perturb.h"
 #include "large_runner.h"
+#include "physics/early_stop.h"
 #include "solver/cuda/evaluation.h"
 
 namespace natator::cuda {
@@ -77,11 +78,10 @@ private:
         path.push_back(end.mean_x);
         ++progress.frames;
         const bool swims = !model_.body.particles.empty();
-        const auto window =
-            static_cast<std::size_t>(swims ? std::lround(scene_.stopping.no_progress_after / scene_.time_step) : 0);
+        const long window = swims ? std::lround(scene_.stopping.no_progress_after / scene_.time_step) : 0;
         if (scene_.stopping.plane_contact && end.touches_plane)
             progress.stopped = static_cast<int>(Stopped::touched_plane);
-        else if (window > 0 && path.size() > window && path.back() - path[path.size() - 1 - window] <= 0)
+        else if (physics::without_progress(path.data(), progress.frames, window))
             progress.stopped = static_cast<int>(Stopped::no_progress);
     }
 

@@ -84,7 +84,7 @@ __global__ void __launch_bounds__(search_threads, 12)
     }
     int planes = 0;
     for (int k = 0; k < model.planes; ++k)
-        if (dot(model.plane[k].normal, x) + model.plane[k].offset <= model.plane_search_distance) planes |= 1 << k;
+        if (distance_to(model.plane[k].surface, x) <= model.plane_search_distance) planes |= 1 << k;
     slots.plane_contact()[s] = here.w > 0 ? planes : 0;
 }
 

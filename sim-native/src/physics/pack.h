@@ -1,5 +1,5 @@
-// Vectors of floats as the kernels use them, in the width of one instruction set. For kernel sources only, which are
-// compiled once per set: everything here is local to the source that includes it.
+// Vectors of numbers, a particle in each lane, in the width of one instruction set. For kernel sources only, which are
+// compiled once per set.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,7 @@
 #include <immintrin.h>
 #endif
 
-namespace natator::cpu::NATATOR_ISA {
-namespace {
+namespace natator::physics::inline NATATOR_SET {
 
 #if defined(__AVX512F__)
 constexpr int width = 16;
@@ -18,15 +17,50 @@ constexpr int width = 8;
 #else
 constexpr int width = 4;
 #endif
+#if defined(__AVX2__)
+constexpr int double_width = 4;  // also with AVX-512, which takes roots and quotients of 8 no faster
+#else
+constexpr int double_width = 2;
+#endif
 
-/// `width` floats; the operators of the language work on each lane.
-using Floats = float __attribute__((vector_size(4 * width), may_alias));
+/// `width` floats, or `double_width` doubles; the operators of the language work on each lane.
+using Floats = float __attribute__((vector_size(4 * width)));
+using Doubles = double __attribute__((vector_size(8 * double_width)));
 
+template <class Real>
+struct PackOf {
+    using Type = Floats;
+};
+template <>
+struct PackOf<double> {
+    using Type = Doubles;
+};
+template <>
+struct ScalarOf<Floats> {
+    using Type = float;
+};
+template <>
+struct ScalarOf<Doubles> {
+    using Type = double;
+};
+/// As many lanes of Real as an instruction works on.
+template <class Real>
+using Pack = typename PackOf<Real>::Type;
+
+// From and to cache-line boundaries, or multiples of a vector behind one.
+using FloatsInMemory [[gnu::may_alias]] = Floats;
+using DoublesInMemory [[gnu::may_alias]] = Doubles;
 inline Floats load(const float* from) {
-    return *reinterpret_cast<const Floats*>(from);
+    return *reinterpret_cast<const FloatsInMemory*>(from);
+}
+inline Doubles load(const double* from) {
+    return *reinterpret_cast<const DoublesInMemory*>(from);
 }
 inline void store(float* to, Floats value) {
-    *reinterpret_cast<Floats*>(to) = value;
+    *reinterpret_cast<FloatsInMemory*>(to) = value;
+}
+inline void store(double* to, Doubles value) {
+    *reinterpret_cast<DoublesInMemory*>(to) = value;
 }
 inline Floats load_unaligned(const float* from) {
     Floats value;
@@ -38,8 +72,9 @@ inline Floats all_lanes(float value) {
 }
 
 /// Four values for each lane.
-struct Floats4 {
-    Floats x, y, z, w;
+template <class T>
+struct Four {
+    T x, y, z, w;
 };
 
 #if defined(__AVX512F__)
@@ -82,7 +117,7 @@ inline __m512 four_apart(const float* packed, const std::int32_t* index) {
 
 /// (x, y, z, w) of the particles index[0 .. width) out of an array of such quadruples: one load per particle and a
 /// transposition, which is faster than one gather per value.
-inline Floats4 gather(const float* packed, const std::int32_t* index) {
+inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
     const __m512 a = four_apart(packed, index), b = four_apart(packed, index + 1);
     const __m512 c = four_apart(packed, index + 2), d = four_apart(packed, index + 3);
     const __m512d xy_ab = _mm512_castps_pd(_mm512_unpacklo_ps(a, b)),
@@ -148,7 +183,7 @@ inline void transpose(Ints (&rows)[width]) {
 }
 
 /// Writes (x, y, z, w) lane by lane.
-inline void store_quadruples(float* to, Floats4 v) {
+inline void store_quadruples(float* to, Four<Floats> v) {
     const __m512 xy_low = _mm512_unpacklo_ps(v.x, v.y), zw_low = _mm512_unpacklo_ps(v.z, v.w);
     const __m512 xy_high = _mm512_unpackhi_ps(v.x, v.y), zw_high = _mm512_unpackhi_ps(v.z, v.w);
     const auto joined = [](__m512 xy, __m512 zw, bool second) {
@@ -204,7 +239,7 @@ inline __m256 two_apart(const float* packed, const std::int32_t* index) {
 
 /// (x, y, z, w) of the particles index[0 .. width) out of an array of such quadruples: one load per particle and a
 /// transposition, which is faster than one gather per value.
-inline Floats4 gather(const float* packed, const std::int32_t* index) {
+inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
     const __m256 a = two_apart(packed, index), b = two_apart(packed, index + 1);
     const __m256 c = two_apart(packed, index + 2), d = two_apart(packed, index + 3);
     const __m256d xy_ab = _mm256_castps_pd(_mm256_unpacklo_ps(a, b)),
@@ -280,7 +315,7 @@ inline void transpose(Ints (&rows)[width]) {
 }
 
 /// Writes (x, y, z, w) lane by lane.
-inline void store_quadruples(float* to, Floats4 v) {
+inline void store_quadruples(float* to, Four<Floats> v) {
     const __m256 xy_low = _mm256_unpacklo_ps(v.x, v.y), zw_low = _mm256_unpacklo_ps(v.z, v.w);
     const __m256 xy_high = _mm256_unpackhi_ps(v.x, v.y), zw_high = _mm256_unpackhi_ps(v.z, v.w);
     const auto joined = [](__m256 xy, __m256 zw, bool second) {
@@ -328,7 +363,7 @@ inline Floats ones(unsigned bits) {
 
 /// (x, y, z, w) of the particles index[0 .. width) out of an array of such quadruples: one load per particle and a
 /// transposition.
-inline Floats4 gather(const float* packed, const std::int32_t* index) {
+inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
     const auto particle = [&](int lane) { return load(packed + 4 * static_cast<std::int64_t>(index[lane])); };
     const Floats a = particle(0), b = particle(1), c = particle(2), d = particle(3);
     const Floats xy_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), xy_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
@@ -338,16 +373,65 @@ inline Floats4 gather(const float* packed, const std::int32_t* index) {
 }
 
 /// Writes (x, y, z, w) lane by lane.
-inline void store_quadruples(float* to, Floats4 v) {
+inline void store_quadruples(float* to, Four<Floats> v) {
     for (int lane = 0; lane < width; ++lane) store(to + 4 * lane, Floats{v.x[lane], v.y[lane], v.z[lane], v.w[lane]});
 }
 
 #endif
 
-/// Squared length, always rounded in this order, whatever a compiler would fuse.
-inline Floats square(Floats x, Floats y, Floats z) {
-    return fused(z, z, fused(x, x, y * y));
+// Doubles by what the compiler makes of vectors.
+
+inline Doubles fused(Doubles a, Doubles b, Doubles c) {
+#if defined(__AVX2__)
+    return _mm256_fmadd_pd(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+inline Doubles square_root(Doubles v) {
+#if defined(__AVX2__)
+    return _mm256_sqrt_pd(v);
+#else
+    for (int lane = 0; lane < double_width; ++lane) v[lane] = __builtin_sqrt(v[lane]);
+    return v;
+#endif
+}
+inline Doubles positive_part(Doubles v) {
+    return v > 0 ? v : Doubles{};
+}
+inline Doubles count_positive(Doubles counter, Doubles v) {
+    return counter + (v > 0 ? Doubles{} + 1 : Doubles{});
+}
+inline void set_ones(unsigned bits, Doubles& v) {
+    for (int lane = 0; lane < double_width; ++lane) v[lane] = static_cast<double>(bits >> lane & 1u);
+}
+inline void set_ones(unsigned bits, Floats& v) {
+    v = ones(bits);
 }
 
-}  // namespace
-}  // namespace natator::cpu::NATATOR_ISA
+/// As for floats.
+inline Four<Doubles> gather(const double* packed, const std::int32_t* index) {
+    const auto part = [&](int lane, int at) { return load(packed + 4 * static_cast<std::int64_t>(index[lane]) + at); };
+#if defined(__AVX2__)
+    const Doubles a = part(0, 0), b = part(1, 0), c = part(2, 0), d = part(3, 0);
+    const Doubles xz_ab = _mm256_unpacklo_pd(a, b), yw_ab = _mm256_unpackhi_pd(a, b);
+    const Doubles xz_cd = _mm256_unpacklo_pd(c, d), yw_cd = _mm256_unpackhi_pd(c, d);
+    return {_mm256_permute2f128_pd(xz_ab, xz_cd, 0x20), _mm256_permute2f128_pd(yw_ab, yw_cd, 0x20),
+            _mm256_permute2f128_pd(xz_ab, xz_cd, 0x31), _mm256_permute2f128_pd(yw_ab, yw_cd, 0x31)};
+#else
+    const Doubles a = part(0, 0), b = part(1, 0), c = part(0, 2), d = part(1, 2);
+    return {__builtin_shufflevector(a, b, 0, 2), __builtin_shufflevector(a, b, 1, 3), __builtin_shufflevector(c, d, 0, 2),
+            __builtin_shufflevector(c, d, 1, 3)};
+#endif
+}
+inline void store_quadruples(double* to, Four<Doubles> v) {
+    for (int lane = 0; lane < double_width; ++lane) {
+        double* const quadruple = to + 4 * lane;
+        quadruple[0] = v.x[lane];
+        quadruple[1] = v.y[lane];
+        quadruple[2] = v.z[lane];
+        quadruple[3] = v.w[lane];
+    }
+}
+
+}  // namespace natator::physics::inline NATATOR_SET

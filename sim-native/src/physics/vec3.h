@@ -1,0 +1,79 @@
+#pragma once
+
+#include "number.h"
+
+namespace natator::physics {
+
+template <class T>
+struct Vec3 {
+    T x{}, y{}, z{};
+};
+
+inline namespace NATATOR_SET {
+
+template <class T>
+NATATOR_HD Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+NATATOR_HD Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+/// By a number or, lane by lane, by a vector of them; a plane's normal is the same in all lanes.
+template <class S, class T>
+NATATOR_HD auto operator*(S s, const Vec3<T>& v) {
+    return Vec3<decltype(s * v.x)>{s * v.x, s * v.y, s * v.z};
+}
+template <class T>
+NATATOR_HD Vec3<T> operator/(const Vec3<T>& v, T divisor) {
+#if defined(__CUDA_ARCH__)
+    return (1 / divisor) * v;  // divisions are dear there
+#else
+    return {v.x / divisor, v.y / divisor, v.z / divisor};
+#endif
+}
+template <class T>
+NATATOR_HD Vec3<T>& operator+=(Vec3<T>& a, const Vec3<T>& b) {
+    return a = a + b;
+}
+template <class T>
+NATATOR_HD Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
+    return a = a - b;
+}
+
+/// The order of the sum is part of what a state's hash stands for; of numbers in double it is another one, for the same
+/// reason.
+template <class T, class U>
+NATATOR_HD T dot(const Vec3<T>& a, const Vec3<U>& b) {
+    return a.x * b.x + (a.y * b.y + a.z * b.z);
+}
+NATATOR_HD double dot(const Vec3<double>& a, const Vec3<double>& b) {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+template <class T>
+NATATOR_HD Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+NATATOR_HD T norm(const Vec3<T>& v) {
+    return square_root(dot(v, v));
+}
+/// The vector, shortened to `longest` where it is longer.
+template <class T, class R>
+NATATOR_HD Vec3<T> clamped(const Vec3<T>& v, R longest) {
+    const T length = norm(v);
+    const T scale = length > longest ? longest / length : one<T>();
+    return scale * v;
+}
+/// a where `chosen`, else b.
+template <class Chosen, class T>
+NATATOR_HD Vec3<T> select(Chosen chosen, const Vec3<T>& a, const Vec3<T>& b) {
+    return {chosen ? a.x : b.x, chosen ? a.y : b.y, chosen ? a.z : b.z};
+}
+template <class S, class T>
+NATATOR_HD Vec3<S> cast(const Vec3<T>& v) {
+    return {static_cast<S>(v.x), static_cast<S>(v.y), static_cast<S>(v.z)};
+}
+
+}  // namespace NATATOR_SET
+}  // namespace natator::physics
