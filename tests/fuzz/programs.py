@@ -42,7 +42,8 @@ def check_values(value, nulls, key, text):
 
 
 def encode(text):
-    return text.encode("utf-8", "surrogateescape" if not any("\ud800" <= c < "\udc80" for c in text) else "surrogatepass")
+    """Bytes that were no UTF-8 as they were; what JSON calls half a surrogate pair as the three bytes of it."""
+    return b"".join(c.encode("utf-8", "surrogateescape" if "\udc80" <= c <= "\udcff" else "surrogatepass") for c in text)
 
 
 def check_end(code, errors):

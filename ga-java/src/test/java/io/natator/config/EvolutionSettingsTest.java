@@ -32,7 +32,7 @@ class EvolutionSettingsTest {
     @Test
     void whatIsOutOfRangeIsNamed() {
         assertThatThrownBy(() -> settings(1, 1, 0.05, null)).isInstanceOf(InvalidInputException.class)
-                .hasMessage("population is 1; expected a whole number from 2");
+                .hasMessage("population is 1; expected a whole number from 2 to 100000");
         assertThatThrownBy(() -> settings(2, -1, 0.05, null)).hasMessageStartingWith("generations is -1");
         assertThatThrownBy(() -> settings(2, 1, Double.NaN, null)).hasMessageStartingWith("gaussian-deviation is NaN");
         assertThatThrownBy(() -> settings(2, 1, 0.05, 0.0)).hasMessageStartingWith("duration is 0.0");
