@@ -12,19 +12,19 @@ trap 'rm -rf "$folder"' EXIT
 
 # feature, then a pattern for the functions that do it and nothing else
 features=$(cat <<'TEXT'
-fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_rate_lambda)[(]
+fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_rate_lambda)(_of)?[<(]
 fluid neighbours|::(find_fluid_neighbours|list_fluid_neighbours|find_by_vectors|interleave_by_vectors)[(]
 planes|::(find_plane_contacts|leave_planes|solve_planes|add_plane_pressure|push_from_planes)[(]
 contacts|::(find_contacts|solve_contacts)[(]
 springs|::solve_springs[(]
 clusters|::solve_clusters[(]
-viscosity|::smooth_velocities[(]
+viscosity|::smooth_velocities[<(]
 cohesion|::(solve_cohesion|add_cohesion)[(]
 surfaceTension|::add_surface_tension[(]
 vorticityConfinement|::add_vorticity_confinement[(]
 freeSurfaceDrag|::drag_free_surface[(]
 dissipation|::damp_contacts[(]
-shockPropagation|::shock_factor[(]
+shockPropagation|::(shock_factor|partner_weight)[<(]
 adhesion|::adhere[(]
 restitution|::rebound[(]
 sleepThreshold|::hold_slow_particles[(]

@@ -4,6 +4,8 @@
 #include <limits>
 #include <set>
 
+#include "stage.h"
+
 namespace natator {
 namespace {
 
@@ -90,26 +92,28 @@ std::vector<std::string> describe_plan(const Model& model) {
     const auto add = [&lines](bool needed, std::string line) {
         if (needed) lines.push_back(std::move(line));
     };
-    const std::string iterations = std::to_string(model.parameters.numIterations);
     add(!model.muscles.empty(),
         flex ? "per frame: actuate muscles" : "per substep: actuate muscles, with a start ramp");
-    add(true, "per substep: predict");
-    add(plan.fluid || plan.contacts, "per substep: sort into cells");
-    add(plan.fluid, std::string("per substep: find fluid neighbours") + (plan.uniform_fluid ? "" : " (test per pair)"));
-    add(plan.contacts, "per substep: find contacts");
-    add(plan.planes, "per substep: find plane contacts");
-    const std::string per_iteration = iterations + " x per substep: ";
-    add(plan.fluid, per_iteration + (plan.solid_pressure ? "density with solid pressure" : "density"));
-    add(plan.fluid, per_iteration + "density constraint");
-    add(plan.cohesion && flex, per_iteration + "cohesion");
-    add(plan.contacts, per_iteration + (plan.particle_friction ? "contacts with friction" : "contacts") +
+    const auto once = [](const std::string& what) { return "per substep: " + what; };
+    const auto each = [&](Stage stage, const char* kind = "") {
+        return std::to_string(model.parameters.numIterations) + " x per substep: " + kind + name(stage);
+    };
+    add(true, once(name(Stage::predict)));
+    add(plan.fluid || plan.contacts, once("sort into cells"));
+    add(plan.fluid, once(std::string("find fluid neighbours") + (plan.uniform_fluid ? "" : " (test per pair)")));
+    add(plan.contacts, once("find contacts"));
+    add(plan.planes, once("find plane contacts"));
+    add(plan.fluid, each(Stage::density) + (plan.solid_pressure ? " with solid pressure" : ""));
+    add(plan.fluid, each(Stage::density_constraint));
+    add(plan.cohesion && flex, each(Stage::cohesion));
+    add(plan.contacts, each(Stage::contacts) + (plan.particle_friction ? " with friction" : "") +
                            (plan.shock_propagation ? ", shock propagation" : ""));
-    add(plan.springs, per_iteration + "springs");
-    add(plan.clusters, per_iteration + "shape matching");
+    add(plan.springs, each(Stage::springs));
+    add(plan.clusters, each(Stage::shape_matching));
     const bool local = model.parameters.relaxationMode == RelaxationMode::local;
-    add(flex, per_iteration + (local ? "local relaxation" : "global relaxation"));
-    add(plan.planes, per_iteration + (plan.plane_friction ? "planes with friction" : "planes"));
-    std::string velocities = "per substep: velocities";
+    add(flex, each(Stage::relaxation, local ? "local " : "global "));
+    add(plan.planes, each(Stage::planes) + (plan.plane_friction ? " with friction" : ""));
+    std::string velocities = once(name(Stage::velocities));
     if (!flex && (plan.springs || plan.clusters)) velocities += ", body momentum";
     if (!flex && plan.fluid) velocities += ", density rate";
     if (plan.viscosity) velocities += ", viscosity";
@@ -117,15 +121,15 @@ std::vector<std::string> describe_plan(const Model& model) {
     if (plan.clamp_acceleration) velocities += ", acceleration clamp";
     if (plan.clamp_speed) velocities += ", speed clamp";
     add(true, velocities);
-    add(plan.dissipation, "per substep: dissipation");
-    add(plan.free_surface_drag, "per substep: free-surface drag");
-    add(plan.cohesion && !flex, "per substep: cohesion");
-    add(plan.surface_tension, "per substep: surface tension");
-    add(plan.vorticity, "per substep: vorticity confinement");
-    add(plan.adhesion, "per substep: adhesion");
-    add(plan.restitution, "per substep: restitution");
-    add(plan.sleep, "per substep: sleep");
-    add(true, "per substep: check finite");
+    add(plan.dissipation, once(name(Stage::dissipation)));
+    add(plan.free_surface_drag, once(name(Stage::free_surface_drag)));
+    add(plan.cohesion && !flex, once("cohesion"));
+    add(plan.surface_tension, once("surface tension"));
+    add(plan.vorticity, once("vorticity confinement"));
+    add(plan.adhesion, once(name(Stage::adhesion)));
+    add(plan.restitution, once(name(Stage::restitution)));
+    add(plan.sleep, once(name(Stage::sleep)));
+    add(true, once("check finite"));
     return lines;
 }
 

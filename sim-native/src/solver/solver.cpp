@@ -1,7 +1,6 @@
 #include "natator/solver.h"
 
 #include <chrono>
-#include <string_view>
 #include <variant>
 
 #include "cpu/conserving/conserving_stages.h"
@@ -17,11 +16,11 @@ template <class Stages>
 Instability locate_instability(Stages& stages, const Model& model, double time) {
     std::optional<Instability> found;
     stages.forget();
-    substep(stages, stages.plan(), model.parameters.numIterations, [&](const char* stage) {
+    substep(stages, stages.plan(), model.parameters.numIterations, [&](Stage stage) {
         if (found) return;
-        if (const auto particle = stages.first_not_finite()) found = {*particle, stage, time};
+        if (const auto particle = stages.first_not_finite()) found = {*particle, name(stage), time};
     });
-    return found.value_or(Instability{0, "velocities", time});
+    return found.value_or(Instability{0, name(Stage::velocities), time});
 }
 
 /// Passes the stages that an observer sees on to it.
@@ -29,9 +28,9 @@ template <class Real, class Stages>
 struct Tell {
     StepObserver<Real>& observer;
     const Stages& stages;
-    void operator()(std::string_view stage) const {
-        if (stage == "predict") observer.predicted(stages.workspace().predicted_position);
-        if (stage == "iteration") observer.iterated(stages.positions());
+    void operator()(Stage stage) const {
+        if (stage == Stage::predict) observer.predicted(stages.workspace().predicted_position);
+        if (stage == Stage::iteration) observer.iterated(stages.positions());
     }
 };
 
@@ -39,10 +38,10 @@ struct Tell {
 class Timer {
 public:
     explicit Timer(StageProfile& profile) : profile_(profile) {}
-    void operator()(const char* stage) const {
-        if (std::string_view(stage) == "iteration") return;  // ends with another stage
+    void operator()(Stage stage) const {
+        if (stage == Stage::iteration) return;
         const auto now = Clock::now();
-        profile_.add(stage, std::chrono::duration<double>(now - last_).count());
+        profile_.add(name(stage), std::chrono::duration<double>(now - last_).count());
         last_ = now;
     }
 
@@ -54,7 +53,7 @@ private:
 
 /// Does nothing behind a stage.
 struct Ignore {
-    void operator()(const char*) const {}
+    void operator()(Stage) const {}
 };
 
 }  // namespace
@@ -123,7 +122,7 @@ private:
         substep(stages, stages.plan(), model_.parameters.numIterations, after);
         if (!stages.finite()) return false;
         stages.commit();
-        after("commit");
+        after(Stage::commit);
         return true;
     }
 

@@ -1,119 +1,147 @@
 #pragma once
 
 #include "natator/plan.h"
+#include "stage.h"
+
+// One substep: the order of stages for both schemes and every backend. `Stages` is what a backend does in each of them:
+// cpu/ on the host, cuda/update.cuh by the threads of a block, cuda/large by kernels that the host launches. after(stage)
+// is called behind each.
+#if defined(__CUDACC__)
+#define NATATOR_ANY_SIDE _Pragma("nv_exec_check_disable")  // a step is of the side that its stages are of
+#define NATATOR_STEP __host__ __device__
+#else
+#define NATATOR_ANY_SIDE
+#define NATATOR_STEP
+#endif
 
 namespace natator {
 
+/// How a backend goes through the constraints of an iteration.
+enum class Grouping {
+    one_by_one,    ///< each group by itself
+    together,      ///< scheme `flex`: first all that depends on positions alone, then all corrections
+    solids_aside,  ///< scheme `conserving`: solids beside the fluid that touches none
+};
+
 /// The groups of constraints that act on solids, in the order of both schemes.
+NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-void solve_solids(Stages& stages, const Plan& plan, const AfterStage& after) {
+NATATOR_STEP void solve_solids(Stages& stages, const Plan& plan, const AfterStage& after) {
     if (plan.contacts) {
         stages.solve_contacts();
-        after("contacts");
+        after(Stage::contacts);
     }
     if (plan.springs) {
         stages.solve_springs();
-        after("springs");
+        after(Stage::springs);
     }
     if (plan.clusters) {
         stages.solve_clusters();
-        after("shape matching");
+        after(Stage::shape_matching);
     }
 }
 
 /// One constraint iteration of scheme `flex`: every correction is computed from the same positions and summed
 /// (Jacobi), the sum is relaxed and applied, planes come last and one after the other.
+NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
-    stages.clear_corrections();
-    if (plan.fluid) {
-        stages.compute_density();
-        after("density");
-        stages.solve_density_constraint();
-        after("density constraint");
-    }
-    if (plan.cohesion) {
-        stages.solve_cohesion();
-        after("cohesion");
-    }
-    solve_solids(stages, plan, after);
-    stages.relax_and_apply();
-    after("relaxation");
-    if (plan.planes) {
-        stages.solve_planes();
-        after("planes");
+NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterStage& after) {
+    if constexpr (Stages::grouping == Grouping::together) {
+        stages.compute_density_and_fits();
+        after(Stage::density_and_fits);
+        stages.apply_corrections();
+        after(Stage::corrections);
+    } else {
+        stages.clear_corrections();
+        if (plan.fluid) {
+            stages.compute_density();
+            after(Stage::density);
+            stages.solve_density_constraint();
+            after(Stage::density_constraint);
+        }
+        if (plan.cohesion) {
+            stages.solve_cohesion();
+            after(Stage::cohesion);
+        }
+        solve_solids(stages, plan, after);
+        stages.relax_and_apply();
+        after(Stage::relaxation);
+        if (plan.planes) {
+            stages.solve_planes();
+            after(Stage::planes);
+        }
     }
 }
 
 /// One iteration of scheme `conserving`: each group of constraints in turn, on the positions that the last one left.
+NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) {
+NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) {
     if (plan.fluid) {
         stages.solve_density_constraint();
-        after("density constraint");
+        after(Stage::density_constraint);
     }
-    solve_solids(stages, plan, after);
-    if (plan.planes) {
-        stages.solve_planes();
-        after("planes");
+    if constexpr (Stages::grouping == Grouping::solids_aside) {
+        stages.solve_solids_beside_free_fluid(after);
+    } else {
+        solve_solids(stages, plan, after);
+        if (plan.planes) {
+            stages.solve_planes();
+            after(Stage::planes);
+        }
     }
 }
 
 /// What acts on the velocities beyond the constraints, the same in both schemes; all of it is off in the thesis.
+NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-void apply_effects(Stages& stages, const Plan& plan, const AfterStage& after) {
+NATATOR_STEP void apply_effects(Stages& stages, const Plan& plan, const AfterStage& after) {
     if (plan.dissipation) {
         stages.damp_contacts();
-        after("dissipation");
+        after(Stage::dissipation);
     }
     if (plan.free_surface_drag) {
         stages.drag_free_surface();
-        after("free-surface drag");
+        after(Stage::free_surface_drag);
     }
     if (plan.fluid_forces) {
         stages.apply_fluid_forces();
-        after("fluid forces");
+        after(Stage::fluid_forces);
     }
     if (plan.adhesion) {
         stages.adhere();
-        after("adhesion");
+        after(Stage::adhesion);
     }
     if (plan.restitution) {
         stages.rebound();
-        after("restitution");
+        after(Stage::restitution);
     }
     if (plan.sleep) {
         stages.hold_slow_particles();
-        after("sleep");
+        after(Stage::sleep);
     }
 }
 
-/// One substep: this is the order of stages for both schemes and every backend. `after(name)` is called behind each.
+NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage& after) {
+NATATOR_STEP void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage& after) {
     stages.predict();
-    after("predict");
-    if (plan.fluid || plan.contacts) stages.sort_into_cells();
-    stages.gather_slots();
-    after("cells");
-    if (plan.fluid) {
-        stages.find_fluid_neighbours();
-        after("fluid neighbours");
-    }
-    if (plan.contacts) stages.find_contacts();
-    if (plan.planes) stages.find_plane_contacts();
-    if constexpr (Stages::scheme == Scheme::conserving) stages.begin_iterations();
-    after("neighbours");
+    after(Stage::predict);
+    stages.sort_into_cells();
+    after(Stage::cells);
+    stages.find_neighbours(after);
+    stages.begin_iterations();
+    after(Stage::neighbours);
     for (int i = 0; i < iterations; ++i) {
         if constexpr (Stages::scheme == Scheme::conserving)
             iterate_in_turn(stages, plan, after);
         else
             iterate_summed(stages, plan, after);
-        after("iteration");
+        after(Stage::iteration);
     }
     stages.update_velocities();
-    after("velocities");
-    apply_effects(stages, plan, after);
+    after(Stage::velocities);
+    if constexpr (Stages::effects_apart) apply_effects(stages, plan, after);
 }
 
 }  // namespace natator

@@ -37,7 +37,7 @@ void Substep<Real>::sort_by_cell(const std::vector<int>& ids, int first_slot, st
 }
 
 template <class Real>
-void Substep<Real>::sort_into_cells() {
+void Substep<Real>::number_slots() {
     using Corner = std::array<Real, 3>;
     const auto& position = ws_.predicted_position;
     const Corner first{position[0].x(), position[0].y(), position[0].z()};
@@ -67,7 +67,7 @@ void Substep<Real>::sort_into_cells() {
     sort_by_cell(ws_.solid_ids, ws_.solid_begin, ws_.solid_cell_begin);
 }
 
-template void Substep<float>::sort_into_cells();
-template void Substep<double>::sort_into_cells();
+template void Substep<float>::number_slots();
+template void Substep<double>::number_slots();
 
 }  // namespace natator::cpu

@@ -12,6 +12,7 @@
 #include "physics/contact.h"
 #include "neighbour_kernels.h"
 #include "plane_kernels.h"
+#include "solver/step.h"
 #include "thread_team.h"
 #include "workspace.h"
 
@@ -51,9 +52,15 @@ public:
         h_ = h;
     }
 
+    static constexpr Grouping grouping = Grouping::one_by_one;
+    static constexpr bool effects_apart = true;
+
     void predict();
-    void sort_into_cells();
-    void gather_slots();
+    /// Without pairs to search slots keep their numbers.
+    void sort_into_cells() {
+        if (plan_.fluid || plan_.contacts) number_slots();
+        gather_slots();
+    }
     void find_fluid_neighbours();
     void find_contacts();
     void find_plane_contacts();
@@ -81,6 +88,16 @@ public:
     std::vector<int> neighbour_counts() const;
 
 protected:
+    /// The searches in their order, by the stages of a scheme.
+    template <class Stages, class AfterStage>
+    static void find_neighbours_of(Stages& stages, const Plan& plan, const AfterStage& after) {
+        if (plan.fluid) {
+            stages.find_fluid_neighbours();
+            after(Stage::fluid_neighbours);
+        }
+        if (plan.contacts) stages.find_contacts();
+        if (plan.planes) stages.find_plane_contacts();
+    }
     /// Does particle i feel particle j?
     bool collides(int i, int j) const;
     /// Adds the runs of slots, out of those that begin at `cell_begin`, with all particles near those of a cell.
@@ -195,6 +212,8 @@ private:
     void add_vorticity_confinement();
     void add_cohesion();
 
+    void number_slots();
+    void gather_slots();
     void sort_by_cell(const std::vector<int>& ids, int first_slot, std::vector<int>& cell_begin);
     std::vector<std::vector<int>> next_slot_;  ///< by part of the particles and cell, room for the sort
 

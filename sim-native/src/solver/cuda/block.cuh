@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "model_view.h"
-#include "stage.h"
+#include "solver/stage.h"
 
 namespace natator::cuda {
 

@@ -26,21 +26,6 @@ __device__ void begin_iterations(const ModelView<Real>& model, Block& block) {
     __syncthreads();
 }
 
-/// One iteration: each group of constraints in turn, on the positions that the last one left.
-template <class Real, class Block>
-__device__ void iterate_in_turn(const ModelView<Real>& model, Block& block, bool first) {
-    if (model.plan.fluid) solve_density_constraint(model, block, first);
-    block.book(Stage::density_constraint);
-    if (model.plan.contacts) solve_contacts(model, block);
-    block.book(Stage::contacts);
-    if (model.plan.springs) solve_springs(model, block);
-    block.book(Stage::springs);
-    if (model.plan.clusters) solve_clusters(model, block);
-    block.book(Stage::clusters);
-    if (model.plan.planes) solve_planes_in_turn(model, block);
-    block.book(Stage::planes);
-}
-
 /// A warp per free body, the sums in double. Ends with a barrier.
 template <class Real, class Block>
 __device__ void keep_body_momentum(const ModelView<Real>& model, Block& block) {

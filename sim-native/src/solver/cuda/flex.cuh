@@ -173,16 +173,6 @@ __device__ void apply_corrections(const ModelView<Real>& model, Block& block) {
     });
 }
 
-/// One constraint iteration. As iterate_summed in step.h. Ends with a barrier.
-template <class Real, class Block>
-__device__ void iterate_summed(const ModelView<Real>& model, Block& block) {
-    compute_density(model, block, Real(0));
-    block.book(Stage::density);
-    apply_corrections(model, block);
-    __syncthreads();
-    block.book(Stage::corrections);
-}
-
 /// What slot s moved by per second.
 template <class Real, class Block>
 __device__ Vec3<Real> moved_per_second(const Block& block, int s) {

@@ -7,6 +7,7 @@
 #include "measure.cuh"
 #include "neighbours.cuh"
 #include "physics/muscle.h"
+#include "solver/step.h"
 
 namespace natator::cuda {
 
@@ -45,36 +46,64 @@ __device__ void record(const Block& block, int particles, Quad<Real>* to, int ro
             quad(xyz(block.position()[s]), as_number<Real>(block.number()[s]));
 }
 
-/// Substep `number` of an update: the order of stages is that of step.h. True if the outcome is finite.
-template <Scheme scheme, class Real, class Block>
-__device__ bool substep(const ModelView<Real>& model, const Trace<Real>& trace, Block& block, int number) {
-    predict<scheme>(model, block);
-    block.book(Stage::predict);
-    sort_into_cells<scheme>(model, block);
-    block.book(Stage::cells);
-    record(block, model.particles, trace.predicted, number);
-    find_neighbours(model, block);
-    if constexpr (scheme == Scheme::conserving)
-        begin_iterations(model, block);
-    else if (model.plan.dissipation)
-        count_overlaps(model, block);
-    block.book(Stage::neighbours);
-    for (int i = 0; i < model.iterations; ++i) {
-        if constexpr (scheme == Scheme::conserving)
-            iterate_in_turn(model, block, i == 0);
-        else
-            iterate_summed(model, block);
-        record(block, model.particles, trace.iterated, number * model.iterations + i);
+/// The stages of substep `number` of an update, by the threads of a block.
+template <Scheme scheme_of_step, class R, class Block>
+struct BlockStages {
+    using Real = R;
+    static constexpr Scheme scheme = scheme_of_step;
+    static constexpr Grouping grouping = scheme == Scheme::flex ? Grouping::together : Grouping::one_by_one;
+    static constexpr bool effects_apart = false;  // with the velocities
+
+    const ModelView<Real>& model;
+    const Trace<Real>& trace;
+    Block& block;
+    int number;
+    int iteration = 0;
+    bool finite = true;  ///< of all that this thread wrote, once velocities are new
+
+    __device__ void predict() { cuda::predict<scheme>(model, block); }
+    __device__ void sort_into_cells() { cuda::sort_into_cells<scheme>(model, block); }
+    template <class AfterStage>
+    __device__ void find_neighbours(const AfterStage&) {
+        cuda::find_neighbours(model, block);
     }
-    bool finite;
-    if constexpr (scheme == Scheme::conserving)
-        finite = update_velocities_in_turn(model, block);
-    else
-        finite = update_velocities(model, block);
-    const bool all_finite = !__syncthreads_or(!finite);
-    block.book(Stage::velocities);
-    return all_finite;
-}
+    __device__ void begin_iterations() {
+        if constexpr (scheme == Scheme::conserving)
+            cuda::begin_iterations(model, block);
+        else if (model.plan.dissipation)
+            count_overlaps(model, block);
+    }
+    __device__ void compute_density_and_fits() { compute_density(model, block, Real(0)); }
+    __device__ void apply_corrections() {
+        cuda::apply_corrections(model, block);
+        __syncthreads();
+    }
+    __device__ void solve_density_constraint() { cuda::solve_density_constraint(model, block, iteration == 0); }
+    __device__ void solve_contacts() { cuda::solve_contacts(model, block); }
+    __device__ void solve_springs() { cuda::solve_springs(model, block); }
+    __device__ void solve_clusters() { cuda::solve_clusters(model, block); }
+    __device__ void solve_planes() { solve_planes_in_turn(model, block); }
+    __device__ void update_velocities() {
+        if constexpr (scheme == Scheme::conserving)
+            finite = update_velocities_in_turn(model, block);
+        else
+            finite = cuda::update_velocities(model, block);
+        finite = !__syncthreads_or(!finite);
+    }
+};
+
+/// Books a block's time, and writes down what an observer sees.
+template <class Stages>
+struct AfterBlockStage {
+    Stages& stages;
+    __device__ void operator()(Stage stage) const {
+        const int particles = stages.model.particles, iterations = stages.model.iterations;
+        if (stage != Stage::iteration) stages.block.book(stage);
+        if (stage == Stage::cells) record(stages.block, particles, stages.trace.predicted, stages.number);
+        if (stage == Stage::iteration)
+            record(stages.block, particles, stages.trace.iterated, stages.number * iterations + stages.iteration++);
+    }
+};
 
 /// Particles of infinite mass keep their place. Ends with a barrier.
 template <class Real, class Block>
@@ -185,7 +214,10 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
     for (int k = 0; k < batch.substeps; ++k) {
         if constexpr (scheme == Scheme::conserving)
             actuate<scheme>(model, batch.gait, state, time + batch.time_step * (k + 1) / batch.substeps, block);
-        if (!substep<scheme>(model, trace, block, k)) {
+        using Stages = BlockStages<scheme, Real, Block>;
+        Stages stages{model, trace, block, k};
+        natator::substep(stages, model.plan, model.iterations, AfterBlockStage<Stages>{stages});
+        if (!stages.finite) {
             note_instability(model, block, time + k * batch.time_step / batch.substeps, progress);
             break;
         }

@@ -25,6 +25,10 @@ public:
 
     void predict();
     void find_fluid_neighbours();
+    template <class AfterStage>
+    void find_neighbours(const AfterStage& after) {
+        this->find_neighbours_of(*this, plan_, after);
+    }
     void begin_iterations();
     void solve_density_constraint();
     void solve_contacts();

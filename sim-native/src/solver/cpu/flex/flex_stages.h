@@ -12,6 +12,11 @@ public:
     static constexpr Scheme scheme = Scheme::flex;
     using Substep<Real>::Substep;
 
+    template <class AfterStage>
+    void find_neighbours(const AfterStage& after) {
+        this->find_neighbours_of(*this, plan_, after);
+    }
+    void begin_iterations() {}
     void clear_corrections();
     void compute_density();
     void solve_density_constraint();

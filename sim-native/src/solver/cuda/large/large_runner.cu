@@ -243,7 +243,7 @@ void LargeRunner<Real>::launch(const Update& update, int substeps, StageClock* c
     copy(device_rest_lengths_.data(), rest_lengths_, std::size_t(update.substeps) * base_.model.springs, stream);
     check(cudaMemsetAsync(shared, 0xff, sizeof *shared, stream), "clear");
     copy_to(before_);
-    if (clock) clock->mark("load");
+    if (clock) clock->mark(Stage::load);
     LargeLaunch<Real> last = base_;
     for (int k = 0; k < substeps; ++k) {
         last = launch_of(update, k);
@@ -254,7 +254,7 @@ void LargeRunner<Real>::launch(const Update& update, int substeps, StageClock* c
     if (update.settling) launch_rest(base_);
     launch_measure(base_);
     copy(end_, shared, 1, stream);
-    if (clock) clock->mark("measure");
+    if (clock) clock->mark(Stage::measure);
 }
 
 template <class Real>

@@ -1,16 +1,18 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include "natator/execution.h"
 #include "solver/cuda/device_buffer.h"
+#include "solver/stage.h"
 
 namespace natator::cuda {
 
 /// Takes the device's time of every stage that a stream goes through.
 class StageClock {
 public:
-    explicit StageClock(cudaStream_t stream) : stream_(stream) { mark(nullptr); }
+    explicit StageClock(cudaStream_t stream) : stream_(stream) { mark(std::nullopt); }
     ~StageClock() {
         for (const Mark& mark : marks_) cudaEventDestroy(mark.event);
     }
@@ -18,7 +20,7 @@ public:
     StageClock& operator=(const StageClock&) = delete;
 
     /// The stage ends here that began at the last mark.
-    void mark(const char* stage) {
+    void mark(std::optional<Stage> stage) {
         cudaEvent_t event = nullptr;
         check(cudaEventCreate(&event), "event");
         marks_.push_back({event, stage});
@@ -30,14 +32,14 @@ public:
         for (std::size_t k = 1; k < marks_.size(); ++k) {
             float milliseconds = 0;
             check(cudaEventElapsedTime(&milliseconds, marks_[k - 1].event, marks_[k].event), "event");
-            profile.add(marks_[k].stage, 1e-3 * static_cast<double>(milliseconds));
+            profile.add(name(*marks_[k].stage), 1e-3 * static_cast<double>(milliseconds));
         }
     }
 
 private:
     struct Mark {
         cudaEvent_t event;
-        const char* stage;
+        std::optional<Stage> stage;
     };
     cudaStream_t stream_;
     std::deque<Mark> marks_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slots.cuh"
+#include "solver/step.h"
 #include "stage_clock.h"
 
 namespace natator::cuda {
@@ -18,7 +19,7 @@ struct LargeLaunch {
     Trace<Real> trace;        ///< null where nobody looks
     StageClock* clock = nullptr;  ///< likewise
 
-    void mark(const char* stage) const {
+    void mark(Stage stage) const {
         if (clock) clock->mark(stage);
     }
 
@@ -36,15 +37,18 @@ struct LargeLaunch {
     }
 };
 
-/// Launches the stages of substep `slots.substep`, in the order of step.h.
+/// Launches the stages of substep `slots.substep`.
 template <class Real>
 void launch_substep(const LargeLaunch<Real>& launch);
 template <class Real, Scheme scheme>
 void launch_substep_of(const LargeLaunch<Real>& launch);
 
-/// Predicts, numbers the slots and searches: the part that schemes share.
 template <class Real, Scheme scheme>
-void launch_search(const LargeLaunch<Real>& launch);
+void launch_predict(const LargeLaunch<Real>& launch);
+template <class Real>
+void launch_sort_into_cells(const LargeLaunch<Real>& launch);
+template <class Real>
+void launch_find_neighbours(const LargeLaunch<Real>& launch);
 
 /// Writes positions of all slots, with the particles' numbers, to row `row` of an observer's view if there is one.
 template <class Real>
@@ -70,6 +74,49 @@ void launch_far_slot(const LargeLaunch<Real>& launch);
 
 inline int blocks_for(int count, int threads_of_block) {
     return (count + threads_of_block - 1) / threads_of_block;
+}
+
+/// The stages of a substep that schemes share, each a launch or several.
+template <Scheme scheme_of_step, class R>
+struct LaunchStages {
+    using Real = R;
+    static constexpr Scheme scheme = scheme_of_step;
+    static constexpr bool effects_apart = false;  // with the velocities
+
+    const LargeLaunch<Real>& launch;
+    const ModelView<Real>& model = launch.model;
+    const Slots<Real>& slots = launch.slots;
+    int blocks = blocks_for(model.particles, large_threads);
+    int iteration = 0;
+
+    void predict() { launch_predict<Real, scheme>(launch); }
+    void sort_into_cells() { launch_sort_into_cells(launch); }
+    template <class AfterStage>
+    void find_neighbours(const AfterStage&) {
+        launch_find_neighbours(launch);
+    }
+};
+
+/// Takes the time of the stages, and writes down what an observer sees.
+template <class Stages>
+struct AfterLaunch {
+    Stages& stages;
+    void operator()(Stage stage) const {
+        const LargeLaunch<typename Stages::Real>& launch = stages.launch;
+        if (stage != Stage::iteration) launch.mark(stage);
+        if (stage == Stage::cells) record_positions(launch, launch.trace.predicted, launch.slots.substep);
+        if (stage == Stage::iteration)
+            record_positions(launch, launch.trace.iterated,
+                             launch.slots.substep * launch.model.iterations + stages.iteration++);
+    }
+};
+
+/// Launches a substep.
+template <class Stages>
+void launch_by(const LargeLaunch<typename Stages::Real>& launch) {
+    Stages stages{{launch}};
+    natator::substep(stages, launch.model.plan, launch.model.iterations, AfterLaunch<Stages>{stages});
+    check(cudaGetLastError(), "launch");
 }
 
 }  // namespace natator::cuda
