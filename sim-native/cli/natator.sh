@@ -28,4 +28,4 @@ else
     echo "natator: no java on the PATH nor in JAVA_HOME: install a Java runtime, version 17 or later" >&2
     exit 1
 fi
-exec "$java" -jar "$jar" "$@"
+exec "$java" "-Dnatator.command=$0" -jar "$jar" "$@"

@@ -31,7 +31,7 @@ final class RunLauncher {
     void run(RunFolder folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
-            String how = "continue by: natator resume " + folder.directory();
+            String how = "continue by: " + ProgramName.asCalled() + " resume " + folder.directory();
             try (Evaluator evaluator = EvolutionRun.open(limited);
                     Stopper stopper = new Stopper(evaluator, stopAfter, () -> say("interrupted; " + how))) {
                 evolve(folder, limited, evaluator, stopper, how);

@@ -52,8 +52,8 @@ final class RunReport {
         if (verdict.advice() != null) {
             line("", verdict.advice());
         }
-        line("watch it", "natator view --run " + folder);
-        line("share it", "natator page " + folder);
+        line("watch it", ProgramName.asCalled() + " view --run " + folder);
+        line("share it", ProgramName.asCalled() + " page " + folder);
     }
 
     private void printVacuum(SimulationResult vacuum) {

@@ -79,8 +79,8 @@ final class ShowCommand implements Callable<Integer> {
         long more = run.evaluations().size() - run.state().evaluations();
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
-                        : "not finished, " + more + " evaluations of the next; continue by: natator resume "
-                                + run.directory());
+                        : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
+                                + " resume " + run.directory());
     }
 
     private static void printSavings(StoredRun run, PrintWriter out) {
