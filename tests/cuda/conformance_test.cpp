@@ -1,7 +1,6 @@
 // Scheme flex on the GPU against black-box measurements of NVIDIA Flex 1.2.0, with the bounds that hold on the CPU.
 #include "../native/conformance_checks.h"
 #include "gpu_test.h"
-#include "natator/error.h"
 
 namespace natator::test {
 namespace {
@@ -10,17 +9,9 @@ json on_gpu(const json& experiment, const std::string& name) {
     return run_particle_experiment(experiment, name, Precision::single_precision, 0);
 }
 
-/// What no rounding can meet, and an effect that the GPU has no stage for, which it says.
+/// What no rounding can meet.
 json exceptions() {
     return read(conformance_dir / "exceptions.json");
-}
-
-TEST(GpuEffects, WhatIsNotDoneIsRefused) {
-    if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
-    for (const json& experiment : read(conformance_dir / "micro" / "a_free.json")) {
-        if (experiment["name"] != "a_sleep") continue;
-        EXPECT_THROW(on_gpu(experiment, "a_sleep"), InputError);
-    }
 }
 
 class GpuMicro : public OnGpu<testing::TestWithParam<std::string>> {};

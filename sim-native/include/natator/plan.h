@@ -35,6 +35,11 @@ struct Plan {
     bool vorticity = false;
     bool free_surface_drag = false;
     bool fluid_forces = false;  ///< any of the fluid's forces that act on velocities
+
+    /// Does anything act behind the velocities?
+    constexpr bool effects() const {
+        return dissipation || free_surface_drag || fluid_forces || adhesion || restitution || sleep;
+    }
 };
 
 Plan make_plan(const Model& model);

@@ -52,16 +52,17 @@ NATATOR_HD T split_share(T own, T contacts, T other, T contacts_of_other) {
 
 /// Shock propagation, how it changes the weight of a contact's partner: masses fall with the height against gravity,
 /// m exp(-rate height), from wherever heights are counted, so only the ratio exp(-rate (height_i - height_j)) enters
-/// (Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003, sec. 7.2 have infinite mass below instead).
+/// (Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003, sec. 7.2 have infinite mass below
+/// instead).
 template <class T>
 NATATOR_HD T shock_factor(const Vec3<T>& up, T rate, const Vec3<T>& from_partner) {
     const T exponent = -rate * dot(up, from_partner), most = T(largest_shock_exponent);
     return exponential(exponent < -most ? -most : smaller(exponent, most));
 }
 
-/// Scheme `conserving`: depth of a contact beyond what this substep may leave of it. One that was deep at the start gets
-/// shallower by at most `push` = a h^2, a = overlap acceleration, or by what its motion does. The distances at the start
-/// and at the predicted positions are asked for only where they matter.
+/// Scheme `conserving`: depth of a contact beyond what this substep may leave of it. One that was deep at the start
+/// gets shallower by at most `push` = a h^2, a = overlap acceleration, or by what its motion does. The distances at the
+/// start and at the predicted positions are asked for only where they matter.
 template <class T, class AtStart, class Predicted>
 NATATOR_HD T limited_depth(T rest, T r, T push, const AtStart& r_at_start, const Predicted& r_predicted) {
     const T depth = rest - r;

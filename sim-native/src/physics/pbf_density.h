@@ -1,5 +1,5 @@
-// The fluid of scheme `conserving`: Macklin, Müller: Position Based Fluids (2013), eq. 1-12, with inverse masses w and a
-// constraint C_i = rho_i / rho0 - 1 <= 0 that only pushes. Density and gradient come from one kernel, (1 - q)^3 with
+// The fluid of scheme `conserving`: Macklin, Müller: Position Based Fluids (2013), eq. 1-12, with inverse masses w and
+// a constraint C_i = rho_i / rho0 - 1 <= 0 that only pushes. Density and gradient come from one kernel, (1 - q)^3 with
 // q = r/R: with poly6 for the density, as the paper has it, pairs that have come close are pushed apart without the
 // density ever falling, substep after substep. Sums over fluid neighbours j of a particle i, left = 1 - q.
 #pragma once
@@ -131,8 +131,8 @@ NATATOR_HD Vec3<T> solid_pressure_push(const Vec3<T>& difference, T inverse_radi
 }
 
 /// lambda_i of a particle that began the substep with C_i = C0 > 0 too dense: what takes C_i back to C0 acts in full,
-/// what takes it from C0 to 0 up to the lambda that moves a pair by `push` = a h^2 / (1 + C0)^(1/3) at most, so that the
-/// pressure grows little with the number of pairs; `given` has what has done so in this substep.
+/// what takes it from C0 to 0 up to the lambda that moves a pair by `push` = a h^2 / (1 + C0)^(1/3) at most, so that
+/// the pressure grows little with the number of pairs; `given` has what has done so in this substep.
 template <class T>
 NATATOR_HD T limited_lambda(T above_rest, T response, T at_start, T push, T inverse_mass, T gradient_scale, T& given) {
     const T above = positive_part(above_rest);

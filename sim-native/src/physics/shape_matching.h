@@ -1,5 +1,5 @@
-// Shape matching: Müller, Heidelberger, Teschner, Gross: Meshless Deformations Based on Shape Matching (2005). A cluster
-// pulls its particles to the goals c + R r_j, r_j = rest position from the centre, c = centre, R = best rotation.
+// Shape matching: Müller, Heidelberger, Teschner, Gross: Meshless Deformations Based on Shape Matching (2005). A
+// cluster pulls its particles to the goals c + R r_j, r_j = rest position from the centre, c = centre, R = best rotation.
 // Rotations are quaternions x, y, z, w; matrices stand row by row.
 #pragma once
 
@@ -71,8 +71,8 @@ NATATOR_HD void turn(double q[4], const Vec3<double>& omega, double angle) {
 #endif
 }
 
-/// Turns q towards the rotation closest to a covariance by at most `steps` steps of Müller, Bender, Chentanez, Macklin:
-/// A Robust Method to Extract the Rotational Part of Deformations (2016), algorithm 1:
+/// Turns q towards the rotation closest to a covariance by at most `steps` steps of Müller, Bender, Chentanez,
+/// Macklin: A Robust Method to Extract the Rotational Part of Deformations (2016), algorithm 1:
 ///   omega = sum of r_k x a_k / (|sum of r_k . a_k| + epsilon), k over the columns.
 NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], int steps) {
     const double* const a = covariance.entry;

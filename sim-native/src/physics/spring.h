@@ -6,8 +6,8 @@
 
 namespace natator::physics::inline NATATOR_SET {
 
-/// Scheme `flex`: Dx_a = k w_a / (w_a + w_b) (l0 - l) n, the stiffness as it is in every iteration. Returns Dx_a / w_a =
-/// -Dx_b / w_b for `difference` from b to a.
+/// Scheme `flex`: Dx_a = k w_a / (w_a + w_b) (l0 - l) n, the stiffness as it is in every iteration. Returns
+/// Dx_a / w_a = -Dx_b / w_b for `difference` from b to a.
 template <class T>
 NATATOR_HD Vec3<T> spring_push(const Vec3<T>& difference, T weights, T rest_length, T stiffness) {
     const T length = norm(difference);

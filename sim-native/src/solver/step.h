@@ -4,8 +4,8 @@
 #include "stage.h"
 
 // One substep: the order of stages for both schemes and every backend. `Stages` is what a backend does in each of them:
-// cpu/ on the host, cuda/update.cuh by the threads of a block, cuda/large by kernels that the host launches. after(stage)
-// is called behind each.
+// cpu/ on the host, cuda/update.cuh by the threads of a block, cuda/large by kernels that the host launches.
+// after(stage) is called behind each.
 #if defined(__CUDACC__)
 #define NATATOR_ANY_SIDE _Pragma("nv_exec_check_disable")  // a step is of the side that its stages are of
 #define NATATOR_STEP __host__ __device__
@@ -141,7 +141,7 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, int iterations, cons
     }
     stages.update_velocities();
     after(Stage::velocities);
-    if constexpr (Stages::effects_apart) apply_effects(stages, plan, after);
+    apply_effects(stages, plan, after);
 }
 
 }  // namespace natator

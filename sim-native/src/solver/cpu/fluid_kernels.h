@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "natator/instruction_set.h"
+#include "kernel_table.h"
 
 namespace natator::cpu {
 
@@ -53,30 +53,8 @@ struct FluidKernels {
     void (*smooth_velocities)(const FluidView<Real>& fluid);
 };
 
-namespace portable {
-template <class Real>
-FluidKernels<Real> fluid_kernels();
-template <class Real>
-FluidKernels<Real> scalar_fluid_kernels();
-}  // namespace portable
-namespace avx2 {
-template <class Real>
-FluidKernels<Real> fluid_kernels();
-template <class Real>
-FluidKernels<Real> scalar_fluid_kernels();
-}  // namespace avx2
-namespace avx512 {
-template <class Real>
-FluidKernels<Real> fluid_kernels();
-template <class Real>
-FluidKernels<Real> scalar_fluid_kernels();
-}  // namespace avx512
-
-/// The kernels for an instruction set, and the same particle by particle; sets that this build lacks give the portable
-/// ones.
-template <class Real>
-const FluidKernels<Real>& fluid_kernels(InstructionSet set);
-template <class Real>
-const FluidKernels<Real>& scalar_fluid_kernels(InstructionSet set);
+NATATOR_DECLARE_KERNELS(FluidKernels, fluid_kernels)
+/// The same particle by particle.
+NATATOR_DECLARE_KERNELS(FluidKernels, scalar_fluid_kernels)
 
 }  // namespace natator::cpu

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "natator/instruction_set.h"
+#include "kernel_table.h"
 #include "physics/velocity.h"
 
 namespace natator::cpu {
@@ -32,21 +32,6 @@ struct MotionKernels {
     bool (*finite)(const Real* values, int count);
 };
 
-namespace portable {
-template <class Real>
-MotionKernels<Real> motion_kernels();
-}  // namespace portable
-namespace avx2 {
-template <class Real>
-MotionKernels<Real> motion_kernels();
-}  // namespace avx2
-namespace avx512 {
-template <class Real>
-MotionKernels<Real> motion_kernels();
-}  // namespace avx512
-
-/// The kernels for an instruction set; sets that this build lacks give the portable ones.
-template <class Real>
-const MotionKernels<Real>& motion_kernels(InstructionSet set);
+NATATOR_DECLARE_KERNELS(MotionKernels, motion_kernels)
 
 }  // namespace natator::cpu

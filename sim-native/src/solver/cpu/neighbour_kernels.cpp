@@ -52,7 +52,8 @@ int find_by_vectors(const float* const position[3], int slot, const SlotRuns& ru
             const Floats dx = xi - load_unaligned(x + j);
             const Floats dy = yi - load_unaligned(y + j);
             const Floats dz = zi - load_unaligned(z + j);
-            const unsigned near = positive_and_below(squared_length(Vec3<Floats>{dx, dy, dz}), limit) & first_lanes(end - j);
+            const Floats r2 = squared_length(Vec3<Floats>{dx, dy, dz});
+            const unsigned near = positive_and_below(r2, limit) & first_lanes(end - j);
             n += store_chosen(found + n, consecutive(j), near);
         }
     }

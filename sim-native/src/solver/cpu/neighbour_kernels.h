@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "natator/instruction_set.h"
+#include "kernel_table.h"
 
 namespace natator::cpu {
 
@@ -29,30 +29,8 @@ struct NeighbourKernels {
                        std::int32_t* to);
 };
 
-namespace portable {
-template <class Real>
-NeighbourKernels<Real> neighbour_kernels();
-template <class Real>
-NeighbourKernels<Real> scalar_neighbour_kernels();
-}  // namespace portable
-namespace avx2 {
-template <class Real>
-NeighbourKernels<Real> neighbour_kernels();
-template <class Real>
-NeighbourKernels<Real> scalar_neighbour_kernels();
-}  // namespace avx2
-namespace avx512 {
-template <class Real>
-NeighbourKernels<Real> neighbour_kernels();
-template <class Real>
-NeighbourKernels<Real> scalar_neighbour_kernels();
-}  // namespace avx512
-
-/// The kernels for an instruction set, and the plain loops that they must agree with; sets that this build lacks give
-/// the portable ones.
-template <class Real>
-const NeighbourKernels<Real>& neighbour_kernels(InstructionSet set);
-template <class Real>
-const NeighbourKernels<Real>& scalar_neighbour_kernels(InstructionSet set);
+NATATOR_DECLARE_KERNELS(NeighbourKernels, neighbour_kernels)
+/// The plain loops that they must agree with.
+NATATOR_DECLARE_KERNELS(NeighbourKernels, scalar_neighbour_kernels)
 
 }  // namespace natator::cpu

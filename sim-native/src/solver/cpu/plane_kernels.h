@@ -1,6 +1,6 @@
 #pragma once
 
-#include "natator/instruction_set.h"
+#include "kernel_table.h"
 
 namespace natator::cpu {
 
@@ -55,30 +55,8 @@ struct PlaneKernels {
     void (*press)(const PlanePressure<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane);
 };
 
-namespace portable {
-template <class Real>
-PlaneKernels<Real> plane_kernels();
-template <class Real>
-PlaneKernels<Real> scalar_plane_kernels();
-}  // namespace portable
-namespace avx2 {
-template <class Real>
-PlaneKernels<Real> plane_kernels();
-template <class Real>
-PlaneKernels<Real> scalar_plane_kernels();
-}  // namespace avx2
-namespace avx512 {
-template <class Real>
-PlaneKernels<Real> plane_kernels();
-template <class Real>
-PlaneKernels<Real> scalar_plane_kernels();
-}  // namespace avx512
-
-/// The kernels for an instruction set, and the same particle by particle; sets that this build lacks give the portable
-/// ones.
-template <class Real>
-const PlaneKernels<Real>& plane_kernels(InstructionSet set);
-template <class Real>
-const PlaneKernels<Real>& scalar_plane_kernels(InstructionSet set);
+NATATOR_DECLARE_KERNELS(PlaneKernels, plane_kernels)
+/// The same particle by particle.
+NATATOR_DECLARE_KERNELS(PlaneKernels, scalar_plane_kernels)
 
 }  // namespace natator::cpu

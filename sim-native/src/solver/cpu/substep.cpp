@@ -1,5 +1,6 @@
 #include "substep.h"
 
+#include "physics/effects.h"
 #include "rest_packing.h"
 
 namespace natator::cpu {
@@ -16,7 +17,12 @@ Constants<Real>::Constants(const SolverParameters& p)
       collision_distance(Real(p.collisionDistance)),
       plane_search_distance(Real(p.collisionDistance) + Real(p.shapeCollisionMargin)),
       relaxation_factor(Real(p.relaxationFactor)),
-      max_speed(Real(p.maxSpeed)) {
+      max_speed(Real(p.maxSpeed)),
+      cohesion_slope(static_cast<Real>(physics::cohesion_slope(p.fluidRestDistance / p.radius))),
+      gradient_estimate(0) {
+    if (p.fluidRestDistance > 0)
+        gradient_estimate = static_cast<Real>(
+            3 / rest_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return (1 - q) * q; }));
     const double rest_sum = p.fluidRestDistance > 0 ? rest_packing_sum(p.fluidRestDistance / p.radius,
                                                                        [](double q) { return (1 - q) * (1 - q); })
                                                     : 0;
@@ -43,7 +49,8 @@ Substep<Real>::Substep(const Model& model, const Plan& plan)
     for (const Spring& spring : model.springs) spring_stiffness_.push_back(static_cast<Real>(spring.stiffness));
     for (const Cluster& cluster : model.clusters) {
         cluster_offset_.emplace_back();
-        for (const auto& offset : cluster.rest_offset) cluster_offset_.back().push_back(vec3<Real>(offset.cast<Real>()));
+        for (const auto& offset : cluster.rest_offset)
+            cluster_offset_.back().push_back(vec3<Real>(offset.cast<Real>()));
     }
     up_ = vec3<Real>(-model.parameters.gravity.normalized().template cast<Real>());
 }

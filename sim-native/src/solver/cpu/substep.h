@@ -31,6 +31,8 @@ struct Constants {
     Real collision_distance, plane_search_distance;
     Real relaxation_factor;
     Real max_speed;
+    Real cohesion_slope;     ///< b, see physics::cohesion_pull
+    Real gradient_estimate;  ///< G, see physics::gradient_part; 0 without fluid
 };
 
 /// What both schemes do in a substep on the CPU, one source file per stage, and what they share to do it.
@@ -53,7 +55,6 @@ public:
     }
 
     static constexpr Grouping grouping = Grouping::one_by_one;
-    static constexpr bool effects_apart = true;
 
     void predict();
     /// Without pairs to search slots keep their numbers.

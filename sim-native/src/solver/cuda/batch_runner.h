@@ -78,7 +78,8 @@ private:
         double all = 0;
         for (const auto booked : cycles) all += static_cast<double>(booked);
         for (std::size_t k = 0; k < cycles.size(); ++k)
-            if (cycles[k] > 0) profile.add(name(static_cast<Stage>(k)), seconds_ * static_cast<double>(cycles[k]) / all);
+            if (cycles[k] > 0)
+                profile.add(name(static_cast<Stage>(k)), seconds_ * static_cast<double>(cycles[k]) / all);
     }
 
     DeviceModel<Real> model_;

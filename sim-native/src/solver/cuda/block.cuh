@@ -55,6 +55,7 @@ struct Layout {
     unsigned chunk_count, fluid_contact, solid_contact, contact_count, plane_contact, touched, contact_push, fit_before;
     unsigned base, displacement, boundary, lambda_sum, overlap, overlap_lambda, active, internal, spring_push;
     unsigned spring_lambda, member_displacement, member_push, motion;
+    unsigned density, overlaps, change, normal, curl;
     unsigned chip_bytes, scratch_bytes;
     int staged;  ///< neighbours per thread that `next` has room for while they are searched
 };
@@ -136,6 +137,17 @@ public:
     __device__ Quad<Real>* member_displacement() const { return in_scratch<Quad<Real>>(at_.member_displacement); }
     __device__ Quad<Real>* member_push() const { return in_scratch<Quad<Real>>(at_.member_push); }
     __device__ BodyMotion* motion() const { return in_scratch<BodyMotion>(at_.motion); }  ///< by free body
+
+    // In device memory, by slot, each where an effect needs it.
+    __device__ Real* density() const { return in_scratch<Real>(at_.density); }    ///< in units of rest density
+    __device__ Real* overlaps() const { return in_scratch<Real>(at_.overlaps); }  ///< contacts that are, when predicted
+    __device__ Quad<Real>* change() const { return in_scratch<Quad<Real>>(at_.change); }  ///< of velocity
+    __device__ Quad<Real>* normal() const { return in_scratch<Quad<Real>>(at_.normal); }
+    __device__ Quad<Real>* curl() const { return in_scratch<Quad<Real>>(at_.curl); }
+
+    // What a substep ends with; w of the position is its inverse mass.
+    __device__ Quad<Real>* new_velocity() const { return next_velocity(); }
+    __device__ Quad<Real>* end_position() const { return position(); }
 
     __device__ int staged() const { return at_.staged; }
 

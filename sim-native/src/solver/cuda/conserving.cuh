@@ -131,7 +131,6 @@ __device__ Vec3<Real> velocity_in_turn(const ModelView<Real>& model, const Block
     if (model.plan.viscosity && s < model.fluid) v = v + smoothing * viscosity_change(model, block, s, x, u);
     v = kept * v;
     if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
-    if (model.plan.restitution) v = rebound(model, block, s, x, xyz(block.drift()[s]), v);
     return v;
 }
 

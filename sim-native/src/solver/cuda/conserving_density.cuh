@@ -25,7 +25,8 @@ __device__ physics::Boundary<Real> boundary_terms(const ModelView<Real>& model, 
     if (model.plan.solid_pressure)
         for_each_contact(model, block, s, [&](int other) {
             const Quad<Real> there = block.position()[other];
-            add_solid(boundary, x - xyz(there), model.inverse_radius, model.solid_pressure, model.fluid_kernel, there.w);
+            add_solid(boundary, x - xyz(there), model.inverse_radius, model.solid_pressure, model.fluid_kernel,
+                      there.w);
         });
     return boundary;
 }
@@ -72,6 +73,7 @@ __device__ bool compute_lambda(const ModelView<Real>& model, Block& block) {
                 lambda = -density.above * density.response;
             high |= density.above > Real(physics::overlap_tolerance);
             block.lambda_sum()[s] += lambda;
+            if (model.plan.free_surface_drag) block.density()[s] = density.above + 1;
         }
         block.next()[s] = quad(x, lambda);
     });

@@ -32,9 +32,9 @@ __device__ void solve_contacts(const ModelView<Real>& model, Block& block) {
                 for_each_contact_of(model, block, s, lane, contact_lanes, [&](int other) {
                     const Real depth = contact_depth<Real>(model, block, s, other);
                     if (!(depth > 0)) return;
-                    const Real share =
-                        physics::split_share(inverse_mass, static_cast<Real>(active), block.position()[other].w,
-                                             static_cast<Real>(block.active()[other]));
+                    const Real share = physics::split_share(inverse_mass, static_cast<Real>(active),
+                                                            partner_weight(model, block, s, other),
+                                                            static_cast<Real>(block.active()[other]));
                     sum += share * contact_push(model, block, s, other, depth);
                 });
             const Quad<Real> push{sum_of_lanes(sum.x), sum_of_lanes(sum.y), sum_of_lanes(sum.z), Real(0)};

@@ -80,6 +80,15 @@ __device__ physics::Friction<Real> plane_friction(const ModelView<Real>& model) 
     return {model.plan.plane_friction, model.static_friction, model.dynamic_friction};
 }
 
+/// Inverse mass of contact partner `other` as slot s feels it: shock propagation changes it.
+template <class Real, class Block>
+__device__ Real partner_weight(const ModelView<Real>& model, const Block& block, int s, int other) {
+    const Real w = block.position()[other].w;
+    if (!model.plan.shock_propagation) return w;
+    return w * physics::shock_factor(model.up, model.shock_propagation,
+                                     xyz(block.start()[s]) - xyz(block.start()[other]));
+}
+
 /// What a contact of this depth pushes slot s by, before its share is taken.
 template <class Real, class Block>
 __device__ Vec3<Real> contact_push(const ModelView<Real>& model, const Block& block, int s, int other, Real depth) {

@@ -18,21 +18,9 @@ void choose_device(int device) {
 }
 
 std::optional<std::string> refusal(const Model& model) {
-    const Plan plan = make_plan(model);
     if (model.particles() == 0) return "the scene has no particles; must have some";
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
-    const bool flex = model.scheme == Scheme::flex;
-    const std::pair<bool, const char*> effects[] = {{plan.adhesion, "adhesion"},
-                                                    {plan.sleep, "sleepThreshold"},
-                                                    {plan.shock_propagation, "shockPropagation"},
-                                                    {plan.dissipation && !flex, "dissipation"},
-                                                    {plan.cohesion && !flex, "cohesion"},
-                                                    {plan.surface_tension, "surfaceTension"},
-                                                    {plan.vorticity, "vorticityConfinement"},
-                                                    {plan.free_surface_drag, "freeSurfaceDrag"}};
-    for (const auto& [used, name] : effects)
-        if (used) return std::string(name) + " is not done on the GPU; must be 0";
     return std::nullopt;
 }
 

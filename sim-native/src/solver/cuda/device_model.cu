@@ -6,7 +6,6 @@
 #include "natator/error.h"
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/conserving/constants.h"
-#include "solver/cpu/effects/cohesion_spline.h"
 #include "solver/cpu/substep.h"
 
 namespace natator::cuda {
@@ -60,7 +59,15 @@ DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
     view_.slowest_impact = 2 * static_cast<Real>(p.gravity.norm());
     view_.dissipation = static_cast<Real>(p.dissipation);
     view_.cohesion_strength = static_cast<Real>(p.cohesion) * constants.radius;
-    view_.cohesion_slope = cpu::CohesionSpline<Real>(p).b;
+    view_.cohesion_slope = constants.cohesion_slope;
+    view_.gradient_estimate = constants.gradient_estimate;
+    view_.adhesion = static_cast<Real>(p.adhesion);
+    view_.sleep_threshold = static_cast<Real>(p.sleepThreshold);
+    view_.surface_tension = static_cast<Real>(p.surfaceTension);
+    view_.vorticity = static_cast<Real>(p.vorticityConfinement);
+    view_.free_surface_drag = static_cast<Real>(p.freeSurfaceDrag);
+    view_.shock_propagation = static_cast<Real>(p.shockPropagation);
+    view_.up = vec3<Real>(-p.gravity.normalized());
     view_.local_relaxation = p.relaxationMode == RelaxationMode::local;
     view_.gravity = vec3<Real>(p.gravity);
     view_.fluid_gravity = vec3<Real>(p.gravity * p.buoyancy);

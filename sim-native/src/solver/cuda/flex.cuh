@@ -73,7 +73,7 @@ __device__ void push_touched(const ModelView<Real>& model, const Block& block, i
                     physics::contact_push(difference, r, depth, particle_friction(model), [&] {
                         return (xyz(here) - xyz(block.start()[s])) - (xyz(there) - xyz(block.start()[other]));
                     });
-                push.sum += physics::weight_share(here.w, there.w) * by;
+                push.sum += physics::weight_share(here.w, partner_weight(model, block, s, other)) * by;
                 push.constraints += 1;
             });
         }
@@ -94,7 +94,9 @@ __device__ void compute_density(const ModelView<Real>& model, Block& block, Real
         const int s = (unit - model.clusters - touched) * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
         const Vec3<Real> x = xyz(block.position()[s]);
-        block.next()[s] = quad(x, s < model.fluid ? max(compression_of(model, block, s, x), least) : Real(0));
+        const Real above = s < model.fluid ? compression_of(model, block, s, x) : Real(0);
+        if (model.plan.free_surface_drag && s < model.fluid) block.density()[s] = above + 1;
+        block.next()[s] = quad(x, s < model.fluid ? max(above, least) : Real(0));
     });
     __syncthreads();
 }
@@ -120,8 +122,9 @@ __device__ void add_springs_and_clusters(const ModelView<Real>& model, const Blo
         const Share share = model.spring_share[e];
         const Real weights = inverse_mass + model.inverse_mass[model.fluid + share.other];
         const Vec3<Real> difference = x - xyz(block.next()[block.slot_of_solid()[share.other]]);
-        correction.sum += inverse_mass * physics::spring_push(difference, weights, block.rest_length()[share.constraint],
-                                                              model.spring[share.constraint].stiffness);
+        correction.sum +=
+            inverse_mass * physics::spring_push(difference, weights, block.rest_length()[share.constraint],
+                                                model.spring[share.constraint].stiffness);
         correction.constraints += 1;
     }
     for (int e = model.cluster_shares_begin[solid]; e < model.cluster_shares_begin[solid + 1]; ++e) {
@@ -157,7 +160,7 @@ __device__ void apply_corrections(const ModelView<Real>& model, Block& block) {
         Correction<Real> correction;
         if (s < model.fluid) {
             correction = density_constraint(model, block, s, here, inverse_mass);
-            if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, block, s, x);
+            if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, block, s);
         } else {
             add_springs_and_clusters(model, block, block.number()[s] - model.fluid, x, inverse_mass, correction);
         }
@@ -199,10 +202,7 @@ __device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Block& bl
                                            block.h * model.max_acceleration,
                                            model.plan.clamp_speed,
                                            model.max_speed};
-    Vec3<Real> v = flex_velocity(u, model.density_scale * smoothing.sum, drift, rule);
-    if (model.plan.dissipation) v = kept_by_dissipation(model, block, s) * v;
-    if (model.plan.restitution) v = rebound(model, block, s, x, drift, v);
-    return v;
+    return flex_velocity(u, model.density_scale * smoothing.sum, drift, rule);
 }
 
 /// True if all that this thread wrote is finite.

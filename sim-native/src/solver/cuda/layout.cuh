@@ -58,9 +58,14 @@ Layout layout_of(const ModelView<Real>& model, bool on_chip) {
     at.touched = scratch.take<std::uint16_t>(particles);
     at.contact_push = scratch.take<Quad<Real>>(particles);
     at.fit_before = scratch.take<ClusterFit<Real>>(model.clusters);
-    if (model.scheme == Scheme::conserving || model.plan.dissipation)
-        at.active = scratch.take<std::uint16_t>(particles);
+    const Plan& plan = model.plan;
+    at.density = scratch.take<Real>(plan.free_surface_drag ? fluid : 0);
+    at.overlaps = scratch.take<Real>(plan.dissipation ? particles : 0);
+    at.change = scratch.take<Quad<Real>>(plan.dissipation ? particles : 0);
+    at.normal = scratch.take<Quad<Real>>(plan.surface_tension ? fluid : 0);
+    at.curl = scratch.take<Quad<Real>>(plan.vorticity ? fluid : 0);
     if (model.scheme == Scheme::conserving) {
+        at.active = scratch.take<std::uint16_t>(particles);
         at.base = scratch.take<Quad<Real>>(particles);
         at.displacement = scratch.take<Quad<Real>>(particles);
         at.boundary = scratch.take<Quad<Real>>(fluid);

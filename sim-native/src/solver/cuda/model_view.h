@@ -91,9 +91,11 @@ struct ModelView {
     Vec3<Real> gravity, fluid_gravity;
     int iterations, most_neighbours;
 
-    // Off in the thesis, see cpu/effects and cpu/flex/cohesion.cpp.
+    // Off in the thesis, see physics/effects.h.
     Real restitution, touching_distance, slowest_impact;  ///< the last per substep length
-    Real dissipation, cohesion_strength, cohesion_slope;
+    Real dissipation, cohesion_strength, cohesion_slope, gradient_estimate;
+    Real adhesion, sleep_threshold, surface_tension, vorticity, free_surface_drag, shock_propagation;
+    Vec3<Real> up;  ///< against gravity
 
     // Scheme conserving, see cpu/conserving/constants.h.
     physics::FluidKernel<Real> fluid_kernel;

@@ -123,7 +123,7 @@ __device__ void sort_into_cells(const ModelView<Real>& model, Block& block) {
     __syncthreads();
 }
 
-/// Does particle i feel particle j? As Substep::collides.
+/// Does particle i feel particle j? The same as Substep::collides.
 template <class Real>
 __device__ bool collides(const ModelView<Real>& model, int i, int j) {
     if ((model.phase[i] & phase::group_mask) != (model.phase[j] & phase::group_mask)) return true;
@@ -229,8 +229,7 @@ __device__ int list_contacts(const ModelView<Real>& model, const Block& block, i
     return append_contacts(model, block, true, s, x, block.fluid_contact() + s, model.fluid, 0);
 }
 
-/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions. As
-/// cpu/find_fluid_neighbours.cpp and cpu/find_contacts.cpp. Ends with a barrier.
+/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions. Ends with a barrier.
 template <class Real, class Block>
 __device__ void find_neighbours(const ModelView<Real>& model, Block& block) {
     // The last slots first: solids take longest.

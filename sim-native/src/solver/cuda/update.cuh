@@ -52,14 +52,13 @@ struct BlockStages {
     using Real = R;
     static constexpr Scheme scheme = scheme_of_step;
     static constexpr Grouping grouping = scheme == Scheme::flex ? Grouping::together : Grouping::one_by_one;
-    static constexpr bool effects_apart = false;  // with the velocities
 
     const ModelView<Real>& model;
     const Trace<Real>& trace;
     Block& block;
     int number;
     int iteration = 0;
-    bool finite = true;  ///< of all that this thread wrote, once velocities are new
+    bool finite = true;  ///< of all velocities, before what acts behind them
 
     __device__ void predict() { cuda::predict<scheme>(model, block); }
     __device__ void sort_into_cells() { cuda::sort_into_cells<scheme>(model, block); }
@@ -68,10 +67,8 @@ struct BlockStages {
         cuda::find_neighbours(model, block);
     }
     __device__ void begin_iterations() {
-        if constexpr (scheme == Scheme::conserving)
-            cuda::begin_iterations(model, block);
-        else if (model.plan.dissipation)
-            count_overlaps(model, block);
+        if constexpr (scheme == Scheme::conserving) cuda::begin_iterations(model, block);
+        if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, block, s); });
     }
     __device__ void compute_density_and_fits() { compute_density(model, block, Real(0)); }
     __device__ void apply_corrections() {
@@ -89,6 +86,45 @@ struct BlockStages {
         else
             finite = cuda::update_velocities(model, block);
         finite = !__syncthreads_or(!finite);
+    }
+    __device__ void damp_contacts() {
+        for_each(model.particles, [&](int s) { damp<scheme>(model, block, s); });
+        if constexpr (scheme == Scheme::conserving)
+            for_each(model.particles, [&](int s) { apply_change<Real>(block, s); });
+    }
+    __device__ void drag_free_surface() {
+        for_each(model.fluid, [&](int s) { drag(model, block, s); });
+    }
+    __device__ void apply_fluid_forces() {
+        for_each(model.fluid, [&](int s) { measure_fluid(model, block, s); });
+        for_each(model.fluid, [&](int s) { push_fluid_by_forces<scheme>(model, block, s); });
+    }
+    __device__ void adhere() {
+        for_each(model.particles, [&](int s) { cuda::adhere(model, block, s); });
+    }
+    __device__ void rebound() {
+        for_each(model.particles, [&](int s) { cuda::rebound(model, block, s); });
+    }
+    __device__ void hold_slow_particles() {
+        for_each(model.particles, [&](int s) { hold_if_slow(model, block, s); });
+    }
+
+    /// Looks at all once more, if anything came behind the velocities.
+    __device__ bool all_finite() {
+        if (!model.plan.effects()) return finite;
+        bool bad = false;
+        for_each(model.particles, [&](int s) {
+            const Vec3<Real> both = xyz(block.end_position()[s]) + velocity_of<Real>(block, s);
+            bad |= !isfinite(both.x + both.y + both.z);
+        });
+        return !__syncthreads_or(bad) && finite;
+    }
+
+    /// Ends with a barrier.
+    template <class Work>
+    __device__ void for_each(int count, const Work& work) {
+        for (int s = threadIdx.x; s < count; s += threads) work(s);
+        __syncthreads();
     }
 };
 
@@ -217,7 +253,7 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
         using Stages = BlockStages<scheme, Real, Block>;
         Stages stages{model, trace, block, k};
         natator::substep(stages, model.plan, model.iterations, AfterBlockStage<Stages>{stages});
-        if (!stages.finite) {
+        if (!stages.all_finite()) {
             note_instability(model, block, time + k * batch.time_step / batch.substeps, progress);
             break;
         }

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "natator/instruction_set.h"
+#include "../kernel_table.h"
 
 namespace natator::cpu {
 
@@ -61,31 +61,8 @@ struct DensityKernels {
     void (*smooth_velocities)(const DensityView<Real>& fluid);
 };
 
-namespace portable {
-template <class Real>
-DensityKernels<Real> density_kernels();
-template <class Real>
-DensityKernels<Real> scalar_density_kernels();
-}  // namespace portable
-namespace avx2 {
-template <class Real>
-DensityKernels<Real> density_kernels();
-template <class Real>
-DensityKernels<Real> scalar_density_kernels();
-}  // namespace avx2
-namespace avx512 {
-template <class Real>
-DensityKernels<Real> density_kernels();
-template <class Real>
-DensityKernels<Real> scalar_density_kernels();
-}  // namespace avx512
-
-/// The kernels for an instruction set; sets that this build lacks give the portable ones.
-template <class Real>
-const DensityKernels<Real>& density_kernels(InstructionSet set);
-
+NATATOR_DECLARE_KERNELS(DensityKernels, density_kernels)
 /// The same particle by particle.
-template <class Real>
-const DensityKernels<Real>& scalar_density_kernels(InstructionSet set);
+NATATOR_DECLARE_KERNELS(DensityKernels, scalar_density_kernels)
 
 }  // namespace natator::cpu

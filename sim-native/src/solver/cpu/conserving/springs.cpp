@@ -15,8 +15,8 @@ void ConservingStages<Real>::solve_springs() {
         const Real wa = ws_.inverse_mass[a], wb = ws_.inverse_mass[b];
         const Vec3<Real> difference = position_of_slot(a) - position_of_slot(b);
         const Real length = norm(difference);
-        const Real alpha =
-            static_cast<Real>(physics::relative_compliance(softness(spring.stiffness) * static_cast<double>(wa + wb), h_));
+        const double softness_of_both = softness(spring.stiffness) * static_cast<double>(wa + wb);
+        const Real alpha = static_cast<Real>(physics::relative_compliance(softness_of_both, h_));
         if (!std::isfinite(alpha) || wa + wb == 0 || !(length > 0)) continue;
         const Real split = wa * static_cast<Real>(springs_per_particle_[spring.a]) +
                            wb * static_cast<Real>(springs_per_particle_[spring.b]);

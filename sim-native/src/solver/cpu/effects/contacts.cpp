@@ -1,19 +1,14 @@
-#include <algorithm>
+#include "physics/effects.h"
 
 #include "../substep.h"
 
 namespace natator::cpu {
 
-/// Contacts are pairs that would overlap without the solver: closer than solidRestDistance when predicted. With n of
-/// them on a particle and d = dissipation, implicitly,
-///   scheme flex: v_i /= 1 + h d max(n_i - 1, 0), a single contact was measured to do nothing (b_diss);
-///   scheme conserving: v_i += sum over contacts of 2 w_i / (w_i + w_j) h d / (1 + h d (n_i + n_j)) (v_j - v_i).
 template <class Real>
 void Substep<Real>::damp_contacts() {
     const Real step = h_ * static_cast<Real>(model_.parameters.dissipation);
     const auto touch = [this](int i, int j) {
-        const Vector3<Real> difference = ws_.predicted_position[i] - ws_.predicted_position[j];
-        return difference.norm() < constants_.solid_rest_distance;
+        return norm(vec3(ws_.predicted_position[i]) - vec3(ws_.predicted_position[j])) < constants_.solid_rest_distance;
     };
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
         const int i = ws_.particle_of[ws_.touched[k]];
@@ -28,8 +23,7 @@ void Substep<Real>::damp_contacts() {
         const int i = ws_.particle_of[slot];
         const Real n = static_cast<Real>(overlaps_[slot]);
         if (model_.scheme == Scheme::flex) {
-            const Real counted = std::max(n - 1, Real(0));
-            velocity_change_[i] = -step * counted / (1 + step * counted) * new_velocity_[i];
+            velocity_change_[i] = -physics::dissipated(n, step) * new_velocity_[i];
             continue;
         }
         if (inverse_mass_[i] == 0) continue;
@@ -37,8 +31,9 @@ void Substep<Real>::damp_contacts() {
             const int j = ws_.particle_of[ws_.contact[c]];
             if (!touch(i, j)) continue;
             const Real both = n + static_cast<Real>(overlaps_[ws_.contact[c]]);
-            const Real share = 2 * inverse_mass_[i] / (inverse_mass_[i] + inverse_mass_[j]);
-            velocity_change_[i] += share * step / (1 + step * both) * (new_velocity_[j] - new_velocity_[i]);
+            const Real share = physics::impulse_share(inverse_mass_[i], inverse_mass_[j]);
+            velocity_change_[i] +=
+                share * physics::dissipated_by_pair(both, step) * (new_velocity_[j] - new_velocity_[i]);
         }
     }
     for (const int slot : ws_.touched) {

@@ -1,12 +1,12 @@
-#include <algorithm>
 #include <bit>
 
 #include "../substep.h"
+#include "physics/effects.h"
 #include "physics/plane.h"
 
 namespace natator::cpu {
-/// Of the distance by which a particle that touched a plane at the substep's start has left it, up to adhesion h^2 is
-/// taken back, so a steady pull is withstood if its acceleration is at most `adhesion`. Acts along the normal only.
+
+/// Acts along the normal only.
 template <class Real>
 void Substep<Real>::adhere() {
     const Real most = static_cast<Real>(model_.parameters.adhesion) * h_ * h_;
@@ -20,7 +20,7 @@ void Substep<Real>::adhere() {
             const Vec3<Real> x = position_of_slot(slot);
             const Real left = dot(normal, x) + offset - constants_.collision_distance;
             if (!(left > 0)) continue;
-            const Real back = std::min(left, most);
+            const Real back = physics::taken_back(left, most);
             ws_.position.set(slot, x - back * normal);
             new_velocity_[i] -= back / h_ * normal;
         }

@@ -1,6 +1,6 @@
-#include "../effects/cohesion_spline.h"
 #include "../effects/fluid_neighbours.h"
 #include "flex_stages.h"
+#include "physics/effects.h"
 
 namespace natator::cpu {
 
@@ -8,12 +8,12 @@ namespace natator::cpu {
 /// so they add no constraints to the pooled count. The weight w_i is taken from there too: measured with w = 1 only.
 template <class Real>
 void FlexStages<Real>::solve_cohesion() {
-    const CohesionSpline<Real> pull(model_.parameters);
     const Real strength = static_cast<Real>(model_.parameters.cohesion) * constants_.radius;
     for (int slot = 0; slot < ws_.fluid; ++slot) {
         Vec3<Real> sum{};
-        this->for_each_fluid_neighbour(
-            slot, [&](int, const Vec3<Real>& difference, Real r, Real q) { sum += pull(q) / r * difference; });
+        this->for_each_fluid_neighbour(slot, [&](int, const Vec3<Real>& difference, Real r, Real q) {
+            sum += physics::cohesion_pull(q, constants_.cohesion_slope) / r * difference;
+        });
         ws_.correction.add(slot, -ws_.inverse_mass[slot] * strength * sum);
     }
 }

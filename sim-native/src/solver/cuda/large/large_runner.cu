@@ -94,8 +94,14 @@ void LargeRunner<Real>::allocate() {
     base_.scan_bytes = scan_bytes(2 * model.grid.cells);
     memory_.emplace_back(base_.scan_bytes);
     base_.scan_room = memory_.back().data();
-    if (model.scheme == Scheme::conserving || model.plan.dissipation) give(at.active, all);
+    const Plan& plan = model.plan;
+    give(at.density, plan.free_surface_drag ? fluid : 0);
+    give(at.overlaps, plan.dissipation ? all : 0);
+    give(at.change, plan.dissipation ? all : 0);
+    give(at.normal, plan.surface_tension ? fluid : 0);
+    give(at.curl, plan.vorticity ? fluid : 0);
     if (model.scheme != Scheme::conserving) return;
+    give(at.active, all);
     for (auto* const array : {&at.displacement, &at.boundary}) give(*array, all);
     for (auto* const array : {&at.lambda, &at.lambda_sum, &at.overlap, &at.overlap_lambda}) give(*array, all);
     give(at.internal, solids);

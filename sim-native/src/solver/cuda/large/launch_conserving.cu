@@ -1,5 +1,5 @@
 #include "conserving_kernels.cuh"
-#include "substep.cuh"
+#include "effect_kernels.cuh"
 
 namespace natator::cuda {
 namespace {
@@ -7,13 +7,14 @@ namespace {
 constexpr int touched_blocks = 32;  ///< what has contacts is little
 
 template <class Real>
-struct ConservingLaunches : LaunchStages<Scheme::conserving, Real> {
-    using Base = LaunchStages<Scheme::conserving, Real>;
+struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
+    using Base = LaunchEffects<Scheme::conserving, Real>;
     using Base::blocks, Base::iteration, Base::launch, Base::model, Base::slots;
     static constexpr Grouping grouping = Grouping::solids_aside;
 
     void begin_iterations() {
         begin_large<<<blocks, large_threads, 0, launch.stream>>>(model, slots);
+        Base::begin_iterations();
         if (!model.plan.fluid) return;
         mark_one_sided<<<blocks, large_threads, 0, launch.stream>>>(model, slots);
         drop_marked<<<blocks, large_threads, 0, launch.stream>>>(model, slots);

@@ -1,18 +1,13 @@
-#include "flex_kernels.cuh"
-#include "substep.cuh"
+#include "effect_kernels.cuh"
 
 namespace natator::cuda {
 
 namespace {
 
 template <class Real>
-struct FlexLaunches : LaunchStages<Scheme::flex, Real> {
+struct FlexLaunches : LaunchEffects<Scheme::flex, Real> {
     static constexpr Grouping grouping = Grouping::together;
 
-    void begin_iterations() {
-        if (this->model.plan.dissipation)
-            overlaps_large<<<this->blocks, large_threads, 0, this->launch.stream>>>(this->model, this->slots);
-    }
     void compute_density_and_fits() {
         const int fits = blocks_for(this->model.clusters, large_threads / 32);
         density_large<<<this->blocks + fits, large_threads, 0, this->launch.stream>>>(this->model, this->slots);

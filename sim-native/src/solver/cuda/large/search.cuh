@@ -62,8 +62,8 @@ __device__ int list_contacts(const ModelView<Real>& model, const Slots<Real>& sl
     });
 }
 
-/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions. As
-/// cpu/find_fluid_neighbours.cpp and cpu/find_contacts.cpp. The last slots first: solids take longest.
+/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions. The last slots first: solids
+/// take longest.
 template <class Real>
 __global__ void __launch_bounds__(search_threads, 12)
     find_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {

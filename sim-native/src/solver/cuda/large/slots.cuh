@@ -43,6 +43,10 @@ struct SlotArrays {
     Real* rest_length;  ///< by spring
     LargeShared<Real>* shared;
 
+    // Where an effect needs them.
+    Real *density, *overlaps;
+    Quad<Real>*change, *normal, *curl;
+
     // Scheme conserving only.
     Quad<Real>*displacement, *boundary;
     Real *lambda, *lambda_sum, *overlap, *overlap_lambda;
@@ -92,6 +96,14 @@ public:
     __device__ Quad<Real>* member_displacement() const { return at.member_displacement; }
     __device__ Quad<Real>* member_push() const { return at.member_push; }
     __device__ BodyMotion* motion() const { return at.motion; }
+
+    __device__ Real* density() const { return at.density; }
+    __device__ Real* overlaps() const { return at.overlaps; }
+    __device__ Quad<Real>* change() const { return at.change; }
+    __device__ Quad<Real>* normal() const { return at.normal; }
+    __device__ Quad<Real>* curl() const { return at.curl; }
+    __device__ Quad<Real>* new_velocity() const { return at.state_velocity; }
+    __device__ Quad<Real>* end_position() const { return at.state_position; }
 
     __device__ unsigned& neighbour_entry(int s, int k) const {
         uint4* const chunk = at.neighbour + (static_cast<std::size_t>(s / 32) * chunks + k / 4) * 32 + s % 32;

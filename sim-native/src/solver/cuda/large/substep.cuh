@@ -81,7 +81,6 @@ template <Scheme scheme_of_step, class R>
 struct LaunchStages {
     using Real = R;
     static constexpr Scheme scheme = scheme_of_step;
-    static constexpr bool effects_apart = false;  // with the velocities
 
     const LargeLaunch<Real>& launch;
     const ModelView<Real>& model = launch.model;
@@ -110,13 +109,5 @@ struct AfterLaunch {
                              launch.slots.substep * launch.model.iterations + stages.iteration++);
     }
 };
-
-/// Launches a substep.
-template <class Stages>
-void launch_by(const LargeLaunch<typename Stages::Real>& launch) {
-    Stages stages{{launch}};
-    natator::substep(stages, launch.model.plan, launch.model.iterations, AfterLaunch<Stages>{stages});
-    check(cudaGetLastError(), "launch");
-}
 
 }  // namespace natator::cuda

@@ -1,0 +1,65 @@
+#pragma once
+
+// What acts behind the velocities of a large State.
+#include "flex_kernels.cuh"
+#include "substep.cuh"
+
+namespace natator::cuda {
+
+enum class Effect { count_overlaps, damp, apply_change, drag, measure_fluid, push_fluid, adhere, rebound, hold, check };
+
+/// Does one of them to every slot.
+template <Effect effect, Scheme scheme, class Real>
+__global__ void __launch_bounds__(large_threads)
+    effect_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    constexpr bool of_fluid = effect == Effect::drag || effect == Effect::measure_fluid || effect == Effect::push_fluid;
+    const int s = own_index();
+    if (s >= (of_fluid ? model.fluid : model.particles) || slots.failed()) return;
+    if constexpr (effect == Effect::count_overlaps) count_overlaps(model, slots, s);
+    if constexpr (effect == Effect::damp) damp<scheme>(model, slots, s);
+    if constexpr (effect == Effect::apply_change) apply_change<Real>(slots, s);
+    if constexpr (effect == Effect::drag) drag(model, slots, s);
+    if constexpr (effect == Effect::measure_fluid) measure_fluid(model, slots, s);
+    if constexpr (effect == Effect::push_fluid) push_fluid_by_forces<scheme>(model, slots, s);
+    if constexpr (effect == Effect::adhere) adhere(model, slots, s);
+    if constexpr (effect == Effect::rebound) rebound(model, slots, s);
+    if constexpr (effect == Effect::hold) hold_if_slow(model, slots, s);
+    if constexpr (effect == Effect::check)
+        note_if_bad(slots, s, xyz(slots.end_position()[s]), velocity_of<Real>(slots, s));
+}
+
+/// Stages of a substep with their effects.
+template <Scheme scheme, class Real>
+struct LaunchEffects : LaunchStages<scheme, Real> {
+    template <Effect effect>
+    void launch_effect() const {
+        effect_large<effect, scheme>
+            <<<this->blocks, large_threads, 0, this->launch.stream>>>(this->model, this->slots);
+    }
+    void begin_iterations() {
+        if (this->model.plan.dissipation) launch_effect<Effect::count_overlaps>();
+    }
+    void damp_contacts() {
+        launch_effect<Effect::damp>();
+        if (scheme == Scheme::conserving) launch_effect<Effect::apply_change>();
+    }
+    void drag_free_surface() { launch_effect<Effect::drag>(); }
+    void apply_fluid_forces() {
+        launch_effect<Effect::measure_fluid>();
+        launch_effect<Effect::push_fluid>();
+    }
+    void adhere() { launch_effect<Effect::adhere>(); }
+    void rebound() { launch_effect<Effect::rebound>(); }
+    void hold_slow_particles() { launch_effect<Effect::hold>(); }
+};
+
+/// Launches a substep.
+template <class Stages>
+void launch_by(const LargeLaunch<typename Stages::Real>& launch) {
+    Stages stages{{{launch}}};
+    natator::substep(stages, launch.model.plan, launch.model.iterations, AfterLaunch<Stages>{stages});
+    if (launch.model.plan.effects()) stages.template launch_effect<Effect::check>();
+    check(cudaGetLastError(), "launch");
+}
+
+}  // namespace natator::cuda
