@@ -92,7 +92,8 @@ NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterS
     }
 }
 
-/// What acts on the velocities beyond the constraints, the same in both schemes; all of it is off in the thesis.
+/// What acts on the velocities beyond the constraints, the same in both schemes; all of it is off in the thesis. Only
+/// Stages with `effects` are called: a kernel without their code has registers to spare for the rest.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void apply_effects(Stages& stages, const Plan& plan, const AfterStage& after) {
@@ -141,7 +142,7 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, int iterations, cons
     }
     stages.update_velocities();
     after(Stage::velocities);
-    apply_effects(stages, plan, after);
+    if constexpr (Stages::effects) apply_effects(stages, plan, after);
 }
 
 }  // namespace natator

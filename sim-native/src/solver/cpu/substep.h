@@ -55,6 +55,7 @@ public:
     }
 
     static constexpr Grouping grouping = Grouping::one_by_one;
+    static constexpr bool effects = true;
 
     void predict();
     /// Without pairs to search slots keep their numbers.

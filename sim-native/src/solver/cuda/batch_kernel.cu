@@ -10,10 +10,15 @@
 namespace natator::cuda {
 namespace {
 
+template <class Real, Scheme scheme>
+const void* kernel_of(const ModelView<Real>& model, bool on_chip) {
+    return model.plan.effects() ? batch_kernel<Real, scheme, true>(on_chip) : batch_kernel<Real, scheme, false>(on_chip);
+}
+
 template <class Real>
 const void* kernel(const ModelView<Real>& model, bool on_chip) {
-    return model.scheme == Scheme::conserving ? batch_kernel<Real, Scheme::conserving>(on_chip)
-                                              : batch_kernel<Real, Scheme::flex>(on_chip);
+    return model.scheme == Scheme::conserving ? kernel_of<Real, Scheme::conserving>(model, on_chip)
+                                              : kernel_of<Real, Scheme::flex>(model, on_chip);
 }
 
 }  // namespace

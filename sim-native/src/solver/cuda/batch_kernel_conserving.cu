@@ -2,7 +2,7 @@
 
 namespace natator::cuda {
 
-template const void* batch_kernel<float, Scheme::conserving>(bool);
-template const void* batch_kernel<double, Scheme::conserving>(bool);
+template const void* batch_kernel<float, Scheme::conserving, false>(bool);
+template const void* batch_kernel<double, Scheme::conserving, false>(bool);
 
 }  // namespace natator::cuda

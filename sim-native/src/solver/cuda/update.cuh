@@ -46,11 +46,12 @@ __device__ void record(const Block& block, int particles, Quad<Real>* to, int ro
             quad(xyz(block.position()[s]), as_number<Real>(block.number()[s]));
 }
 
-/// The stages of substep `number` of an update, by the threads of a block.
-template <Scheme scheme_of_step, class R, class Block>
+/// The stages of substep `number` of an update, by the threads of a block, with the code of effects or without.
+template <Scheme scheme_of_step, bool with_effects, class R, class Block>
 struct BlockStages {
     using Real = R;
     static constexpr Scheme scheme = scheme_of_step;
+    static constexpr bool effects = with_effects;
     static constexpr Grouping grouping = scheme == Scheme::flex ? Grouping::together : Grouping::one_by_one;
 
     const ModelView<Real>& model;
@@ -68,7 +69,8 @@ struct BlockStages {
     }
     __device__ void begin_iterations() {
         if constexpr (scheme == Scheme::conserving) cuda::begin_iterations(model, block);
-        if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, block, s); });
+        if constexpr (effects)
+            if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, block, s); });
     }
     __device__ void compute_density_and_fits() { compute_density(model, block, Real(0)); }
     __device__ void apply_corrections() {
@@ -111,7 +113,7 @@ struct BlockStages {
 
     /// Looks at all once more, if anything came behind the velocities.
     __device__ bool all_finite() {
-        if (!model.plan.effects()) return finite;
+        if constexpr (!effects) return finite;
         bool bad = false;
         for_each(model.particles, [&](int s) {
             const Vec3<Real> both = xyz(block.end_position()[s]) + velocity_of<Real>(block, s);
@@ -219,7 +221,7 @@ __device__ void end_frame(const BatchView<Real>& batch, int state, int update, B
 }
 
 /// Update `number` of a State.
-template <Scheme scheme, class Real, class Block>
+template <Scheme scheme, bool effects, class Real, class Block>
 __device__ void update(const BatchView<Real>& batch, int state, int number, Block& block) {
     const ModelView<Real>& model = batch.model;
     Quad<Real>* const position = batch.position + static_cast<std::size_t>(state) * model.particles;
@@ -250,7 +252,7 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
     for (int k = 0; k < batch.substeps; ++k) {
         if constexpr (scheme == Scheme::conserving)
             actuate<scheme>(model, batch.gait, state, time + batch.time_step * (k + 1) / batch.substeps, block);
-        using Stages = BlockStages<scheme, Real, Block>;
+        using Stages = BlockStages<scheme, effects, Real, Block>;
         Stages stages{model, trace, block, k};
         natator::substep(stages, model.plan, model.iterations, AfterBlockStage<Stages>{stages});
         if (!stages.all_finite()) {

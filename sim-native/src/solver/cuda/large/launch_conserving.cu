@@ -11,6 +11,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     using Base = LaunchEffects<Scheme::conserving, Real>;
     using Base::blocks, Base::iteration, Base::launch, Base::model, Base::slots;
     static constexpr Grouping grouping = Grouping::solids_aside;
+    static constexpr bool effects = true;
 
     void begin_iterations() {
         begin_large<<<blocks, large_threads, 0, launch.stream>>>(model, slots);

@@ -7,6 +7,7 @@ namespace {
 template <class Real>
 struct FlexLaunches : LaunchEffects<Scheme::flex, Real> {
     static constexpr Grouping grouping = Grouping::together;
+    static constexpr bool effects = true;
 
     void compute_density_and_fits() {
         const int fits = blocks_for(this->model.clusters, large_threads / 32);
