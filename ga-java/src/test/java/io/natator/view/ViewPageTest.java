@@ -462,6 +462,9 @@ class ViewPageTest extends BrowserTest {
         page.keyboard().press("Home");
         assertThat(get("stage-a").locator("figcaption")).containsText("my-run, generation 0");
         get("compare").click();
+        assertThat(get("stage-b")).isHidden();
+        await("(views => views?.length === 1 && JSON.stringify(views[0].gait) === JSON.stringify(natator.scene().gait))"
+                + "(JSON.parse(decodeURIComponent(location.hash.slice(1)) || '{}').views)");  // the address remembers soon, not at once
         page.reload();
         awaitSwimming();
         assertThat(get("run-chosen")).containsText("Generation 0");
