@@ -70,11 +70,14 @@ TEST(GpuBatchEnds, AMemberThatIsRefusedCostsTheOthersNothing) {
     if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
     Scene scene = creature_scene(1, Scheme::flex);
     scene.duration = 0.1;
-    std::vector<BatchMember> good;
-    for (int k = 0; k < 47; ++k) good.push_back({wave(scene, k), {}});
-    std::vector<BatchMember> members = good;
-    members.insert(members.begin() + 5, good.front());
-    members[5].gait.amplitude[0] = -1e-17;
+    std::vector<BatchMember> good, members;
+    for (int k = 0; k < 48; ++k) {
+        members.push_back({wave(scene, k), {}});
+        if (k == 5)
+            members.back().gait.amplitude[0] = -1e-17;
+        else
+            good.push_back(members.back());
+    }
     int launches = 0;
     const auto together = [&](const std::vector<BatchMember>& some) {
         ++launches;
