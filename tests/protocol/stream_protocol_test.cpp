@@ -236,7 +236,12 @@ TEST(StreamTest, AReaderThatStopsReadingCostsNoMemory) {
         ::usleep(2'000);
     }
     EXPECT_LT(taken, 140 * command.size());
-    EXPECT_LT(resident(client.pid()), before + 30);
+#ifdef __SANITIZE_ADDRESS__
+    constexpr double room = 300;  // MB: what is freed is kept aside for a while
+#else
+    constexpr double room = 30;
+#endif
+    EXPECT_LT(resident(client.pid()), before + room);
     EXPECT_GT(before, 1);
 }
 
