@@ -59,7 +59,7 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
-            description = "quick (population 16, 5 generations, scheme conserving, 2 s) or thesis (150, 100, as the scene "
+            description = "quick (population 16, 3 generations, scheme conserving, 2 s) or thesis (150, 100, as the scene "
                     + "has it). Other options change parts of it. Default: ${DEFAULT-VALUE}.")
     private Preset preset;
 

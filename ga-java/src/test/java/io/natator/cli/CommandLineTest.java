@@ -222,8 +222,8 @@ class CommandLineTest {
     @Test
     void withoutOptionsItIsTheQuickPreset() {
         assertThat(natator("evolve", "--dry-run", "--output-dir", folder.resolve("run").toString())).isZero();
-        assertThat(out.toString()).startsWith("thesis/creature-1, jgap (corrected operators), population 16, 5 generations,")
-                .contains(", scheme conserving, 2.0 s\n", "evaluations about 150\n");
+        assertThat(out.toString()).startsWith("thesis/creature-1, jgap (corrected operators), population 16, 3 generations,")
+                .contains(", scheme conserving, 2.0 s\n", "evaluations about 97\n");
         out.getBuffer().setLength(0);
 
         assertThat(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3")).isZero();
