@@ -2,7 +2,7 @@ package io.natator.config;
 
 /** Settings of an evolution that belong together; each can be given by itself too. */
 public enum Preset {
-    /** Some 140 evaluations of 2 s, by the scheme in which only swimming pays: about a minute on two cores. */
+    /** Some 90 evaluations of 2 s, by the scheme in which only swimming pays: about a minute on two cores. */
     QUICK(16, 3, Scheme.CONSERVING, 2.0),
     /** The thesis' size (2.6): some 22 500 evaluations, as the scene has it (in the thesis' own: scheme flex, 4 s). */
     THESIS(150, 100, null, null);

@@ -223,7 +223,7 @@ class CommandLineTest {
     void withoutOptionsItIsTheQuickPreset() {
         assertThat(natator("evolve", "--dry-run", "--output-dir", folder.resolve("run").toString())).isZero();
         assertThat(out.toString()).startsWith("thesis/creature-1, jgap (corrected operators), population 16, 3 generations,")
-                .contains(", scheme conserving, 2.0 s\n", "evaluations about 97\n");
+                .contains(", scheme conserving, 2.0 s\n", "evaluations about 100\n");
         out.getBuffer().setLength(0);
 
         assertThat(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3")).isZero();
