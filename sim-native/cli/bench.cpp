@@ -15,6 +15,7 @@
 #include "stability.h"
 #include "stage_cost.h"
 #include "validation.h"
+#include "water/water_study.h"
 
 namespace natator::cli {
 namespace {
@@ -242,6 +243,37 @@ void add_validation(CLI::App* bench, int& status) {
     });
 }
 
+void add_water(CLI::App* bench, int& status) {
+    struct Options {
+        Common common;
+        std::vector<std::string> cases, settings{"4x4"};
+        std::vector<int> resolutions{20, 40};
+    };
+    const auto options = std::make_shared<Options>();
+    std::vector<std::string> names;
+    for (const WaterCase& one : water_cases()) names.push_back(one.name);
+    options->cases = names;
+    CLI::App* command = bench->add_subcommand(
+        "water", "How far a scheme is from being a fluid: cases whose outcome is known, with targets.");
+    add_common(command, options->common, {"float"});
+    command->add_option("--case", options->cases, "Cases.")->check(CLI::IsMember(names))->capture_default_str();
+    command->add_option("--resolution", options->resolutions, "Particles along a case's length.")
+        ->check(CLI::Range(8, 200))
+        ->capture_default_str();
+    command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4.")->capture_default_str();
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        WaterStudy study{options->cases, options->resolutions, settings_of(common, options->settings)};
+        if (common.quick) study.resolutions = {10};
+        ResultTable table(common.output, water_columns(), water_key_columns);
+        ResultTable curves(common.output.empty() ? "" : path_beside(common.output, "curves"), water_curve_columns(),
+                           water_curve_key_columns);
+        run_water_study(study, table, curves, report);
+        if (common.output.empty()) print(table.text());
+        status = ok;
+    });
+}
+
 void add_speed(CLI::App* bench, int& status) {
     struct Options {
         Common common;
@@ -357,6 +389,7 @@ void add_studies(CLI::App& app, int& status) {
     add_stability(&app, status);
     add_stages(&app, status);
     add_validation(&app, status);
+    add_water(&app, status);
 }
 
 }  // namespace natator::cli

@@ -42,6 +42,21 @@ TEST(BenchProtocolTest, ValidationWritesItsTableAndTheFrontsBesideIt) {
     EXPECT_NE(fronts.find("square,8,conserving,float,4,4,0,1"), std::string::npos) << fronts;
 }
 
+TEST(BenchProtocolTest, WaterWritesEveryFigureOfEveryCaseAndTheCurvesBesideIt) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path / "water.csv").string();
+    const Outcome outcome = run_simulator({"bench", "water", "--quick", "--scheme", "conserving", "--output", file});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string table = content(file);
+    for (const char* row : {"vortex,10,conserving,float,cpu,4,4,amplitude after one turnover,ok,",
+                            "vortex,10,conserving,float,cpu,4,4,numerical Reynolds number,ok,",
+                            "vortex,10,conserving,float,cpu,4,4,gain of kinetic energy,ok,",
+                            "standing-wave,10,conserving,float,cpu,4,4,period (s),ok,",
+                            "tilted-gravity,10,conserving,float,cpu,4,4,slope under 1 degree (degrees),ok,"})
+        EXPECT_NE(table.find(row), std::string::npos) << row << " in " << table;
+    EXPECT_NE(content(folder.path / "water-curves.csv").find("vortex,10,conserving,float,cpu,4,4,0,1\n"), std::string::npos);
+}
+
 TEST(BenchProtocolTest, ValidationRefusesWhatIsNoSetting) {
     for (const char* setting : {"8", "8x", "x4", "0x4", "8x4x2", "8,4", "-1x4", "8x1001", "fine"}) {
         const Outcome outcome = run_simulator({"bench", "validation", "--part", "tank", "--setting", setting});

@@ -1,0 +1,102 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "water/water_tank.h"
+
+namespace natator::bench {
+namespace {
+
+constexpr double wave_number = std::numbers::pi / water_length;  ///< k: half a wave fits between the walls
+constexpr double amplitude = 0.1 * water_length;                 ///< two spacings at 20 particles
+constexpr int periods = 5;                                       ///< how long it is followed
+constexpr int width = 8;                                         ///< particles across the plane of the flow
+
+/// Mean of cos(kx) over the water, which is the elevation of the mode over twice the depth.
+template <class Real>
+double mean_cosine(const State<Real>& state) {
+    double sum = 0;
+    for (const auto& x : state.position) sum += std::cos(wave_number * static_cast<double>(x.x()));
+    return sum / static_cast<double>(state.position.size());
+}
+
+/// Sets the velocities of the linear standing wave as its surface passes through the level (Lamb, Hydrodynamics, 228):
+/// the surface is then a cos(kx) sin(omega t).
+template <class Real>
+void kick(double depth, double omega, State<Real>& state) {
+    const double scale = amplitude * omega / std::sinh(wave_number * depth);
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const double x = wave_number * static_cast<double>(state.position[i].x());
+        const double y = wave_number * static_cast<double>(state.position[i].y());
+        state.velocity[i] = Eigen::Vector3d(-scale * std::sin(x) * std::cosh(y), scale * std::cos(x) * std::sinh(y), 0)
+                                .template cast<Real>();
+    }
+}
+
+/// Time at which the curve passes through 0 between two samples.
+double crossing(const WaterSample& before, const WaterSample& after) {
+    return before.time + (after.time - before.time) * before.value / (before.value - after.value);
+}
+
+struct Oscillation {
+    double period = std::numeric_limits<double>::quiet_NaN();  ///< s; NaN if it does not swing to and fro
+    double decay = std::numeric_limits<double>::quiet_NaN();   ///< 1/s, of the height of its peaks
+};
+
+/// The period is that between the first and the last passage through 0, the decay that of the peaks between them by
+/// least squares.
+Oscillation oscillation_of(const std::vector<WaterSample>& curve) {
+    std::vector<double> passages{0};
+    std::vector<WaterSample> peaks;
+    WaterSample peak;
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+        if (std::abs(curve[i].value) > std::abs(peak.value)) peak = curve[i];
+        if (i > 1 && (curve[i - 1].value > 0) != (curve[i].value > 0)) {
+            passages.push_back(crossing(curve[i - 1], curve[i]));
+            peaks.push_back(peak);
+            peak = {};
+        }
+    }
+    if (peaks.size() < 2) return {};
+    double t = 0, log = 0, tt = 0, tlog = 0;
+    for (const WaterSample& one : peaks) {
+        const double height = std::log(std::abs(one.value));
+        t += one.time, log += height, tt += one.time * one.time, tlog += one.time * height;
+    }
+    const auto n = static_cast<double>(peaks.size());
+    return {.period = 2 * (passages.back() - passages.front()) / n, .decay = -(n * tlog - t * log) / (n * tt - t * t)};
+}
+
+template <class Real>
+WaterRun run_as(const WaterSetting& setting) {
+    const int layers = static_cast<int>(std::lround(0.6 * setting.resolution));
+    WaterTank<Real> tank({setting.resolution, layers, width}, setting);
+    const double depth = tank.depth();
+    const double gravity = tank.model().parameters.gravity.norm();
+    const double omega = std::sqrt(gravity * wave_number * std::tanh(wave_number * depth));
+    const double period = 2 * std::numbers::pi / omega;
+    kick(depth, omega, tank.state());
+
+    const double level = mean_cosine(tank.state());
+    std::vector<WaterSample> curve{{0, 0}};
+    const long frames = std::lround(periods * period / tank.model().time_step);
+    for (long frame = 1; frame <= frames && tank.frame(); ++frame)
+        curve.push_back({static_cast<double>(frame) * tank.model().time_step,
+                         2 * depth * (mean_cosine(tank.state()) - level)});
+    WaterRun run = tank.run();
+    if (run.instability) return run;
+
+    const Oscillation found = oscillation_of(curve);
+    run.figures = {{.value = found.period, .reference = period, .least = 0.97 * period, .greatest = 1.03 * period},
+                   {.value = found.decay, .reference = 0, .least = -0.01, .greatest = 0.05}};
+    run.curve = curve;
+    return run;
+}
+
+}  // namespace
+
+WaterRun run_standing_wave(const WaterSetting& setting) {
+    return in_precision(setting, run_as<float>, run_as<double>);
+}
+
+}  // namespace natator::bench

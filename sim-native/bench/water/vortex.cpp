@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "water/water_tank.h"
+
+namespace natator::bench {
+namespace {
+
+constexpr double speed = 0.5;   ///< U, length/s
+constexpr int turnovers = 4;    ///< how long it is followed, in L / U
+constexpr int layers = 8;
+constexpr double faint = 0.05;       ///< amplitudes below this say nothing of the decay
+constexpr double unlimited = 1e6;    ///< Reynolds number of a flow that does not decay
+
+/// One cell of a Taylor-Green flow between free-slip walls: u = U sin(kx) cos(kz), w = -U cos(kx) sin(kz), k = pi / L.
+Eigen::Vector3d flow_at(const Eigen::Vector3d& x) {
+    constexpr double k = std::numbers::pi / water_length;
+    return speed * Eigen::Vector3d(std::sin(k * x.x()) * std::cos(k * x.z()), 0,
+                                   -std::cos(k * x.x()) * std::sin(k * x.z()));
+}
+
+/// Part of the flow that is left, by projection on it.
+template <class Real>
+double amplitude(const State<Real>& state) {
+    double product = 0, square = 0;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const Eigen::Vector3d flow = flow_at(state.position[i].template cast<double>());
+        product += flow.dot(state.velocity[i].template cast<double>());
+        square += flow.squaredNorm();
+    }
+    return product / square;
+}
+
+/// Sum of v^2: all particles have the same mass.
+template <class Real>
+double energy(const State<Real>& state) {
+    double sum = 0;
+    for (const auto& v : state.velocity) sum += v.template cast<double>().squaredNorm();
+    return sum;
+}
+
+/// Rate of ln(amplitude), 1/s, by least squares through the start, while there is enough of the flow left.
+double decay_rate(const std::vector<WaterSample>& curve) {
+    double product = 0, square = 0;
+    for (const WaterSample& sample : curve) {
+        if (sample.value < faint) break;
+        product -= sample.time * std::log(sample.value);
+        square += sample.time * sample.time;
+    }
+    return product / square;
+}
+
+template <class Real>
+WaterRun run_as(const WaterSetting& setting) {
+    WaterTank<Real> tank({setting.resolution, layers, setting.resolution}, setting);
+    State<Real>& state = tank.state();
+    for (std::size_t i = 0; i < state.position.size(); ++i)
+        state.velocity[i] = flow_at(state.position[i].template cast<double>()).template cast<Real>();
+
+    constexpr double turnover = water_length / speed;
+    const long frames_per_turnover = std::lround(turnover / tank.model().time_step);
+    const double first_energy = energy(state);
+    double most_energy = first_energy;
+    std::vector<WaterSample> curve{{0, amplitude(state)}};
+    for (long frame = 1; frame <= turnovers * frames_per_turnover && tank.frame(); ++frame) {
+        curve.push_back({static_cast<double>(frame) * tank.model().time_step, amplitude(state)});
+        most_energy = std::max(most_energy, energy(state));
+    }
+    WaterRun run = tank.run();
+    if (run.instability) return run;
+
+    const bool fine = setting.resolution >= 40;
+    constexpr double k = std::numbers::pi / water_length;
+    const double viscosity = decay_rate(curve) / (2 * k * k);  // amplitude ~ exp(-2 nu k^2 t)
+    const double reynolds = viscosity > 0 ? std::min(speed * water_length / viscosity, unlimited) : unlimited;
+    run.figures = {{.value = curve[frames_per_turnover].value, .reference = 1, .least = fine ? 0.98 : 0.95},
+                   {.value = reynolds, .reference = std::numeric_limits<double>::infinity(), .least = fine ? 1100.0 : 600.0},
+                   {.value = most_energy / first_energy - 1, .reference = 0, .greatest = 0.001}};
+    run.curve = curve;
+    return run;
+}
+
+}  // namespace
+
+WaterRun run_vortex(const WaterSetting& setting) {
+    return in_precision(setting, run_as<float>, run_as<double>);
+}
+
+}  // namespace natator::bench

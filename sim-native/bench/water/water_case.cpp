@@ -1,0 +1,20 @@
+#include "water/water_case.h"
+
+namespace natator::bench {
+
+const std::vector<WaterCase>& water_cases() {
+    static const std::vector<WaterCase> cases{
+        {"vortex",
+         "amplitude",
+         {"amplitude after one turnover", "numerical Reynolds number", "gain of kinetic energy"},
+         run_vortex},
+        {"standing-wave", "elevation of the mode (length)", {"period (s)", "decay (1/s)"}, run_standing_wave},
+        {"tilted-gravity",
+         "slope of the surface (degrees)",
+         {"slope under 1 degree (degrees)", "slope afterwards (degrees)"},
+         run_tilted_gravity},
+    };
+    return cases;
+}
+
+}  // namespace natator::bench

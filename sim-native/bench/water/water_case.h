@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "path_run.h"
+
+/// Cases of water whose outcome is known, for measuring how far a scheme is from being a fluid.
+namespace natator::bench {
+
+/// How a case is computed.
+struct WaterSetting {
+    Setting solver;
+    int resolution = 20;  ///< particles along the case's length
+    bool gpu = false;
+};
+
+/// One number that a case gives, beside what it should be.
+struct WaterFigure {
+    double value = 0;
+    double reference = 0;  ///< exact
+    double least = -std::numeric_limits<double>::infinity();    ///< the target: from here
+    double greatest = std::numeric_limits<double>::infinity();  ///< to here
+
+    bool is_met() const { return least <= value && value <= greatest; }
+};
+
+/// A point of the curve that a case follows.
+struct WaterSample {
+    double time = 0;  ///< s
+    double value = 0;
+};
+
+struct WaterRun {
+    int particles = 0;
+    double seconds = 0;                      ///< wall time of the frames
+    std::vector<WaterFigure> figures;        ///< one for each of the case's quantities
+    std::vector<WaterSample> curve;
+    std::optional<Instability> instability;  ///< then there are no figures
+};
+
+struct WaterCase {
+    std::string name;
+    std::string curve;                    ///< what the curve shows
+    std::vector<std::string> quantities;  ///< what the figures are
+    std::function<WaterRun(const WaterSetting&)> run;
+};
+
+/// All cases.
+const std::vector<WaterCase>& water_cases();
+
+WaterRun run_vortex(const WaterSetting& setting);
+WaterRun run_standing_wave(const WaterSetting& setting);
+WaterRun run_tilted_gravity(const WaterSetting& setting);
+
+}  // namespace natator::bench

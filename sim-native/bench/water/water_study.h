@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "result_table.h"
+#include "water/water_case.h"
+
+namespace natator::bench {
+
+/// Cases of water under several settings.
+struct WaterStudy {
+    std::vector<std::string> cases;  ///< names of water_cases()
+    std::vector<int> resolutions;    ///< particles along the case's length
+    std::vector<Setting> settings;
+    bool gpu = false;
+};
+
+/// Columns case, resolution, scheme, precision, backend, substeps, iterations, quantity (these are the key); status (ok,
+/// unstable); value; reference; least, greatest (the target; empty: no limit); met (yes, no); particles; run_time (s).
+Row water_columns();
+inline constexpr std::size_t water_key_columns = 8;
+
+/// Columns case, resolution, scheme, precision, backend, substeps, iterations, time (s; these are the key), value.
+Row water_curve_columns();
+inline constexpr std::size_t water_curve_key_columns = 8;
+
+/// Runs what `table` does not hold yet; the curves go into `curves`. `report` gets a line per row.
+void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& curves,
+                     const std::function<void(const std::string&)>& report);
+
+}  // namespace natator::bench

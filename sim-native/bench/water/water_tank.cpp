@@ -1,0 +1,112 @@
+#include "water/water_tank.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "model/fluid_block.h"
+#include "solver/gpu_solver.h"
+
+namespace natator::bench {
+namespace {
+
+constexpr double settling = 2;  ///< s
+
+Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting) {
+    const double spacing = water_length / setting.resolution;
+    Model model;
+    model.scheme = setting.solver.scheme;
+    SolverParameters& p = model.parameters;
+    p.substeps = setting.solver.substeps;
+    p.numIterations = setting.solver.iterations;
+    p.fluidRestDistance = spacing;
+    p.radius = p.solidRestDistance = 1.5 * spacing;
+    p.collisionDistance = spacing / 2;
+    p.viscosity = p.damping = p.dynamicFriction = p.staticFriction = p.particleFriction = 0;
+    const FluidBlock block{.count = count,
+                           .spacing = spacing,
+                           .origin = Eigen::Vector3d::Constant(spacing / 2),
+                           .gradient = MassGradient::uniform,
+                           .bottom_mass = 1};
+    add_fluid(block, model);
+    model.planes = {{{0, 1, 0}, 0},
+                    {{1, 0, 0}, 0},
+                    {{-1, 0, 0}, count.x() * spacing},
+                    {{0, 0, 1}, 0},
+                    {{0, 0, -1}, count.z() * spacing}};
+    return model;
+}
+
+}  // namespace
+
+template <class Real>
+WaterTank<Real>::WaterTank(const Eigen::Vector3i& count, const WaterSetting& setting)
+    : setting_(setting),
+      model_(std::make_shared<Model>(model_of(count, setting))),
+      state_(initial_state<Real>(*model_)) {
+    settle();
+    step_ = step_of(*model_);
+}
+
+/// The thesis' viscosity and damping bring the water to rest, whatever the run itself has.
+template <class Real>
+void WaterTank<Real>::settle() {
+    Model calm = *model_;
+    calm.parameters.viscosity = SolverParameters().viscosity;
+    calm.parameters.damping = 4;
+    const Step step = step_of(calm);
+    for (long frame = 0; frame < std::lround(settling / calm.time_step) && !instability_; ++frame)
+        instability_ = step(state_);
+    for (auto& v : state_.velocity) v.setZero();
+    state_.time = 0;
+}
+
+/// The step keeps its solver; `model` must live as long.
+template <class Real>
+typename WaterTank<Real>::Step WaterTank<Real>::step_of(const Model& model) const {
+    const auto advance = [&model](auto solver) -> Step {
+        return [solver, &model](State<Real>& state) {
+            return solver->update(state, model.time_step, model.parameters.substeps);
+        };
+    };
+    if (setting_.gpu) return advance(std::make_shared<GpuSolver<Real>>(model));
+    return advance(std::make_shared<Solver<Real>>(model));
+}
+
+template <class Real>
+bool WaterTank<Real>::frame() {
+    using Clock = std::chrono::steady_clock;
+    if (instability_) return false;
+    const auto begin = Clock::now();
+    instability_ = step_(state_);
+    seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+    return !instability_;
+}
+
+template <class Real>
+double WaterTank<Real>::depth() const {
+    double sum = 0;
+    for (const auto& x : state_.position) sum += static_cast<double>(x.y());
+    return 2 * sum / model_->particles();
+}
+
+template <class Real>
+void WaterTank<Real>::set_gravity(const Eigen::Vector3d& gravity) {
+    auto changed = std::make_shared<Model>(*model_);
+    changed->parameters.gravity = gravity;
+    step_ = step_of(*changed);
+    model_ = changed;
+}
+
+template <class Real>
+WaterRun WaterTank<Real>::run() const {
+    WaterRun run;
+    run.particles = model_->particles();
+    run.seconds = seconds_;
+    run.instability = instability_;
+    return run;
+}
+
+template class WaterTank<float>;
+template class WaterTank<double>;
+
+}  // namespace natator::bench
