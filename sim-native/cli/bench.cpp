@@ -102,6 +102,11 @@ void finish(const Common& common, const ResultTable& table, const ResultTable& s
         summary.write(path_beside(common.output, suffix));
 }
 
+/// A second table of a study: in a file beside the first, in memory if that has none.
+ResultTable table_beside(const Common& common, const std::string& suffix, Row columns, std::size_t key_columns) {
+    return {common.output.empty() ? "" : path_beside(common.output, suffix), std::move(columns), key_columns};
+}
+
 void add_precision(CLI::App* bench, int& status) {
     struct Options {
         Common common;
@@ -235,8 +240,7 @@ void add_validation(CLI::App* bench, int& status) {
         }
         if (chosen("tank")) study.tank_settings = settings_of(common, tank_settings);
         ResultTable table(common.output, validation_columns(), validation_key_columns);
-        ResultTable fronts(common.output.empty() ? "" : path_beside(common.output, "fronts"), front_columns(),
-                           front_key_columns);
+        ResultTable fronts = table_beside(common, "fronts", front_columns(), front_key_columns);
         run_validation_study(study, table, fronts, report);
         if (common.output.empty()) print(table.text());
         status = ok;
@@ -266,8 +270,7 @@ void add_water(CLI::App* bench, int& status) {
         WaterStudy study{options->cases, options->resolutions, settings_of(common, options->settings)};
         if (common.quick) study.resolutions = {10};
         ResultTable table(common.output, water_columns(), water_key_columns);
-        ResultTable curves(common.output.empty() ? "" : path_beside(common.output, "curves"), water_curve_columns(),
-                           water_curve_key_columns);
+        ResultTable curves = table_beside(common, "curves", water_curve_columns(), water_curve_key_columns);
         run_water_study(study, table, curves, report);
         if (common.output.empty()) print(table.text());
         status = ok;

@@ -78,7 +78,9 @@ final class ViewCommand implements Callable<Integer> {
             throw new InvalidInputException("--port is " + port + "; expected a whole number from 0 to 65535");
         }
         Path program = simulator.path();
-        ViewSettings settings = new ViewSettings(program, host, port, start(program), runs);
+        String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
+        Path shown = shownRun(scene);
+        ViewSettings settings = new ViewSettings(program, host, port, start(scene, shown, program), runs);
         CountDownLatch told = new CountDownLatch(1);
         PrintWriter out = spec.commandLine().getOut();
         BackgroundCheck check = null;
@@ -95,8 +97,9 @@ final class ViewCommand implements Callable<Integer> {
             if (!noBrowser) {
                 Browser.open(server.address());
             }
-            Path repeated = repeatedRun();
-            check = repeated == null ? null : new BackgroundCheck(repeated, program, spec.commandLine().getErr());
+            if (shown != null && isRepeated()) {
+                check = new BackgroundCheck(shown, program, spec.commandLine().getErr());
+            }
             told.await();
         } finally {
             if (check != null) {
@@ -117,28 +120,25 @@ final class ViewCommand implements Callable<Integer> {
         return null;
     }
 
-    /** The scene that was chosen; null if the runs tell it. */
-    private String chosenScene() {
-        return runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
-    }
-
-    /** The run whose best gait swims in just the scene in which it was found; null without one. */
-    private Path repeatedRun() {
-        return gait == null && sceneOptions.scheme() == null && sceneOptions.overrides() == null
-                ? shownRun(chosenScene()) : null;
-    }
-
-    /** A run's best gait in its scene; without a run, or beside runs of other scenes, the scene that was chosen. */
-    private Start start(Path program) throws InterruptedException {
+    /**
+     * A run's best gait in its scene; without a run, or beside runs of other scenes, the scene that was chosen.
+     *
+     * @param scene that was chosen; null if the runs tell it
+     * @param run   of it, or null
+     */
+    private Start start(String scene, Path run, Path program) throws InterruptedException {
         Gait given = gait == null ? null : GaitFile.read(gait);
-        String scene = chosenScene();
-        Path folder = shownRun(scene);
-        if (folder != null) {
-            return start(StoredRun.settings(folder), given, StoredRun.best(folder), program);
+        if (run != null) {
+            return start(StoredRun.settings(run), given, StoredRun.best(run), program);
         }
         ObjectNode overrides = Start.patch(sceneOptions.overrides(), sceneOptions.scheme());
         SceneInfo.of(scene, overrides, program);
         return new Start(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
+    }
+
+    /** Whether a run's best gait swims in just the scene in which it was found. */
+    private boolean isRepeated() {
+        return gait == null && sceneOptions.scheme() == null && sceneOptions.overrides() == null;
     }
 
     private Start start(EvolutionSettings run, Gait given, BestGait best, Path program) throws InterruptedException {
