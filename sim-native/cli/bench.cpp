@@ -310,8 +310,7 @@ void add_speed(CLI::App* bench, int& status) {
                                       options->batches, options->backend.device,   options->repeats,
                                       common.quick,     options->backend.whole_gpu};
             ResultTable table(common.output, gpu_speed_columns(), gpu_speed_key_columns);
-            ResultTable profile(common.output.empty() ? "" : path_beside(common.output, "profile"),
-                                gpu_speed_profile_columns(), gpu_speed_key_columns + 1);
+            ResultTable profile = table_beside(common, "profile", gpu_speed_profile_columns(), gpu_speed_key_columns + 1);
             run_gpu_speed_study(study, table, profile, report);
             if (common.output.empty()) print(table.text() + profile.text());
             status = ok;
@@ -320,8 +319,7 @@ void add_speed(CLI::App* bench, int& status) {
         const SpeedStudy study{options->scenes,  common.chosen_schemes(), common.chosen_precisions(),
                                options->threads, options->repeats,        common.quick};
         ResultTable table(common.output, speed_columns(), speed_key_columns);
-        ResultTable profile(common.output.empty() ? "" : path_beside(common.output, "profile"), speed_profile_columns(),
-                            speed_key_columns);
+        ResultTable profile = table_beside(common, "profile", speed_profile_columns(), speed_key_columns);
         run_speed_study(study, table, profile, report);
         if (common.output.empty()) print(table.text() + profile.text());
         status = ok;
