@@ -8,6 +8,7 @@
 #include "ensemble.h"
 #include "gpu_speed.h"
 #include "natator/error.h"
+#include "natator/protocol.h"
 #include "natator/strict_json.h"
 #include "precision.h"
 #include "roofline.h"
@@ -22,6 +23,12 @@ namespace {
 
 using namespace natator::bench;
 
+Scheme scheme_of(const std::string& name) {
+    for (const Scheme scheme : {Scheme::flex, Scheme::conserving})
+        if (name == to_string(scheme)) return scheme;
+    return Scheme::dfsph;
+}
+
 /// What all studies are asked for.
 struct Common {
     std::vector<std::string> schemes{"flex", "conserving"};
@@ -31,7 +38,7 @@ struct Common {
 
     std::vector<Scheme> chosen_schemes() const {
         std::vector<Scheme> result;
-        for (const std::string& name : schemes) result.push_back(name == "flex" ? Scheme::flex : Scheme::conserving);
+        for (const std::string& name : schemes) result.push_back(scheme_of(name));
         return result;
     }
     std::vector<Precision> chosen_precisions() const {
@@ -48,8 +55,8 @@ void report(const std::string& line) {
 
 void add_common(CLI::App* command, Common& common, std::vector<std::string> precisions) {
     common.precisions = std::move(precisions);
-    command->add_option("--scheme", common.schemes, "flex, conserving.")
-        ->check(CLI::IsMember({"flex", "conserving"}))
+    command->add_option("--scheme", common.schemes, "flex, conserving, dfsph.")
+        ->check(CLI::IsMember({"flex", "conserving", "dfsph"}))
         ->capture_default_str();
     command->add_option("--precision", common.precisions, "float, double.")
         ->check(CLI::IsMember({"float", "double"}))

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
 #include "solver/gpu_solver.h"
 
@@ -19,7 +20,8 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting) {
     p.substeps = setting.solver.substeps;
     p.numIterations = setting.solver.iterations;
     p.fluidRestDistance = spacing;
-    p.radius = p.solidRestDistance = 1.5 * spacing;
+    p.solidRestDistance = 1.5 * spacing;
+    p.radius = (model.scheme == Scheme::dfsph ? 2.5 : 1.5) * spacing;
     p.collisionDistance = spacing / 2;
     p.viscosity = p.damping = p.dynamicFriction = p.staticFriction = p.particleFriction = 0;
     const FluidBlock block{.count = count,
@@ -28,6 +30,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting) {
                            .gradient = MassGradient::uniform,
                            .bottom_mass = 1};
     add_fluid(block, model);
+    if (model.scheme == Scheme::dfsph) disorder_fluid(model);
     model.planes = {{{0, 1, 0}, 0},
                     {{1, 0, 0}, 0},
                     {{-1, 0, 0}, count.x() * spacing},
@@ -52,6 +55,7 @@ template <class Real>
 void WaterTank<Real>::settle() {
     Model calm = *model_;
     calm.parameters.viscosity = SolverParameters().viscosity;
+    calm.parameters.kinematicViscosity = 0.05;
     calm.parameters.damping = 4;
     const Step step = step_of(calm);
     for (long frame = 0; frame < std::lround(settling / calm.time_step) && !instability_; ++frame)

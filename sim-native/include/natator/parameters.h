@@ -5,10 +5,11 @@
 
 namespace natator {
 
-/// Which update rule advances the particles (DESIGN: schemes).
+/// Which update rule advances the particles.
 enum class Scheme {
     flex,        ///< behaves as NVIDIA Flex 1.2.0 was measured to behave
     conserving,  ///< mass-splitting projection that keeps linear and angular momentum
+    dfsph,       ///< the solids of `conserving` in incompressible water (divergence-free SPH); on the CPU only
 };
 
 /// How the summed corrections of one iteration are scaled before they are applied.
@@ -52,7 +53,8 @@ struct SolverParameters {
     /// `conserving` as a force, per (1/240 s)^2.
     double cohesion = 0.0;
     double surfaceTension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
-    double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s
+    double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s; not in scheme `dfsph`
+    double kinematicViscosity = 0.0;    ///< of the water in scheme `dfsph`, length^2/s, >= 0
     double vorticityConfinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
     double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density
     double freeSurfaceDrag = 0.0;       ///< drag times the part of the rest density that a particle lacks, 1/s, >= 0

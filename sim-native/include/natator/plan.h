@@ -10,7 +10,8 @@ namespace natator {
 /// What a Model needs, decided once: a stage that is false here does not run and owns no memory.
 struct Plan {
     bool fluid = false;           ///< density constraint, fluid neighbour lists
-    bool contacts = false;        ///< pairs that are not both fluid
+    bool water = false;           ///< pressure solves of scheme `dfsph`, which has no density constraint
+    bool contacts = false;        ///< pairs that are not both fluid; in scheme `dfsph` of solids alone
     bool mutual_contacts = false; ///< a pair that one side feels is felt by both, so that momentum is kept
     bool solid_pressure = false;  ///< solids add to the fluid's density
     bool uniform_fluid = false;   ///< every fluid particle collides with every other: no test per pair

@@ -38,7 +38,15 @@ ordered_json error_json(const nlohmann::json& id, const std::string& message) {
 }
 
 const char* to_string(Scheme scheme) {
-    return scheme == Scheme::conserving ? "conserving" : "flex";
+    switch (scheme) {
+        case Scheme::flex:
+            return "flex";
+        case Scheme::conserving:
+            return "conserving";
+        case Scheme::dfsph:
+            return "dfsph";
+    }
+    return "unknown";
 }
 
 const char* to_string(Precision precision) {

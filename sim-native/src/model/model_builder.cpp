@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "body.h"
+#include "disorder_fluid.h"
 #include "fluid_block.h"
 #include "muscles.h"
 #include "natator/error.h"
@@ -106,6 +107,7 @@ Model build_model(const Scene& scene) {
     if (scene.fluid) {
         check_clearance(scene, model.particles());
         add_fluid(*scene.fluid, model);
+        if (scene.scheme == Scheme::dfsph) disorder_fluid(model);
     }
     check_inside_tank(scene, model);
     return model;

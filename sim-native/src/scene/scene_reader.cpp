@@ -85,7 +85,9 @@ Scene scene_from_json(const json& document, const std::string& name) {
                         {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping"}, scene);
     if (document.contains("scheme")) {
         scene.scheme = fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"),
-                                                   {{"flex", Scheme::flex}, {"conserving", Scheme::conserving}});
+                                                   {{"flex", Scheme::flex},
+                                                    {"conserving", Scheme::conserving},
+                                                    {"dfsph", Scheme::dfsph}});
     }
     if (document.contains("solver")) scene.solver = fields::read_solver(document.at("solver"), place.key("solver"));
     if (document.contains("planes")) scene.planes = read_planes(document.at("planes"), place.key("planes"));

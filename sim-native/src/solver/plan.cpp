@@ -13,12 +13,13 @@ bool limits(double value) {
     return value < static_cast<double>(std::numeric_limits<float>::max());
 }
 
-/// Can a pair that is not fluid-fluid ever collide? Pairs of one group do only with self_collide.
+/// Can a pair that is not fluid-fluid (in scheme `dfsph` one of solids) ever collide? Pairs of one group do only with self_collide.
 bool has_contacts(const Model& model) {
     std::set<std::uint32_t> groups;
     bool any_solid = false;
     bool any_self_collide = false;
     for (int i = 0; i < model.particles(); ++i) {
+        if (model.scheme == Scheme::dfsph && model.is_fluid(i)) continue;
         groups.insert(model.phase[i] & phase::group_mask);
         any_solid |= !model.is_fluid(i);
         any_self_collide |= (model.phase[i] & phase::self_collide) != 0;
@@ -44,7 +45,9 @@ Plan make_plan(const Model& model) {
     const bool flex = model.scheme == Scheme::flex;
     Plan plan;
     plan.mutual_contacts = !flex;
-    plan.fluid = std::any_of(model.phase.begin(), model.phase.end(), is_fluid);
+    const bool any_fluid = std::any_of(model.phase.begin(), model.phase.end(), is_fluid);
+    plan.water = model.scheme == Scheme::dfsph && any_fluid;
+    plan.fluid = !plan.water && any_fluid;
     plan.contacts = has_contacts(model);
     plan.solid_pressure = plan.fluid && plan.contacts && p.solidPressure != 0;
     plan.uniform_fluid = plan.fluid && is_uniform_fluid(model);
@@ -98,6 +101,7 @@ std::vector<std::string> describe_plan(const Model& model) {
     const auto each = [&](Stage stage, const char* kind = "") {
         return std::to_string(model.parameters.numIterations) + " x per substep: " + kind + name(stage);
     };
+    add(plan.water, once("pressure and viscosity of the water"));
     add(true, once(name(Stage::predict)));
     add(plan.fluid || plan.contacts, once("sort into cells"));
     add(plan.fluid, once(std::string("find fluid neighbours") + (plan.uniform_fluid ? "" : " (test per pair)")));

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "cpu/conserving/conserving_stages.h"
+#include "cpu/dfsph/dfsph_stages.h"
 #include "cpu/flex/flex_stages.h"
 #include "natator/actuate.h"
 #include "step.h"
@@ -92,7 +93,7 @@ public:
     }
 
     std::optional<Instability> frame(State<Real>& state, const Gait& gait) {
-        const bool per_substep = model_.scheme == Scheme::conserving;
+        const bool per_substep = model_.scheme != Scheme::flex;
         if (!per_substep) actuate(model_, gait, state.time, state);
         return update(state, model_.time_step, model_.parameters.substeps, nullptr, per_substep ? &gait : nullptr);
     }
@@ -109,10 +110,12 @@ public:
 
 private:
     using AnyStages =
-        std::variant<std::unique_ptr<cpu::FlexStages<Real>>, std::unique_ptr<cpu::ConservingStages<Real>>>;
+        std::variant<std::unique_ptr<cpu::FlexStages<Real>>, std::unique_ptr<cpu::ConservingStages<Real>>,
+                     std::unique_ptr<cpu::DfsphStages<Real>>>;
 
     static AnyStages stages_for(const Model& model, const Plan& plan) {
         if (model.scheme == Scheme::conserving) return std::make_unique<cpu::ConservingStages<Real>>(model, plan);
+        if (model.scheme == Scheme::dfsph) return std::make_unique<cpu::DfsphStages<Real>>(model, plan);
         return std::make_unique<cpu::FlexStages<Real>>(model, plan);
     }
 

@@ -73,7 +73,7 @@ NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterSt
     }
 }
 
-/// One iteration of scheme `conserving`: each group of constraints in turn, on the positions that the last one left.
+/// One iteration of the schemes `conserving` and `dfsph`, whose water is solved with the prediction: each group of constraints in turn, on the positions that the last one left.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) {
@@ -134,7 +134,7 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, int iterations, cons
     stages.begin_iterations();
     after(Stage::neighbours);
     for (int i = 0; i < iterations; ++i) {
-        if constexpr (Stages::scheme == Scheme::conserving)
+        if constexpr (Stages::scheme != Scheme::flex)
             iterate_in_turn(stages, plan, after);
         else
             iterate_summed(stages, plan, after);

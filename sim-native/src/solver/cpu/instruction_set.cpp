@@ -5,6 +5,7 @@
 #include <string>
 
 #include "conserving/density_kernels.h"
+#include "dfsph/water_kernels.h"
 #include "fluid_kernels.h"
 #include "motion_kernels.h"
 #include "natator/error.h"
@@ -116,6 +117,8 @@ NATATOR_CHOICE(NeighbourKernels, neighbour_kernels)
 NATATOR_CHOICE(NeighbourKernels, scalar_neighbour_kernels)
 NATATOR_CHOICE(DensityKernels, density_kernels)
 NATATOR_CHOICE(DensityKernels, scalar_density_kernels)
+NATATOR_CHOICE(WaterKernels, water_kernels)
+NATATOR_CHOICE(WaterKernels, scalar_water_kernels)
 
 }  // namespace cpu
 }  // namespace natator

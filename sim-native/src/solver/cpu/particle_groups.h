@@ -26,6 +26,7 @@ struct Single {
         const Real* const from = packed + 4 * static_cast<std::int64_t>(*index);
         return {from[0], from[1], from[2], from[3]};
     }
+    static Lane gather_one(const Real* from, const std::int32_t* index) { return from[*index]; }
     static void put_quadruples(Real* to, const Four<Lane>& v) {
         to[0] = v.x;
         to[1] = v.y;
@@ -48,6 +49,11 @@ struct Vector {
         return v;
     }
     static Four<Lane> gather(const Real* packed, const std::int32_t* index) { return physics::gather(packed, index); }
+    static Lane gather_one(const Real* from, const std::int32_t* index) {
+        Lane v;
+        for (int k = 0; k < slots; ++k) v[k] = from[index[k]];
+        return v;
+    }
     static void put_quadruples(Real* to, const Four<Lane>& v) { store_quadruples(to, v); }
 };
 

@@ -18,6 +18,7 @@ void choose_device(int device) {
 }
 
 std::optional<std::string> refusal(const Model& model) {
+    if (model.scheme == Scheme::dfsph) return "scheme dfsph runs on the CPU only";
     if (model.particles() == 0) return "the scene has no particles; must have some";
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);

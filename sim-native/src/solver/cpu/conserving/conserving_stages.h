@@ -104,6 +104,7 @@ private:
     std::vector<std::vector<Real>> cluster_mass_;                ///< m_j / n_j per member
     std::vector<std::vector<Vec3<Real>>> cluster_displacement_;  ///< sum of the substep's corrections per member
 
+protected:
     using Substep<Real>::model_;
     using Substep<Real>::plan_;
     using Substep<Real>::constants_;

@@ -1,0 +1,151 @@
+// The water of scheme `dfsph`: incompressible SPH, made so by two pressure solves a substep (Bender, Koschier:
+// Divergence-Free SPH for Incompressible and Viscous Fluids, 2017), with the kernel C2 of Wendland (1995), and with
+// gradients that are exact for linear fields (Bonet, Lok: Variational and momentum preservation aspects of SPH, 1999,
+// eq. 47-49), averaged over a pair, so that its forces stay equal and opposite. Sums run over the neighbours j of a
+// particle i, difference = x_i - x_j, R the kernel's support. V is a particle's volume; density is the sum of V W, 1 at
+// rest, whatever the particles weigh.
+#pragma once
+
+#include "pair.h"
+
+namespace natator::physics {
+
+/// A symmetric matrix.
+template <class T>
+struct Symmetric3 {
+    T xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+};
+
+inline namespace NATATOR_SET {
+
+template <class T>
+NATATOR_HD Vec3<T> operator*(const Symmetric3<T>& m, const Vec3<T>& v) {
+    return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
+            m.xz * v.x + m.yz * v.y + m.zz * v.z};
+}
+template <class T>
+NATATOR_HD Symmetric3<T> operator+(const Symmetric3<T>& a, const Symmetric3<T>& b) {
+    return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
+}
+
+/// Wendland's C2 in space: W(q) = sigma (1 - q)^4 (4 q + 1), q = r/R, sigma = 21 / (2 pi R^3).
+template <class R>
+struct WendlandKernel {
+    R inverse_radius;
+    R scale;        ///< sigma
+    R slope_scale;  ///< 20 sigma / R^2
+
+    template <class T>
+    NATATOR_HD T value(T r) const {
+        const T q = r * inverse_radius, t = positive_part(1 - q), square = t * t;
+        return scale * square * square * (4 * q + 1);
+    }
+    /// -W'(r) / r, so that grad_i W = -slope difference.
+    template <class T>
+    NATATOR_HD T slope(T r) const {
+        const T t = positive_part(1 - r * inverse_radius);
+        return slope_scale * t * t * t;
+    }
+};
+
+/// A number cut to [0, 1].
+template <class T>
+NATATOR_HD T unit_part(T v) {
+    return smaller(positive_part(v), one<T>());
+}
+
+// How far gradients are corrected: in full at this density and this determinant of the moments, not at all at half the
+// determinant or the lower density. Near a free surface half of the neighbours lack, and the inverse is ill-conditioned.
+inline constexpr double corrected_density = 0.7, uncorrected_density = 0.5;
+inline constexpr double corrected_determinant = 0.4, uncorrected_determinant = 0.2;
+
+/// Density, first moments of the kernel's gradient, where neighbours crowd, and how fast they pass.
+template <class T>
+struct MomentSums {
+    T density{};
+    Symmetric3<T> moments{};
+    Vec3<T> crowding{};
+    T fastest_square{};  ///< largest |v_j - v_i|^2
+
+    /// `at_spacing`: 1 / W at the rest spacing. The factor 1 + 0.2 (W / W(s))^4 of the crowding is Monaghan's (2000)
+    /// against pairs that clump.
+    template <class R>
+    NATATOR_HD void add(const Vec3<T>& difference, const WendlandKernel<R>& kernel, R at_spacing, T volume,
+                        const Vec3<T>& relative_velocity) {
+        const T r = length_of(difference);
+        const T value = kernel.value(r), weight = volume * kernel.slope(r);
+        density += volume * value;
+        moments.xx += weight * difference.x * difference.x;
+        moments.yy += weight * difference.y * difference.y;
+        moments.zz += weight * difference.z * difference.z;
+        moments.xy += weight * difference.x * difference.y;
+        moments.xz += weight * difference.x * difference.z;
+        moments.yz += weight * difference.y * difference.z;
+        const T close = value * at_spacing, square = close * close;
+        crowding += weight * (1 + R(0.2) * square * square) * difference;
+        const T speed_square = dot(relative_velocity, relative_velocity);
+        fastest_square = smaller(-fastest_square, -speed_square) * R(-1);
+    }
+
+    /// L_i: the inverse of the moments, blended into the identity where too many neighbours lack.
+    NATATOR_HD Symmetric3<T> correction(T whole_density) const {
+        using R = Scalar<T>;
+        const Symmetric3<T>& m = moments;
+        const T a = m.yy * m.zz - m.yz * m.yz, b = m.xz * m.yz - m.xy * m.zz, c = m.xy * m.yz - m.xz * m.yy;
+        const T determinant = m.xx * a + m.xy * b + m.xz * c;
+        const T by_density = unit_part((whole_density - R(uncorrected_density)) *
+                                       R(1 / (corrected_density - uncorrected_density)));
+        const T by_determinant = unit_part((determinant - R(uncorrected_determinant)) *
+                                           R(1 / (corrected_determinant - uncorrected_determinant)));
+        const T blend = by_density * by_determinant;
+        const T inverse = blend / (positive_part(determinant - R(uncorrected_determinant)) + R(uncorrected_determinant));
+        const T rest = 1 - blend;
+        return {inverse * a + rest,
+                inverse * (m.xx * m.zz - m.xz * m.xz) + rest,
+                inverse * (m.xx * m.yy - m.xy * m.xy) + rest,
+                inverse * b,
+                inverse * c,
+                inverse * (m.xy * m.xz - m.xx * m.yz)};
+    }
+};
+
+/// G_ij = V_i V_j (L_i + L_j)/2 grad_i W: the derivative of V_i times the density by x_j, with the sign of i's.
+template <class T, class R>
+NATATOR_HD Vec3<T> pair_gradient(const Vec3<T>& difference, const WendlandKernel<R>& kernel, T volumes,
+                                 const Symmetric3<T>& both) {
+    return (R(-0.5) * volumes * kernel.slope(length_of(difference))) * (both * difference);
+}
+
+/// Of all G_ij of a particle: what a unit of its pressure impulse does to its own rate of expansion.
+template <class T>
+struct ResponseSums {
+    Vec3<T> gradient{};
+    T square{};
+
+    NATATOR_HD void add(const Vec3<T>& pair_gradient, T other_inverse_mass) {
+        gradient += pair_gradient;
+        square += other_inverse_mass * dot(pair_gradient, pair_gradient);
+    }
+    /// 1 / (w_i |sum G_ij|^2 + sum w_j |G_ij|^2), or 0 without neighbours; DFSPH's alpha.
+    NATATOR_HD T response(T inverse_mass) const {
+        using R = Scalar<T>;
+        const T all = inverse_mass * dot(gradient, gradient) + square;
+        return all > R(least_response) ? 1 / all : T{};
+    }
+};
+
+/// Viscous impulses on a particle, without its inverse mass and 10 h mu: Monaghan's form (2005, eq. 8.5), which acts
+/// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0.
+template <class T>
+struct ViscousSums {
+    Vec3<T> impulse{};
+
+    NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening,
+                        const Vec3<T>& pair_gradient) {
+        const T approach = dot(relative_velocity, difference);  // (v_j - v_i) (x_i - x_j)
+        impulse -= approach / (squared_length(difference) + softening) * pair_gradient;
+    }
+};
+
+}  // namespace NATATOR_SET
+}  // namespace natator::physics

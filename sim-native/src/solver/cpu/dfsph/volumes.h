@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "natator/model.h"
+
+namespace natator::cpu {
+
+/// Volume of each particle, length^3. Of a fluid particle what makes the density of a cubic lattice at the rest distance
+/// 1; of a solid one the cube of the distance to the nearest other of its group at rest, but no more than that.
+std::vector<double> particle_volumes(const Model& model);
+
+/// W(r) of physics::WendlandKernel with this support, 1/length^3.
+double wendland(double r, double radius);
+
+}  // namespace natator::cpu

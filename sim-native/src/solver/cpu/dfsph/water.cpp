@@ -1,0 +1,318 @@
+#include "water.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../workspace.h"
+#include "physics/constants.h"
+#include "volumes.h"
+
+namespace natator::cpu {
+namespace {
+
+constexpr double wet = 0.9;            ///< density from which a particle is held incompressible
+constexpr double relaxation = 0.5;     ///< of the Jacobi passes
+constexpr int divergence_passes = 1;   ///< on the velocities as they are
+constexpr int density_passes = 3;      ///< on the density that they lead to
+constexpr double most_excess = 0.05;   ///< of rest density that a substep takes off
+constexpr double shift_strength = 0.5; ///< of R h |dv| times where neighbours crowd
+constexpr double longest_shift = 0.05; ///< of the rest distance, a substep
+constexpr double shifted_density = 0.95;  ///< below it is the surface, which is left as it is
+
+/// Mass density of the fluid, from the mean mass of its particles.
+double fluid_density(const Model& model, const std::vector<double>& volumes) {
+    double mass = 0, volume = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i) || model.inverse_mass[i] == 0) continue;
+        mass += 1 / model.inverse_mass[i];
+        volume += volumes[i];
+    }
+    return volume > 0 ? mass / volume : 0;
+}
+
+}  // namespace
+
+template <class Real>
+Water<Real>::Water(const Model& model)
+    : model_(model),
+      kernels_(&water_kernels<Real>(instruction_set())),
+      neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())),
+      radius_(static_cast<Real>(model.parameters.radius)),
+      spacing_(static_cast<Real>(model.parameters.fluidRestDistance)),
+      kernel_scale_(static_cast<Real>(21 / (2 * std::numbers::pi * std::pow(model.parameters.radius, 3)))),
+      at_spacing_(static_cast<Real>(1 / wendland(model.parameters.fluidRestDistance, model.parameters.radius))),
+      own_value_(static_cast<Real>(wendland(0, model.parameters.radius))),
+      mirror_(model),
+      particles_(model.particles()),
+      image_begin_(round_up_to_block(model.particles())) {
+    const std::vector<double> volumes = particle_volumes(model);
+    dynamic_viscosity_ = static_cast<Real>(model.parameters.kinematicViscosity * fluid_density(model, volumes));
+    for (const double v : volumes) volume_of_.push_back(static_cast<Real>(v));
+    for (const double w : model.inverse_mass) inverse_mass_of_.push_back(static_cast<Real>(w));
+    slot_of_.resize(particles_);
+    cell_of_.resize(particles_);
+    particle_of_.assign(image_begin_, -1);
+    row_begin_.assign(image_begin_ / lanes + 1, 0);
+    neighbour_count_.assign(image_begin_, 0);
+    for (auto* array : {&density_, &fastest_square_, &response_, &target_, &impulse_sum_}) array->resize(image_begin_);
+    for (auto& array : correction_) array.resize(image_begin_);
+    crowding_.resize(image_begin_);
+}
+
+template <class Real>
+Vec3<Real> Water<Real>::velocity(int particle) const {
+    return velocity_.at(slot_of_[particle]);
+}
+
+template <class Real>
+Vec3<Real> Water<Real>::shift(int particle) const {
+    const int slot = slot_of_[particle];
+    if (!model_.is_fluid(particle) || !(density_[slot] > Real(shifted_density))) return {};
+    const Real strength = Real(shift_strength) * radius_ * h_ * std::sqrt(fastest_square_[slot]);
+    return clamped(strength * crowding_.at(slot), Real(longest_shift) * spacing_);
+}
+
+/// Numbers the slots by cell, first of the particles, then of the images.
+template <class Real>
+void Water<Real>::lay_out(const State<Real>& state) {
+    const auto& images = mirror_.images_of(state.position, radius_);
+    std::array<Real, 3> low{}, high{};
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = high[axis] = state.position[0][axis];
+        for (const auto& x : state.position) {
+            low[axis] = std::min(low[axis], x[axis]);
+            high[axis] = std::max(high[axis], x[axis]);
+        }
+        low[axis] -= radius_;  // images are at most that far out
+        high[axis] += radius_;
+    }
+    grid_.cover(low, high, radius_, 4096 + 16 * particles_);
+    const auto cell = [this](const auto& x) { return grid_.cell(x.x(), x.y(), x.z()); };
+
+    cell_begin_.assign(grid_.cells() + 1, 0);
+    for (int i = 0; i < particles_; ++i) ++cell_begin_[(cell_of_[i] = cell(state.position[i])) + 1];
+    image_cell_begin_.assign(grid_.cells() + 1, 0);
+    for (const auto& image : images) ++image_cell_begin_[cell(image.position) + 1];
+    image_cell_begin_[0] = image_begin_;
+    for (int c = 0; c < grid_.cells(); ++c) {
+        cell_begin_[c + 1] += cell_begin_[c];
+        image_cell_begin_[c + 1] += image_cell_begin_[c];
+    }
+    far_slot_ = image_begin_ + static_cast<int>(images.size());
+
+    const std::size_t all = round_up_to_block(far_slot_ + 1) + lanes;  // what searches may read behind the last slot
+    if (position_.x.size() < all) {
+        const std::size_t room = round_up_to_block(static_cast<int>(all + all / 8));
+        for (auto* array : {&position_, &velocity_}) array->resize(room);
+        for (auto* array : {&volume_, &inverse_mass_, &impulse_}) array->resize(room);
+        for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_}) array->resize(4 * room);
+    }
+    const auto put = [this](int slot, int particle, const auto& x, const auto& v) {
+        position_.set(slot, vec3<Real>(x));
+        velocity_.set(slot, vec3<Real>(v));
+        volume_[slot] = volume_of_[particle];
+        inverse_mass_[slot] = inverse_mass_of_[particle];
+    };
+    const auto put_nothing = [this](int slot) {
+        position_.set(slot, {Real(physics::far_away), Real(physics::far_away), Real(physics::far_away)});
+        velocity_.set(slot, {});
+        volume_[slot] = inverse_mass_[slot] = impulse_[slot] = 0;
+    };
+    std::vector<int> next(cell_begin_.begin(), cell_begin_.end() - 1);
+    for (int i = 0; i < particles_; ++i) {
+        const int slot = next[cell_of_[i]]++;
+        slot_of_[i] = slot;
+        particle_of_[slot] = i;
+        put(slot, i, state.position[i], state.velocity[i]);
+    }
+    for (int slot = particles_; slot < image_begin_; ++slot) put_nothing(slot);
+    next.assign(image_cell_begin_.begin(), image_cell_begin_.end() - 1);
+    image_owner_.resize(images.size());
+    image_reflection_.resize(images.size());
+    for (const auto& image : images) {
+        const int slot = next[cell(image.position)]++;
+        image_owner_[slot - image_begin_] = slot_of_[image.particle];
+        image_reflection_[slot - image_begin_] = image.reflection;
+        put(slot, image.particle, image.position,
+            (mirror_.matrix(image.reflection) * state.velocity[image.particle]).eval());
+    }
+    for (int slot = far_slot_; slot < static_cast<int>(all); ++slot) put_nothing(slot);
+}
+
+/// Sliced ELLPACK as in Workspace, of all particles with all particles and images.
+template <class Real>
+void Water<Real>::find_neighbours(ThreadTeam& team) {
+    const Real* const position[3] = {position_.x.data(), position_.y.data(), position_.z.data()};
+    const int blocks = image_begin_ / lanes;
+    list_room_.resize(team.most_parts());
+    for (ListRoom& room : list_room_) room.size = 0;
+    team.for_parts(blocks, shortest_part, [&](int part, int begin, int end) {
+        ListRoom& room = list_room_[part];
+        for (int block = begin; block < end; ++block) {
+            int rows = 0;
+            std::array<int, lanes> count{};
+            std::array<const std::int32_t*, lanes> list{};
+            for (int lane = 0; lane < lanes; ++lane) {
+                const int slot = block * lanes + lane;
+                if (slot >= particles_) continue;
+                const int cell = cell_of_[particle_of_[slot]];
+                const auto around = grid_.rows_around(grid_.row(cell));
+                const auto range = grid_.range_around(cell);
+                SlotRuns runs;
+                int candidates = 0;
+                for (const auto* begins : {&cell_begin_, &image_cell_begin_})
+                    for (int k = 0; k < around.count; ++k) {
+                        const int first = (*begins)[around.first_cell[k] + range.first];
+                        const int last = (*begins)[around.first_cell[k] + range.last + 1];
+                        runs.begin[runs.count] = first;
+                        runs.end[runs.count] = last;
+                        runs.count += first != last;
+                        candidates += last - first;
+                    }
+                std::vector<std::int32_t>& found = room.found[lane];
+                if (static_cast<int>(found.size()) < candidates + lanes) found.resize(2 * candidates + lanes);
+                count[lane] = neighbour_kernels_->find(position, slot, runs, radius_ * radius_, found.data());
+                list[lane] = found.data();
+                neighbour_count_[slot] = count[lane];
+                rows = std::max(rows, count[lane]);
+            }
+            const std::size_t needed = room.size + static_cast<std::size_t>(round_up_to_block(rows)) * lanes;
+            if (room.rows.size() < needed) room.rows.resize(needed + needed / 2);
+            neighbour_kernels_->interleave(list.data(), count.data(), rows, far_slot_, room.rows.data() + room.size);
+            row_begin_[block] = static_cast<int>(room.size / lanes);
+            room.size += static_cast<std::size_t>(rows) * lanes;
+        }
+    });
+    std::size_t size = 0;
+    for (const ListRoom& room : list_room_) size += room.size;
+    if (neighbour_.size() < size) {
+        neighbour_.resize(size + size / 4);
+        gradient_.resize(neighbour_.size());
+    }
+    team.for_parts(blocks, shortest_part, [&](int part, int begin, int end) {
+        std::size_t before = 0;
+        for (int k = 0; k < part; ++k) before += list_room_[k].size;
+        const ListRoom& room = list_room_[part];
+        std::copy_n(room.rows.begin(), room.size, neighbour_.begin() + static_cast<std::ptrdiff_t>(before));
+        for (int block = begin; block < end; ++block) row_begin_[block] += static_cast<int>(before / lanes);
+    });
+    row_begin_[blocks] = static_cast<int>(size / lanes);
+}
+
+template <class Real>
+void Water<Real>::mirror_corrections() {
+    for (std::size_t k = 0; k < image_owner_.size(); ++k) {
+        const int owner = image_owner_[k];
+        const auto part = [&](int c) { return correction_[c][owner]; };
+        Eigen::Matrix<Real, 3, 3> l;
+        l << part(0), part(3), part(4), part(3), part(1), part(5), part(4), part(5), part(2);
+        const auto& h = mirror_.matrix(image_reflection_[k]);
+        l = (h * l * h.transpose()).eval();
+        const std::size_t slot = 4 * (image_begin_ + k);
+        const Real packed[8] = {l(0, 0), l(1, 1), l(2, 2), l(0, 1), l(0, 2), l(1, 2), 0, 0};
+        std::copy_n(packed, 4, packed_correction_.begin() + static_cast<std::ptrdiff_t>(slot));
+        std::copy_n(packed + 4, 4, packed_shear_.begin() + static_cast<std::ptrdiff_t>(slot));
+    }
+    for (auto* array : {&packed_correction_, &packed_shear_})
+        std::fill_n(array->begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
+}
+
+template <class Real>
+void Water<Real>::mirror_velocities() {
+    for (std::size_t k = 0; k < image_owner_.size(); ++k) {
+        const Eigen::Matrix<Real, 3, 1> v =
+            mirror_.matrix(image_reflection_[k]) * eigen(velocity_.at(image_owner_[k]));
+        std::copy_n(v.data(), 3, packed_velocity_.begin() + static_cast<std::ptrdiff_t>(4 * (image_begin_ + k)));
+    }
+}
+
+template <class Real>
+WaterView<Real> Water<Real>::view() {
+    const auto pointers = [](Vector3Array<Real>& array) { return array.pointers(); };
+    const auto position = pointers(position_), velocity = pointers(velocity_), crowding = pointers(crowding_),
+               gradient = pointers(gradient_);
+    WaterView<Real> all{.first_block = 0,
+                        .end_block = image_begin_ / lanes,
+                        .row_begin = row_begin_.data(),
+                        .neighbour = neighbour_.data(),
+                        .far_slot = far_slot_,
+                        .inverse_radius = 1 / radius_,
+                        .kernel_scale = kernel_scale_,
+                        .slope_scale = 20 * kernel_scale_ / (radius_ * radius_),
+                        .at_spacing = at_spacing_,
+                        .own_value = own_value_,
+                        .softening = Real(0.01) * spacing_ * spacing_,
+                        .wet = Real(wet),
+                        .relaxation = Real(relaxation),
+                        .position = {position[0], position[1], position[2]},
+                        .volume = volume_.data(),
+                        .inverse_mass = inverse_mass_.data(),
+                        .velocity = {velocity[0], velocity[1], velocity[2]},
+                        .density = density_.data(),
+                        .correction = {},
+                        .crowding = {crowding[0], crowding[1], crowding[2]},
+                        .fastest_square = fastest_square_.data(),
+                        .response = response_.data(),
+                        .target = target_.data(),
+                        .impulse = impulse_.data(),
+                        .impulse_sum = impulse_sum_.data(),
+                        .packed = packed_.data(),
+                        .packed_velocity = packed_velocity_.data(),
+                        .packed_correction = packed_correction_.data(),
+                        .packed_shear = packed_shear_.data(),
+                        .gradient = {gradient[0], gradient[1], gradient[2]}};
+    for (int k = 0; k < 6; ++k) all.correction[k] = correction_[k].data();
+    return all;
+}
+
+template <class Real>
+void Water<Real>::solve_pressure(int passes, ThreadTeam& team) {
+    for (int pass = 0; pass < passes; ++pass) {
+        on_all_threads(team, kernels_->compute_impulse);
+        for (std::size_t k = 0; k < image_owner_.size(); ++k) impulse_[image_begin_ + k] = impulse_[image_owner_[k]];
+        on_all_threads(team, kernels_->apply_impulse);
+        mirror_velocities();
+    }
+}
+
+template <class Real>
+void Water<Real>::solve(const State<Real>& state, Real h, ThreadTeam& team) {
+    h_ = h;
+    lay_out(state);
+    find_neighbours(team);
+    // Images are packed with the far slot's block and behind it.
+    on_all_threads(team, kernels_->pack);
+    for (int slot = image_begin_; slot <= far_slot_; ++slot) {
+        const Real quadruples[8] = {position_.x[slot], position_.y[slot], position_.z[slot], volume_[slot],
+                                    velocity_.x[slot], velocity_.y[slot], velocity_.z[slot], inverse_mass_[slot]};
+        std::copy_n(quadruples, 4, packed_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
+        std::copy_n(quadruples + 4, 4, packed_velocity_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
+    }
+    on_all_threads(team, kernels_->compute_moments);
+    mirror_corrections();
+    on_all_threads(team, kernels_->compute_gradients);
+
+    std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
+    std::fill(target_.begin(), target_.end(), Real(0));
+    solve_pressure(divergence_passes, team);
+    if (dynamic_viscosity_ > 0)
+        on_all_threads(team, [&](const WaterView<Real>& part) {
+            kernels_->add_viscosity(part, 10 * h * dynamic_viscosity_);
+        });
+    const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
+    const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
+    for (int slot = 0; slot < particles_; ++slot) {
+        if (inverse_mass_[slot] > 0)
+            velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
+        target_[slot] = volume_[slot] / h * std::min(density_[slot] - 1, Real(most_excess));
+    }
+    on_all_threads(team, kernels_->pack);
+    mirror_velocities();
+    solve_pressure(density_passes, team);
+}
+
+template class Water<float>;
+template class Water<double>;
+
+}  // namespace natator::cpu

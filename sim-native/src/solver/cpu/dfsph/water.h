@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "../aligned.h"
+#include "../cell_grid.h"
+#include "../neighbour_kernels.h"
+#include "../thread_team.h"
+#include "mirror.h"
+#include "natator/model.h"
+#include "natator/state.h"
+#include "water_kernels.h"
+
+namespace natator::cpu {
+
+/// The water of scheme `dfsph` and the bodies in it: what a substep's pressure and viscosity do to the velocities of all
+/// particles. Solids take part like fluid that has their mass, volume and velocity: that is the coupling of body and
+/// water, pressure and no-slip viscosity alike, with equal and opposite impulses.
+template <class Real>
+class Water {
+public:
+    explicit Water(const Model& model);
+
+    /// From the state at the start of a substep of length h (s).
+    void solve(const State<Real>& state, Real h, ThreadTeam& team);
+
+    /// After pressure, viscosity and gravity, by particle, length/s.
+    Vec3<Real> velocity(int particle) const;
+    /// What keeps particles evenly spread, by particle, length; no velocity comes with it.
+    Vec3<Real> shift(int particle) const;
+
+    /// In units of rest density, at the last substep's start, by particle.
+    Real density(int particle) const { return density_[slot_of_[particle]]; }
+    /// Of the last substep, mass/(length s^2), by particle.
+    Real pressure(int particle) const { return impulse_sum_[slot_of_[particle]] / h_; }
+    int neighbours(int particle) const { return neighbour_count_[slot_of_[particle]]; }
+
+private:
+    void lay_out(const State<Real>& state);
+    void find_neighbours(ThreadTeam& team);
+    void mirror_corrections();
+    void mirror_velocities();
+    void solve_pressure(int passes, ThreadTeam& team);
+    WaterView<Real> view();
+
+    template <class Work>
+    void on_all_threads(ThreadTeam& team, const Work& work) {
+        const WaterView<Real> all = view();
+        team.for_parts(all.end_block, shortest_part, [&](int, int begin, int end) {
+            WaterView<Real> part = all;
+            part.first_block = begin;
+            part.end_block = end;
+            work(part);
+        });
+    }
+    static constexpr int shortest_part = 8;  ///< blocks
+
+    const Model& model_;
+    const WaterKernels<Real>* kernels_;
+    const NeighbourKernels<Real>* neighbour_kernels_;
+    Real radius_, spacing_, kernel_scale_, at_spacing_, own_value_, dynamic_viscosity_;
+    std::vector<Real> volume_of_, inverse_mass_of_;  ///< by particle
+    Mirror<Real> mirror_;
+    CellGrid<Real> grid_;
+    Real h_ = 1;
+
+    int particles_, image_begin_, far_slot_ = 0;
+    std::vector<int> slot_of_, particle_of_;
+    std::vector<int> image_owner_, image_reflection_;  ///< by image slot - image_begin_
+    std::vector<int> cell_begin_, image_cell_begin_;
+    std::vector<int> cell_of_;  ///< by particle
+
+    Vector3Array<Real> position_, velocity_, crowding_;
+    AlignedVector<Real> volume_, inverse_mass_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
+    std::array<AlignedVector<Real>, 6> correction_;
+    AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_;
+    std::vector<int> row_begin_, neighbour_count_;
+    AlignedVector<std::int32_t> neighbour_;
+    Vector3Array<Real> gradient_;
+
+    /// Room for the lists of a part of the blocks.
+    struct ListRoom {
+        std::array<std::vector<std::int32_t>, 16> found;
+        AlignedVector<std::int32_t> rows;
+        std::size_t size = 0;
+    };
+    std::vector<ListRoom> list_room_;
+};
+
+}  // namespace natator::cpu

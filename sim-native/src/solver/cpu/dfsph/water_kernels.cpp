@@ -1,0 +1,150 @@
+// Compiled once per instruction set, like fluid_kernels.cpp and by the same rules; physics/dfsph.h has the formulas.
+#include "water_kernels.h"
+
+#include "../particle_groups.h"
+#include "physics/dfsph.h"
+
+namespace natator::cpu::NATATOR_ISA {
+namespace {
+
+template <class Real>
+inline WendlandKernel<Real> kernel_of(const WaterView<Real>& water) {
+    return {water.inverse_radius, water.kernel_scale, water.slope_scale};
+}
+
+/// Calls visit(entry) for each entry of the rows of the group of slots that begins at `first`.
+template <class Group, class Real, class Visit>
+inline void for_each_entry(const WaterView<Real>& water, int first, const Visit& visit) {
+    const int block = first / lanes, end = water.row_begin[block + 1];
+    for (int row = water.row_begin[block]; row < end; ++row) visit(row * lanes + first % lanes);
+}
+
+template <class Group, class Real>
+void pack(const WaterView<Real>& water) {
+    pack_arrays<Group>(water, water.position, water.volume, water.packed);
+    const Real* const velocity[3] = {water.velocity[0], water.velocity[1], water.velocity[2]};
+    pack_arrays<Group>(water, velocity, water.inverse_mass, water.packed_velocity);
+}
+
+template <class Group, class Real>
+void compute_moments(const WaterView<Real>& water) {
+    using Lane = typename Group::Lane;
+    const WendlandKernel<Real> kernel = kernel_of(water);
+    for_each_group<Group>(water, [&](int first) {
+        const Vec3<Lane> v = get3<Group>(water.velocity, first);
+        MomentSums<Lane> sums;
+        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
+            const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
+            sums.add(difference, kernel, water.at_spacing, other.w, Vec3<Lane>{moves.x, moves.y, moves.z} - v);
+        });
+        const Lane density = sums.density + Group::get(water.volume + first) * water.own_value;
+        const Symmetric3<Lane> l = sums.correction(density);
+        Group::put(water.density + first, density);
+        const Lane parts[6] = {l.xx, l.yy, l.zz, l.xy, l.xz, l.yz};
+        for (int k = 0; k < 6; ++k) Group::put(water.correction[k] + first, parts[k]);
+        Group::put_quadruples(water.packed_correction + 4 * first, {l.xx, l.yy, l.zz, l.xy});
+        Group::put_quadruples(water.packed_shear + 4 * first, {l.xz, l.yz, Lane{}, Lane{}});
+        put3<Group>(water.crowding, first, sums.crowding);
+        Group::put(water.fastest_square + first, sums.fastest_square);
+    });
+}
+
+template <class Group, class Real>
+void compute_gradients(const WaterView<Real>& water) {
+    using Lane = typename Group::Lane;
+    const WendlandKernel<Real> kernel = kernel_of(water);
+    for_each_group<Group>(water, [&](int first) {
+        Lane parts[6];
+        for (int k = 0; k < 6; ++k) parts[k] = Group::get(water.correction[k] + first);
+        const Symmetric3<Lane> own{parts[0], parts[1], parts[2], parts[3], parts[4], parts[5]};
+        const Lane volume = Group::get(water.volume + first);
+        ResponseSums<Lane> sums;
+        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
+            const std::int32_t* const index = water.neighbour + entry;
+            const Four<Lane> l = Group::gather(water.packed_correction, index);
+            const Four<Lane> shear = Group::gather(water.packed_shear, index);
+            const Four<Lane> moves = Group::gather(water.packed_velocity, index);
+            const Vec3<Lane> gradient =
+                pair_gradient(difference, kernel, volume * other.w,
+                              own + Symmetric3<Lane>{l.x, l.y, l.z, l.w, shear.x, shear.y});
+            put3<Group>(water.gradient, entry, gradient);
+            sums.add(gradient, moves.w);
+        });
+        Group::put(water.response + first, sums.response(Group::get(water.inverse_mass + first)));
+    });
+}
+
+template <class Group, class Real>
+void add_viscosity(const WaterView<Real>& water, Real strength) {
+    using Lane = typename Group::Lane;
+    for_each_group<Group>(water, [&](int first) {
+        const Vec3<Lane> v = get3<Group>(water.velocity, first);
+        ViscousSums<Lane> sums;
+        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>&, const Vec3<Lane>& difference) {
+            const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
+            sums.add(difference, Vec3<Lane>{moves.x, moves.y, moves.z} - v, water.softening,
+                     get3<Group>(water.gradient, entry));
+        });
+        const Lane scale = strength * Group::get(water.inverse_mass + first);
+        put3<Group>(water.velocity, first, v + scale * sums.impulse);
+    });
+}
+
+template <class Group, class Real>
+void compute_impulse(const WaterView<Real>& water) {
+    using Lane = typename Group::Lane;
+    for_each_group<Group>(water, [&](int first) {
+        const Vec3<Lane> v = get3<Group>(water.velocity, first);
+        Lane rate{};
+        for_each_entry<Group>(water, first, [&](int entry) {
+            const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
+            rate += dot(Vec3<Lane>{moves.x, moves.y, moves.z} - v, get3<Group>(water.gradient, entry));
+        });
+        const Lane lacks = positive_part(Group::get(water.target + first) - rate);
+        const Lane all = water.relaxation * lacks * Group::get(water.response + first);
+        const Lane impulse = Group::get(water.density + first) > water.wet ? all : Lane{};
+        Group::put(water.impulse + first, impulse);
+        Group::put(water.impulse_sum + first, Group::get(water.impulse_sum + first) + impulse);
+    });
+}
+
+template <class Group, class Real>
+void apply_impulse(const WaterView<Real>& water) {
+    using Lane = typename Group::Lane;
+    for_each_group<Group>(water, [&](int first) {
+        const Lane own = Group::get(water.impulse + first);
+        Vec3<Lane> sum{};
+        for_each_entry<Group>(water, first, [&](int entry) {
+            const Lane other = Group::gather_one(water.impulse, water.neighbour + entry);
+            sum += (own + other) * get3<Group>(water.gradient, entry);
+        });
+        const Lane inverse_mass = Group::get(water.inverse_mass + first);
+        const Vec3<Lane> v = get3<Group>(water.velocity, first) - inverse_mass * sum;
+        put3<Group>(water.velocity, first, v);
+        Group::put_quadruples(water.packed_velocity + 4 * first, {v.x, v.y, v.z, inverse_mass});
+    });
+}
+
+template <class Group, class Real>
+WaterKernels<Real> kernels_by() {
+    return {&pack<Group>,          &compute_moments<Group>, &compute_gradients<Group>,
+            &add_viscosity<Group>, &compute_impulse<Group>, &apply_impulse<Group>};
+}
+
+}  // namespace
+
+template <class Real>
+WaterKernels<Real> scalar_water_kernels() {
+    return kernels_by<Single<Real>, Real>();
+}
+template <class Real>
+WaterKernels<Real> water_kernels() {
+    return kernels_by<Vector<Real>, Real>();
+}
+
+template WaterKernels<float> scalar_water_kernels();
+template WaterKernels<double> scalar_water_kernels();
+template WaterKernels<float> water_kernels();
+template WaterKernels<double> water_kernels();
+
+}  // namespace natator::cpu::NATATOR_ISA

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+
+#include "../kernel_table.h"
+
+namespace natator::cpu {
+
+/// What the kernels of scheme `dfsph` read and write, by slot. Slots of all particles come first, in blocks; behind
+/// them are their mirror images, which have no rows of their own.
+template <class Real>
+struct WaterView {
+    int first_block, end_block;     ///< the blocks to work on
+    const int* row_begin;           ///< by block
+    const std::int32_t* neighbour;  ///< rows of 16 slots
+    int far_slot;                   ///< what unused entries of the rows hold
+
+    Real inverse_radius, kernel_scale, slope_scale;  ///< see physics::WendlandKernel
+    Real at_spacing;                                 ///< 1 / W at the rest spacing
+    Real own_value;                                  ///< W(0)
+    Real softening;                                  ///< of r^2 in the viscosity
+    Real wet;                                        ///< density above which a particle is held incompressible
+    Real relaxation;                                 ///< of the Jacobi passes
+
+    const Real* position[3];
+    const Real* volume;
+    const Real* inverse_mass;
+    Real* velocity[3];
+    Real* density;
+    Real* correction[6];    ///< L_i: xx, yy, zz, xy, xz, yz
+    Real* crowding[3];      ///< where neighbours crowd, 1/length
+    Real* fastest_square;   ///< largest |v_j - v_i|^2
+    Real* response;         ///< see physics::ResponseSums
+    Real* target;           ///< rate of expansion that a solve goes for, times V_i
+    Real* impulse;          ///< pressure impulse of one pass
+    Real* impulse_sum;      ///< of the substep so far
+
+    // By slot, four at a time, also for images: what neighbours gather.
+    Real* packed;             ///< position and volume
+    Real* packed_velocity;    ///< velocity and inverse mass
+    Real* packed_correction;  ///< L: xx, yy, zz, xy
+    Real* packed_shear;       ///< L: xz, yz
+
+    Real* gradient[3];  ///< G_ij by entry of the rows
+};
+
+/// Each particle's sums are computed apart, so blocks may be worked on side by side.
+template <class Real>
+struct WaterKernels {
+    /// Lays positions with volumes, and velocities with inverse masses, out for the rest.
+    void (*pack)(const WaterView<Real>& water);
+    /// Density, correction (also laid out), crowding, fastest_square.
+    void (*compute_moments)(const WaterView<Real>& water);
+    /// gradient and response.
+    void (*compute_gradients)(const WaterView<Real>& water);
+    /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was.
+    void (*add_viscosity)(const WaterView<Real>& water, Real strength);
+    /// impulse of a Jacobi pass: what takes a rate of expansion below its target there, never above; in impulse_sum too.
+    void (*compute_impulse)(const WaterView<Real>& water);
+    /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, also laid out.
+    void (*apply_impulse)(const WaterView<Real>& water);
+};
+
+NATATOR_DECLARE_KERNELS(WaterKernels, water_kernels)
+/// The same particle by particle.
+NATATOR_DECLARE_KERNELS(WaterKernels, scalar_water_kernels)
+
+}  // namespace natator::cpu
