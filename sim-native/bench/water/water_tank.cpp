@@ -20,8 +20,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting) {
     p.substeps = setting.solver.substeps;
     p.numIterations = setting.solver.iterations;
     p.fluidRestDistance = spacing;
-    p.solidRestDistance = 1.5 * spacing;
-    p.radius = (model.scheme == Scheme::dfsph ? 2.5 : 1.5) * spacing;
+    p.radius = p.solidRestDistance = 1.5 * spacing;
     p.collisionDistance = spacing / 2;
     p.viscosity = p.damping = p.dynamicFriction = p.staticFriction = p.particleFriction = 0;
     const FluidBlock block{.count = count,

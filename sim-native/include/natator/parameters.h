@@ -54,6 +54,7 @@ struct SolverParameters {
     double cohesion = 0.0;
     double surfaceTension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
     double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s; not in scheme `dfsph`
+    double kernelSupport = 2.5;         ///< of the water in scheme `dfsph`, in rest distances of the fluid, [2, 4]
     double kinematicViscosity = 0.0;    ///< of the water in scheme `dfsph`, length^2/s, >= 0
     double vorticityConfinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
     double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density

@@ -33,7 +33,7 @@ std::string build_id() {
 }
 
 void add_parameters(ByteWriter& key, const SolverParameters& p) {
-    static_assert(sizeof(SolverParameters) == 256, "a parameter was added or removed: list it here");
+    static_assert(sizeof(SolverParameters) == 264, "a parameter was added or removed: list it here");
     for (const int value : {p.substeps, p.numIterations, p.maxNeighborsPerParticle}) key.add(value);
     key.add(p.gravity);
     for (const double value : {p.radius,
@@ -53,6 +53,7 @@ void add_parameters(ByteWriter& key, const SolverParameters& p) {
                                p.cohesion,
                                p.surfaceTension,
                                p.viscosity,
+                               p.kernelSupport,
                                p.kinematicViscosity,
                                p.vorticityConfinement,
                                p.solidPressure,

@@ -36,6 +36,7 @@ const std::vector<Field<SolverParameters>>& solver_fields() {
         {"cohesion", &P::cohesion, {0, 1000}},
         {"surfaceTension", &P::surfaceTension, {0, 10000, false, "length/s^2"}},
         {"viscosity", &P::viscosity, {0, 10000, false, "1/s"}},
+        {"kernelSupport", &P::kernelSupport, {2, 4, false, "rest distances of the fluid"}},
         {"kinematicViscosity", &P::kinematicViscosity, {0, 1000, false, "length^2/s"}},
         {"vorticityConfinement", &P::vorticityConfinement, {0, 1000, false, "length/s"}},
         {"solidPressure", &P::solidPressure, {0, 100}},

@@ -14,30 +14,28 @@ void DfsphStages<Real>::predict() {
     auto& ws = this->ws_;
     const Real held = std::min(static_cast<Real>(least_wall_distance * this->model_.parameters.fluidRestDistance),
                                this->constants_.collision_distance);
-    const auto before_planes = [&](Vec3<Real> x, Real distance) {
-        for (const Plane& plane : this->model_.planes) {
-            const physics::PlaneSurface<Real> surface{vec3<Real>(plane.normal.template cast<Real>()),
-                                                      static_cast<Real>(plane.offset)};
-            x = put_before(surface, distance, x);
-        }
-        return x;
-    };
-    for (int i = 0; i < ws.particles; ++i)
-        if (this->inverse_mass_[i] > 0)
-            this->state_->position[i] =
-                eigen(before_planes(vec3(this->state_->position[i]),
-                                    this->model_.is_fluid(i) ? held : this->constants_.collision_distance));
+    std::vector<physics::PlaneSurface<Real>> surfaces;
+    for (const Plane& plane : this->model_.planes)
+        surfaces.push_back({vec3<Real>(plane.normal.template cast<Real>()), static_cast<Real>(plane.offset)});
 
+    for (int i = 0; i < ws.particles; ++i) {
+        if (!(this->inverse_mass_[i] > 0)) continue;
+        const Real distance = this->model_.is_fluid(i) ? held : this->constants_.collision_distance;
+        for (const auto& surface : surfaces)
+            this->state_->position[i] = eigen(put_before(surface, distance, vec3(this->state_->position[i])));
+    }
     water_.solve(*this->state_, this->h_, *this->team_);
     for (int i = 0; i < ws.particles; ++i) {
-        const Vec3<Real> start = vec3(this->state_->position[i]);
         Vec3<Real> v = water_.velocity(i);
         if (this->plan_.clamp_speed) v = clamped(v, this->constants_.max_speed);
-        Vec3<Real> x = start + this->h_ * v + water_.shift(i);
-        if (this->model_.is_fluid(i)) {
-            const Vec3<Real> put = before_planes(x, held);
-            v += 1 / this->h_ * (put - x);
-            x = put;
+        Vec3<Real> x = vec3(this->state_->position[i]) + this->h_ * v + water_.shift(i);
+        if (this->model_.is_fluid(i) && this->inverse_mass_[i] > 0) {
+            for (const auto& surface : surfaces) {
+                const Real deeper = held - (dot(surface.normal, x) + surface.offset);
+                if (!(deeper > 0)) continue;
+                x += deeper * surface.normal;
+                v += std::max(-dot(surface.normal, v), Real(0)) * surface.normal;
+            }
         }
         ws.predicted_velocity[i] = eigen(v);
         ws.predicted_position[i] = eigen(x);

@@ -19,6 +19,10 @@ double lattice_volume(double spacing, double radius) {
 
 }  // namespace
 
+double support(const Model& model) {
+    return model.parameters.kernelSupport * model.parameters.fluidRestDistance;
+}
+
 double wendland(double r, double radius) {
     const double q = r / radius;
     if (q >= 1) return 0;
@@ -27,7 +31,7 @@ double wendland(double r, double radius) {
 
 std::vector<double> particle_volumes(const Model& model) {
     const SolverParameters& p = model.parameters;
-    const double whole = lattice_volume(p.fluidRestDistance, p.radius);
+    const double whole = lattice_volume(p.fluidRestDistance, support(model));
     std::vector<double> volumes(model.particles(), whole);
     std::map<std::uint32_t, std::vector<int>> groups;
     for (int i = 0; i < model.particles(); ++i)

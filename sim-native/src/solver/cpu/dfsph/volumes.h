@@ -10,6 +10,9 @@ namespace natator::cpu {
 /// 1; of a solid one the cube of the distance to the nearest other of its group at rest, but no more than that.
 std::vector<double> particle_volumes(const Model& model);
 
+/// R: where the kernel of the water ends, length.
+double support(const Model& model);
+
 /// W(r) of physics::WendlandKernel with this support, 1/length^3.
 double wendland(double r, double radius);
 
