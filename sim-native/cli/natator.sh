@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs the Java half of Natator: evolve, show, view ... Its jar is looked for in the source tree that this was built in, or
-# is named by NATATOR_JAR.
+# Runs the Java half of Natator: evolve, show, view ... Its jar is named by NATATOR_JAR, or is looked for where Natator is
+# installed, beside the scenes, or in the source tree that this was built in.
 self=$0
 while [ -L "$self" ]; do
     target=$(readlink "$self")
@@ -10,7 +10,15 @@ while [ -L "$self" ]; do
     esac
 done
 bin=$(cd "$(dirname "$self")" && pwd -P) || exit 1
-jar=${NATATOR_JAR:-$bin/../../../ga-java/target/natator.jar}
+installed=$bin/../share/natator/natator.jar
+if [ -n "${NATATOR_JAR:-}" ]; then
+    jar=$NATATOR_JAR
+elif [ -f "$installed" ]; then
+    jar=$installed
+    export NATATOR_SIM="${NATATOR_SIM:-$bin/natator-sim}"
+else
+    jar=$bin/../../../ga-java/target/natator.jar
+fi
 
 if [ ! -f "$jar" ]; then
     if [ -n "${NATATOR_JAR:-}" ]; then

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/fluid_block.h"
-#include "solver/gpu_solver.h"
+#include "natator/gpu_solver.h"
 
 namespace natator::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 namespace natator {
 
-class StartCache;
+class SettledStateCache;
 
 /// Wall time by stage of a step, see solver/step.h.
 class StageProfile {
@@ -28,7 +28,7 @@ private:
 /// How a scene is run, without a say in what comes out.
 struct Execution {
     StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
-    const StartCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
+    const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
     int threads = 1;                     ///< for scenes of many thousand particles; small ones use one all the same
     bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };

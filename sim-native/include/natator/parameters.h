@@ -5,7 +5,7 @@
 
 namespace natator {
 
-/// Which update rule advances the particles (DESIGN: schemes).
+/// Which update rule advances the particles.
 enum class Scheme {
     flex,        ///< behaves as NVIDIA Flex 1.2.0 was measured to behave
     conserving,  ///< mass-splitting projection that keeps linear and angular momentum

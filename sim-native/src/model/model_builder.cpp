@@ -6,10 +6,10 @@
 
 #include "body.h"
 #include "fluid_block.h"
+#include "io/strict_json.h"
 #include "muscles.h"
 #include "natator/error.h"
 #include "natator/limits.h"
-#include "natator/strict_json.h"
 
 namespace natator {
 namespace {

@@ -165,7 +165,7 @@ __device__ void note_instability(const ModelView<Real>& model, Block& block, dou
             const bool finite = isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
             if (!finite) lowest = min(lowest, static_cast<int>(block.number()[s]));
         }
-        progress.stopped = static_cast<int>(Stopped::unstable);
+        progress.stopped = static_cast<int>(StopReason::unstable);
         progress.bad_particle = lowest;
         progress.bad_time = time;
     }
@@ -213,9 +213,9 @@ __device__ void end_frame(const BatchView<Real>& batch, int state, int update, B
     if (threadIdx.x == 0) {
         progress.frames = update + 1;
         if (touches)
-            progress.stopped = static_cast<int>(Stopped::touched_plane);
+            progress.stopped = static_cast<int>(StopReason::touched_plane);
         else if (physics::without_progress(path, update + 1, batch.no_progress_frames))
-            progress.stopped = static_cast<int>(Stopped::no_progress);
+            progress.stopped = static_cast<int>(StopReason::no_progress);
     }
     __syncthreads();
 }
