@@ -23,8 +23,10 @@ fi
 if [ ! -f "$jar" ]; then
     if [ -n "${NATATOR_JAR:-}" ]; then
         echo "natator: no jar $jar, which NATATOR_JAR names" >&2
-    else
+    elif [ -d "$bin/../../../ga-java" ]; then
         echo "natator: no jar $(cd "$bin/../../.." && pwd -P)/ga-java/target/natator.jar: build it there by mvn package -DskipTests, or name one by NATATOR_JAR" >&2
+    else
+        echo "natator: no jar $(dirname "$bin")/share/natator/natator.jar: build it by mvn package -DskipTests before cmake --install, or name one by NATATOR_JAR" >&2
     fi
     exit 1
 fi
