@@ -101,14 +101,14 @@ struct BlockStages {
         for_each(model.fluid, [&](int s) { measure_fluid(model, block, s); });
         for_each(model.fluid, [&](int s) { push_fluid_by_forces<scheme>(model, block, s); });
     }
-    __device__ void adhere() {
-        for_each(model.particles, [&](int s) { cuda::adhere(model, block, s); });
+    __device__ void apply_adhesion() {
+        for_each(model.particles, [&](int s) { cuda::apply_adhesion(model, block, s); });
     }
-    __device__ void rebound() {
-        for_each(model.particles, [&](int s) { cuda::rebound(model, block, s); });
+    __device__ void apply_restitution() {
+        for_each(model.particles, [&](int s) { cuda::apply_restitution(model, block, s); });
     }
-    __device__ void hold_slow_particles() {
-        for_each(model.particles, [&](int s) { hold_if_slow(model, block, s); });
+    __device__ void apply_sleep() {
+        for_each(model.particles, [&](int s) { cuda::apply_sleep(model, block, s); });
     }
 
     /// Looks at all once more, if anything came behind the velocities.
