@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "model/fluid_block.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 #include "statistics.h"
 
 namespace natator::bench {

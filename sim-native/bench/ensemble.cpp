@@ -3,8 +3,8 @@
 #include <charconv>
 #include <map>
 
-#include "natator/protocol.h"
-#include "natator/scene_json.h"
+#include "natator/evaluate.h"
+#include "scene/scene_json.h"
 #include "statistics.h"
 
 namespace natator::bench {
@@ -38,9 +38,11 @@ void run_ensemble_study(const EnsembleStudy& study, ResultTable& table,
             for (const Setting& setting : study.settings) {
                 Row row = key_of(creature, setting, seed);
                 if (table.has(row)) continue;
-                const Perturbation perturbation{study.perturbation, static_cast<std::uint64_t>(seed)};
-                const Evaluation result = evaluate(scene_for(creature, setting, study.duration), thesis_gait(creature),
-                                                   setting.precision, perturbation);
+                const EvaluationOptions options{
+                    .precision = setting.precision,
+                    .perturbation = {study.perturbation, static_cast<std::uint64_t>(seed)}};
+                const Evaluation result =
+                    evaluate(scene_for(creature, setting, study.duration), thesis_gait(creature), options);
                 const bool stable = !result.instability;
                 row.insert(row.end(), {stable ? "ok" : "unstable", stable ? number_text(result.distance) : "",
                                        hash_text(result.hash)});

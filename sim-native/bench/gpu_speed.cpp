@@ -10,8 +10,8 @@
 #include "measure/fnv1a.h"
 #include "natator/batch.h"
 #include "natator/error.h"
+#include "natator/evaluate.h"
 #include "natator/model_builder.h"
-#include "natator/protocol.h"
 #include "speed.h"
 
 namespace natator::bench {
@@ -50,6 +50,10 @@ struct Measured {
     std::string hash;
 };
 
+BatchOptions options_of(const GpuSpeedStudy& study, Precision precision, BatchTimes& times) {
+    return {.precision = precision, .device = study.device, .whole_gpu = study.whole_gpu, .times = &times};
+}
+
 Measured measure(const GpuSpeedStudy& study, const Scene& scene, const std::vector<BatchMember>& members,
                  Precision precision) {
     using Clock = std::chrono::steady_clock;
@@ -58,7 +62,7 @@ Measured measure(const GpuSpeedStudy& study, const Scene& scene, const std::vect
         BatchTimes times;
         const auto start = Clock::now();
         const std::vector<Evaluation> evaluations =
-            evaluate_on_gpu(scene, members, precision, study.device, &times, study.whole_gpu);
+            evaluate_on_gpu(scene, members, options_of(study, precision, times));
         least.whole = std::min(least.whole, std::chrono::duration<double>(Clock::now() - start).count());
         least.device.kernel = std::min(least.device.kernel, times.kernel);
         least.device.settling = std::max(least.device.settling, times.settling);
@@ -139,7 +143,7 @@ void run_gpu_speed_study(const GpuSpeedStudy& study, ResultTable& table, ResultT
                     report(joined(table.rows().back(), " "));
                     StageProfile stages;
                     BatchTimes times{.profile = &stages};
-                    evaluate_on_gpu(scene, members, precision, study.device, &times, study.whole_gpu);
+                    evaluate_on_gpu(scene, members, options_of(study, precision, times));
                     for (const StageProfile::Entry& entry : stages.entries())
                         profile.add(joined_rows(key, {entry.stage, measured_text(entry.seconds),
                                                       measured_text(entry.seconds / stages.seconds())}));

@@ -1,6 +1,6 @@
 #include "precision.h"
 
-#include "natator/protocol.h"
+#include "natator/evaluate.h"
 #include "statistics.h"
 
 namespace natator::bench {

@@ -1,7 +1,7 @@
 #include <charconv>
 #include <map>
 
-#include "natator/protocol.h"
+#include "natator/evaluate.h"
 #include "precision.h"
 #include "statistics.h"
 

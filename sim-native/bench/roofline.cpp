@@ -9,11 +9,11 @@
 #include "bench_scenes.h"
 #include "evaluate/settle.h"
 #include "machine.h"
+#include "natator/evaluate.h"
 #include "natator/model_builder.h"
-#include "natator/protocol.h"
-#include "natator/scene_json.h"
 #include "natator/solver.h"
 #include "roof_kernels.h"
+#include "scene/scene_json.h"
 #include "solver/cpu/aligned.h"
 #include "solver/cpu/cell_grid.h"
 

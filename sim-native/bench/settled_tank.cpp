@@ -6,7 +6,7 @@
 
 #include "evaluate/settle.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 #include "statistics.h"
 
 namespace natator::bench {

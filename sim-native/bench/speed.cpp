@@ -10,9 +10,9 @@
 #include "bench_scenes.h"
 #include "machine.h"
 #include "natator/error.h"
+#include "natator/evaluate.h"
 #include "natator/model_builder.h"
-#include "natator/protocol.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 #include "statistics.h"
 
 namespace natator::bench {
@@ -100,8 +100,9 @@ void measure(TimedScene& one) {
     StageProfile profile;
     forget_peak_memory();
     const auto start = Clock::now();
-    const Evaluation result = evaluate(one.scene, speed_gait(one.scene), one.precision, {}, {},
-                                       {.profile = &profile, .threads = one.threads});
+    const Evaluation result =
+        evaluate(one.scene, speed_gait(one.scene),
+                 {.precision = one.precision, .execution = {.profile = &profile, .threads = one.threads}});
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (one.seconds.empty() || seconds < *std::min_element(one.seconds.begin(), one.seconds.end()))
         one.profile = profile;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "natator/error.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator::bench {
 namespace {

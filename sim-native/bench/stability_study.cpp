@@ -1,6 +1,6 @@
 #include <map>
 
-#include "natator/protocol.h"
+#include "natator/evaluate.h"
 #include "stability.h"
 
 namespace natator::bench {

@@ -9,8 +9,8 @@
 #include "bench_scenes.h"
 #include "machine.h"
 #include "natator/error.h"
-#include "natator/protocol.h"
-#include "natator/scene_json.h"
+#include "natator/evaluate.h"
+#include "scene/scene_json.h"
 
 namespace natator::bench {
 namespace {
@@ -90,7 +90,7 @@ double timed(const Case& one, const Execution& execution, std::string& hash) {
     using Clock = std::chrono::steady_clock;
     const Gait gait = one.scene.creature ? thesis_gait(1) : Gait{};
     const auto start = Clock::now();
-    const Evaluation result = evaluate(one.scene, gait, {}, {}, {}, execution);
+    const Evaluation result = evaluate(one.scene, gait, {.execution = execution});
     hash = hash_text(result.hash);
     return std::chrono::duration<double>(Clock::now() - start).count();
 }

@@ -1,7 +1,7 @@
 #include "validation.h"
 
 #include "natator/error.h"
-#include "natator/protocol.h"
+#include "natator/evaluate.h"
 #include "references.h"
 #include "settled_tank.h"
 

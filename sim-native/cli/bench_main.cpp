@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "natator/version.h"
 
 int main(int argc, char** argv) {
     using namespace natator::cli;

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "commands.h"
+#include "io/strict_json.h"
 #include "job.h"
-#include "natator/strict_json.h"
 
 namespace natator::cli {
 namespace {

@@ -3,14 +3,15 @@
 
 #include "commands.h"
 #include "commit.h"
+#include "io/strict_json.h"
 #include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/instruction_set.h"
 #include "natator/model_builder.h"
 #include "natator/plan.h"
-#include "natator/scene_json.h"
-#include "natator/start_cache.h"
-#include "natator/strict_json.h"
+#include "natator/settled_state_cache.h"
+#include "natator/version.h"
+#include "scene/scene_json.h"
 
 namespace natator::cli {
 namespace {
@@ -23,7 +24,7 @@ struct InfoOptions {
 };
 
 ordered_json describe_program() {
-    const std::optional<StartCache> starts = StartCache::of_user();
+    const std::optional<SettledStateCache> starts = SettledStateCache::of_user();
     ordered_json devices = ordered_json::array();
     for (const Device& device : cuda_devices())
         devices.push_back(std::to_string(device.index) + ": " + device.name + ", compute capability " +

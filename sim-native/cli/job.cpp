@@ -3,7 +3,7 @@
 #include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator::cli {
 namespace {
@@ -28,7 +28,7 @@ Job read_job(const nlohmann::json& value, const BackendChoice& backend) {
 }
 
 Execution ExecutionOptions::execution() {
-    if (!no_cache && !starts) starts = StartCache::of_user();
+    if (!no_cache && !starts) starts = SettledStateCache::of_user();
     return {.starts = starts ? &*starts : nullptr, .threads = threads, .skip = !no_skip};
 }
 
@@ -46,14 +46,19 @@ void add_execution_options(CLI::App* command, ExecutionOptions& options) {
 Evaluation evaluate_job(const Job& job, const Execution& execution) {
     const Request& request = job.request;
     if (!on_gpu(job.backend, job.scene))
-        return evaluate(job.scene, job.gait, request.precision, request.perturbation, {}, execution);
+        return evaluate(job.scene, job.gait,
+                        {.precision = request.precision, .perturbation = request.perturbation, .execution = execution});
     return evaluate_one_on_gpu(job.scene, {job.gait, request.perturbation}, request.precision, job.backend);
+}
+
+BatchOptions batch_options(Precision precision, const BackendChoice& backend) {
+    return {.precision = precision, .device = backend.device, .whole_gpu = backend.whole_gpu};
 }
 
 Evaluation evaluate_one_on_gpu(const Scene& scene, const BatchMember& member, Precision precision,
                                const BackendChoice& backend) {
     check_evaluation_cost(scene, build_model(scene));
-    return evaluate_on_gpu(scene, {member}, precision, backend.device, nullptr, backend.whole_gpu).front();
+    return evaluate_on_gpu(scene, {member}, batch_options(precision, backend)).front();
 }
 
 }  // namespace natator::cli

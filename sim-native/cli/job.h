@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "backend.h"
-#include "natator/protocol.h"
-#include "natator/start_cache.h"
+#include "io/protocol.h"
+#include "natator/settled_state_cache.h"
 
 namespace natator::cli {
 
@@ -24,7 +24,7 @@ Job read_job(const nlohmann::json& value, const BackendChoice& backend);
 struct ExecutionOptions {
     bool no_cache = false, no_skip = false;
     int threads = 1;
-    std::optional<StartCache> starts;  ///< filled by execution()
+    std::optional<SettledStateCache> starts;  ///< filled by execution()
 
     Execution execution();
 };
@@ -34,6 +34,9 @@ void add_execution_options(CLI::App* command, ExecutionOptions& options);
 
 /// Evaluates one job by itself. Throws what evaluate and evaluate_on_gpu do.
 Evaluation evaluate_job(const Job& job, const Execution& execution);
+
+/// How evaluate_on_gpu computes for a command.
+BatchOptions batch_options(Precision precision, const BackendChoice& backend);
 
 /// evaluate_on_gpu for one member, if it does not cost too much.
 Evaluation evaluate_one_on_gpu(const Scene& scene, const BatchMember& member, Precision precision,

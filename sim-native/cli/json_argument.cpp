@@ -1,6 +1,6 @@
 #include "json_argument.h"
 
-#include "natator/strict_json.h"
+#include "io/strict_json.h"
 
 namespace natator::cli {
 

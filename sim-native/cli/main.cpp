@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "commit.h"
 #include "natator/instruction_set.h"
+#include "natator/version.h"
 
 int main(int argc, char** argv) {
     using namespace natator::cli;

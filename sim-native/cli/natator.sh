@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs the Java half of Natator: evolve, show, view ... Its jar is looked for in the source tree that this was built in, or
-# is named by NATATOR_JAR.
+# Runs the Java half of Natator: evolve, show, view ... Its jar is named by NATATOR_JAR, or is looked for where Natator is
+# installed, beside the scenes, or in the source tree that this was built in.
 self=$0
 while [ -L "$self" ]; do
     target=$(readlink "$self")
@@ -10,13 +10,23 @@ while [ -L "$self" ]; do
     esac
 done
 bin=$(cd "$(dirname "$self")" && pwd -P) || exit 1
-jar=${NATATOR_JAR:-$bin/../../../ga-java/target/natator.jar}
+installed=$bin/../share/natator/natator.jar
+if [ -n "${NATATOR_JAR:-}" ]; then
+    jar=$NATATOR_JAR
+elif [ -f "$installed" ]; then
+    jar=$installed
+    export NATATOR_SIM="${NATATOR_SIM:-$bin/natator-sim}"
+else
+    jar=$bin/../../../ga-java/target/natator.jar
+fi
 
 if [ ! -f "$jar" ]; then
     if [ -n "${NATATOR_JAR:-}" ]; then
         echo "natator: no jar $jar, which NATATOR_JAR names" >&2
-    else
+    elif [ -d "$bin/../../../ga-java" ]; then
         echo "natator: no jar $(cd "$bin/../../.." && pwd -P)/ga-java/target/natator.jar: build it there by mvn package -DskipTests, or name one by NATATOR_JAR" >&2
+    else
+        echo "natator: no jar $(dirname "$bin")/share/natator/natator.jar: build it by mvn package -DskipTests before cmake --install, or name one by NATATOR_JAR" >&2
     fi
     exit 1
 fi

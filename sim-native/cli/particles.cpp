@@ -3,8 +3,8 @@
 
 #include "commands.h"
 #include "io/particle_experiment.h"
+#include "io/strict_json.h"
 #include "natator/error.h"
-#include "natator/strict_json.h"
 
 namespace natator::cli {
 namespace {

@@ -4,14 +4,14 @@
 #include <sstream>
 
 #include "commands.h"
+#include "io/protocol.h"
 #include "job.h"
 #include "json_argument.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/protocol.h"
-#include "natator/scene_json.h"
 #include "natator/snapshot.h"
 #include "natator/trajectory.h"
+#include "scene/scene_json.h"
 
 namespace natator::cli {
 namespace {
@@ -88,17 +88,19 @@ int run_scene(RunOptions& options) {
     const Precision precision =
         options.precision == "double" ? Precision::double_precision : Precision::single_precision;
 
+    EvaluationOptions evaluation{.precision = precision, .perturbation = options.perturbation};
     std::optional<TrajectoryCsv> trajectory;
-    FrameObserver on_frame;
     if (!options.trajectory.empty()) {
         using Rows = TrajectoryCsv::Rows;
         trajectory.emplace(options.trajectory, scene.creature ? scene.creature->slices : std::vector<Slice>{},
                            options.particles ? Rows::particles : Rows::slices);
-        on_frame = [&trajectory](double time, const auto& positions) { trajectory->add_frame(time, positions); };
+        evaluation.on_frame = [&trajectory](double time, const auto& positions) {
+            trajectory->add_frame(time, positions);
+        };
     }
 
     bool snapshot_taken = false;
-    SnapshotOrder snapshot;
+    SnapshotRequest& snapshot = evaluation.snapshot;
     if (!options.snapshot.empty()) {
         snapshot.at = options.snapshot_at.value_or(scene.duration);
         if (snapshot.at > scene.duration) {
@@ -112,11 +114,11 @@ int run_scene(RunOptions& options) {
     }
 
     const auto start = std::chrono::steady_clock::now();
-    const BackendChoice& backend = options.backend;
+    evaluation.execution = options.execution.execution();
     const Evaluation result =
         run_on_gpu(options, scene)
-            ? evaluate_one_on_gpu(scene, {gait, options.perturbation}, precision, backend)
-            : evaluate(scene, gait, precision, options.perturbation, on_frame, options.execution.execution(), snapshot);
+            ? evaluate_one_on_gpu(scene, {gait, options.perturbation}, precision, options.backend)
+            : evaluate(scene, gait, evaluation);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));

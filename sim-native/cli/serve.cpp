@@ -7,11 +7,11 @@
 #include <tuple>
 
 #include "commands.h"
+#include "io/strict_json.h"
 #include "job.h"
 #include "line_queue.h"
 #include "natator/error.h"
 #include "natator/limits.h"
-#include "natator/strict_json.h"
 
 namespace natator::cli {
 namespace {
@@ -62,8 +62,7 @@ void evaluate_group(const std::vector<SharedJob>& group) {
     for (const auto& [job, ids] : group) members.push_back({job.gait, job.request.perturbation});
     const Job& first = group.front().job;
     const auto together = [&first](const std::vector<BatchMember>& some) {
-        return evaluate_on_gpu(first.scene, some, first.request.precision, first.backend.device, nullptr,
-                               first.backend.whole_gpu);
+        return evaluate_on_gpu(first.scene, some, batch_options(first.request.precision, first.backend));
     };
     const std::vector<MemberResult> results = evaluate_members(first.scene, members, together);
     for (std::size_t k = 0; k < group.size(); ++k) answer(group[k], results[k]);

@@ -25,8 +25,10 @@ constexpr std::size_t most_waiting = 64;  // commands, beside as many that were 
 LiveSetup read_setup(const StreamOptions& options) {
     LiveSetup setup;
     setup.scene = options.scene;
-    if (!options.overrides.empty()) setup.overrides = read_json_argument(options.overrides, "--overrides");
-    if (!options.scheme.empty()) setup.overrides["scheme"] = options.scheme;
+    nlohmann::json overrides = nlohmann::json::object();
+    if (!options.overrides.empty()) overrides = read_json_argument(options.overrides, "--overrides");
+    if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
+    setup.overrides = overrides.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (!options.gait.empty()) setup.gait = parse_gait(read_json_argument(options.gait, "--gait"), "--gait");
     return setup;
 }

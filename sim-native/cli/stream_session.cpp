@@ -1,9 +1,9 @@
 #include "stream_session.h"
 
 #include "commands.h"
+#include "io/protocol.h"
+#include "io/strict_json.h"
 #include "natator/error.h"
-#include "natator/protocol.h"
-#include "natator/strict_json.h"
 
 namespace natator::cli {
 namespace {
@@ -108,7 +108,7 @@ void StreamSession<Real>::apply(const stream::NewGait& gait) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::Overrides& overrides) {
-    scene_changed(simulation_.merge_overrides(overrides.patch));
+    scene_changed(simulation_.merge_overrides(overrides.patch.dump()));
 }
 
 template <class Real>

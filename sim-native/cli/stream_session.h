@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "io/stream.h"
 #include "line_queue.h"
 #include "natator/live.h"
-#include "natator/stream.h"
 #include "pace.h"
 
 namespace natator::cli {

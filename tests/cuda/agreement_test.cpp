@@ -6,9 +6,9 @@
 #include "evaluate/settle.h"
 #include "gpu_test.h"
 #include "natator/evaluate.h"
+#include "natator/gpu_solver.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
-#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -85,7 +85,7 @@ std::vector<double> distances_on_cpu(const Scene& scene, const std::vector<Batch
         workers.emplace_back([&] {
             for (std::size_t k = next++; k < members.size(); k = next++)
                 distances[k] =
-                    evaluate(scene, members[k].gait, Precision::single_precision, members[k].perturbation).distance;
+                    evaluate(scene, members[k].gait, {.perturbation = members[k].perturbation}).distance;
         });
     for (std::thread& worker : workers) worker.join();
     return distances;
@@ -104,7 +104,7 @@ TEST_P(GpuEnsemble, MeanDistanceOverFourSecondsIsTheCpus) {
     for (int k = 0; k < 128; ++k) members.push_back({wave(scene), {1e-6, static_cast<std::uint64_t>(k + 1)}});
     std::vector<double> on_gpu;
     for (const Evaluation& evaluation : evaluate_on_gpu(scene, members)) {
-        EXPECT_EQ(evaluation.stopped, Stopped::completed);
+        EXPECT_EQ(evaluation.stopped, StopReason::completed);
         on_gpu.push_back(evaluation.distance);
     }
     members.resize(16);
@@ -126,9 +126,9 @@ TEST(GpuInstability, IsNamedAsTheCpuNamesIt) {
     const Gait gait = wave(scene);
     const Evaluation cpu = evaluate(scene, gait);
     const std::vector<Evaluation> gpu = evaluate_on_gpu(scene, {{gait, {}}, {gait, {}}});
-    ASSERT_EQ(cpu.stopped, Stopped::unstable);
+    ASSERT_EQ(cpu.stopped, StopReason::unstable);
     for (const Evaluation& one : gpu) {
-        ASSERT_EQ(one.stopped, Stopped::unstable);
+        ASSERT_EQ(one.stopped, StopReason::unstable);
         ASSERT_TRUE(one.instability);
         EXPECT_EQ(one.instability->stage, cpu.instability->stage);
         EXPECT_EQ(one.instability->particle, cpu.instability->particle);

@@ -22,7 +22,8 @@ protected:
     }
     std::vector<std::uint64_t> hashes(const std::vector<BatchMember>& batch) const {
         std::vector<std::uint64_t> result;
-        for (const Evaluation& one : evaluate_on_gpu(scene, batch, precision())) result.push_back(one.hash);
+        for (const Evaluation& one : evaluate_on_gpu(scene, batch, {.precision = precision()}))
+            result.push_back(one.hash);
         return result;
     }
     Scene scene = load_scene("thesis/creature-1");

@@ -1,7 +1,7 @@
 // The effects that the thesis leaves off: on the GPU as on the CPU, by a block and by the whole GPU.
 #include "gpu_test.h"
+#include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
-#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -39,7 +39,7 @@ TEST_P(GpuEffects, GiveWhatTheyGiveOnTheCpu) {
     const State<double> cpu = after_two_frames(scene, model, Solver<double>(model));
     EXPECT_GT(largest_distance(cpu, after_two_frames(scene, without, Solver<double>(without))), 1e-6);
     for (const GpuPath path : {GpuPath::block, GpuPath::whole_gpu}) {
-        const State<double> gpu = after_two_frames(scene, model, GpuSolver<double>(model, 0, path));
+        const State<double> gpu = after_two_frames(scene, model, GpuSolver<double>(model, {.path = path}));
         EXPECT_LE(largest_distance(cpu, gpu), 1e-9) << "path " << static_cast<int>(path);
         double velocities_apart = 0;
         for (std::size_t i = 0; i < cpu.velocity.size(); ++i)

@@ -4,8 +4,8 @@
 
 #include "natator/batch.h"
 #include "natator/gait.h"
-#include "natator/scene_json.h"
 #include "natator/state.h"
+#include "scene/scene_json.h"
 
 /// What the checks of the CUDA backend share. They skip themselves where there is no GPU.
 namespace natator::test {

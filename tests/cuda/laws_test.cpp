@@ -3,9 +3,9 @@
 #include "../native/fluid_column.h"
 #include "evaluate/settle.h"
 #include "gpu_test.h"
+#include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
-#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "../native/bare_particles.h"
 #include "gpu_test.h"
+#include "natator/gpu_solver.h"
 #include "natator/momentum.h"
-#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {

@@ -6,10 +6,10 @@
 #include "evaluate/settle.h"
 #include "gpu_test.h"
 #include "natator/evaluate.h"
+#include "natator/gpu_solver.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
-#include "solver/gpu_solver.h"
 
 namespace natator::test {
 namespace {
@@ -33,7 +33,7 @@ void expect_agreement(const Scene& scene, double substep_bound, double frame_bou
     const Model model = build_model(scene);
     const Gait gait = wave(scene);
     Solver<Real> cpu(model, {.threads = 2});
-    GpuSolver<Real> gpu(model, 0, GpuPath::whole_gpu);
+    GpuSolver<Real> gpu(model, {.path = GpuPath::whole_gpu});
     State<Real> on_cpu = initial_state<Real>(model);
     ASSERT_FALSE(settle(scene.settling, cpu, on_cpu));
     State<Real> on_gpu = on_cpu;
@@ -90,7 +90,7 @@ TEST_P(WholeGpu, ContactsWithoutListsAreTheSame) {
     const Scene scene = tank(1, GetParam());
     const Model model = build_model(scene);
     State<double> with = initial_state<double>(model), without = with;
-    GpuSolver<double> lists(model, 0, GpuPath::whole_gpu), search(model, 0, GpuPath::whole_gpu_search);
+    GpuSolver<double> lists(model, {.path = GpuPath::whole_gpu}), search(model, {.path = GpuPath::whole_gpu_search});
     for (int frame = 0; frame < 5; ++frame) {
         ASSERT_FALSE(lists.frame(with, wave(scene)));
         ASSERT_FALSE(search.frame(without, wave(scene)));
@@ -106,7 +106,7 @@ TEST_P(WholeGpu, FullListsHoldTheirMostAndKeepMomentum) {
     positions.resize(1500);  // not symmetric
     Model model = bare_model(GetParam(), positions, fluid_phase);
     model.parameters.maxAcceleration = 100;
-    GpuSolver<double> gpu(model, 0, GpuPath::whole_gpu);
+    GpuSolver<double> gpu(model, {.path = GpuPath::whole_gpu});
     State<double> state = initial_state<double>(model);
     ASSERT_FALSE(gpu.update(state, substep, 1));
     const std::vector<int> counts = gpu.neighbour_counts();
@@ -128,7 +128,7 @@ TEST_P(WholeGpu, AFlatBlockAgreesWithTheCpu) {
     Points positions = lattice(220, 160, 3, 0.09);
     Model model = bare_model(GetParam(), positions, fluid_phase);
     Solver<float> cpu(model, {.threads = 2});
-    GpuSolver<float> gpu(model, 0, GpuPath::whole_gpu);
+    GpuSolver<float> gpu(model, {.path = GpuPath::whole_gpu});
     State<float> on_cpu = initial_state<float>(model), on_gpu = on_cpu;
     ASSERT_FALSE(cpu.update(on_cpu, substep, 1));
     ASSERT_FALSE(gpu.update(on_gpu, substep, 1));
@@ -144,9 +144,9 @@ TEST(WholeGpuInstability, IsNamedAsTheCpuNamesIt) {
     scene.solver.relaxationFactor = 1e12;
     scene.duration = 0.1;
     const Evaluation cpu = evaluate(scene, wave(scene));
-    ASSERT_EQ(cpu.stopped, Stopped::unstable);
+    ASSERT_EQ(cpu.stopped, StopReason::unstable);
     for (const Evaluation& gpu : evaluate_on_gpu(scene, {{wave(scene), {}}, {wave(scene), {}}})) {
-        ASSERT_EQ(gpu.stopped, Stopped::unstable);
+        ASSERT_EQ(gpu.stopped, StopReason::unstable);
         ASSERT_TRUE(gpu.instability);
         EXPECT_EQ(gpu.instability->stage, cpu.instability->stage);
         EXPECT_EQ(gpu.instability->particle, cpu.instability->particle);

@@ -12,10 +12,10 @@
 #include "front_error.h"
 #include "natator/error.h"
 #include "natator/momentum.h"
-#include "natator/scene_json.h"
 #include "physical_bounds.h"
 #include "precision.h"
 #include "references.h"
+#include "scene/scene_json.h"
 #include "speed.h"
 #include "stability.h"
 #include "statistics.h"
@@ -185,10 +185,10 @@ TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
 }
 
 TEST(SpeedTest, ProfilingChangesNoBit) {
-    Scene scene = load_scene("thesis/creature-1", {{"duration", 0.02}});
+    Scene scene = load_scene("thesis/creature-1", nlohmann::json{{"duration", 0.02}});
     StageProfile profile;
     const Evaluation plain = evaluate(scene, thesis_gait(1));
-    const Evaluation profiled = evaluate(scene, thesis_gait(1), {}, {}, {}, {.profile = &profile});
+    const Evaluation profiled = evaluate(scene, thesis_gait(1), {.execution = {.profile = &profile}});
     EXPECT_EQ(plain.hash, profiled.hash);
     EXPECT_GT(profile.seconds(), 0);
     EXPECT_EQ(profile.entries().front().stage, "predict");

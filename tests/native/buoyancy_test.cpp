@@ -16,8 +16,8 @@
 #include "fluid_column.h"
 #include "model/cluster.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
 #include "natator/solver.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {

@@ -13,7 +13,7 @@
 #include "natator/limits.h"
 #include "natator/live.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 #include "test_name.h"
 
 namespace natator {
@@ -123,7 +123,7 @@ TEST(CostTest, AnEvaluationThatCostsTooMuchDoesNotBegin) {
     EXPECT_THROW(evaluate(scene, resting_gait(2)), InputError);
     LiveSetup setup;
     setup.scene = "thesis/creature-1-vacuum";
-    setup.overrides = {{"settling", {{"updates", 1000000}, {"substeps", 1000}}}};
+    setup.overrides = R"({"settling":{"updates":1000000,"substeps":1000}})";
     EXPECT_THROW(LiveSimulation<float>{setup}, InputError);
 }
 

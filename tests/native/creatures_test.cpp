@@ -5,7 +5,7 @@
 
 #include "natator/error.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 #include "test_name.h"
 
 namespace natator {

@@ -5,7 +5,7 @@
 
 #include "natator/batch.h"
 #include "natator/error.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "natator/error.h"
 #include "natator/evaluate.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {
@@ -27,8 +27,9 @@ const Gait creature_one{1.861, {0.973, 0.690}, {0, 0.648}, 1};
 
 /// Under gravity g along x a body falls g h^2 n (n + 1) / 2 in n substeps of h; no acceleration clamp acts on gravity.
 TEST(EvaluateTest, DistanceOfABodyInFreeFall) {
-    const Evaluation result = evaluate(block(R"({"solver":{"gravity":[10,0,0]}})"), {}, Precision::double_precision);
-    EXPECT_EQ(result.stopped, Stopped::completed);
+    const Evaluation result =
+        evaluate(block(R"({"solver":{"gravity":[10,0,0]}})"), {}, {.precision = Precision::double_precision});
+    EXPECT_EQ(result.stopped, StopReason::completed);
     EXPECT_EQ(result.frames, 30);
     EXPECT_NEAR(result.simulated, 0.5, 1e-12);
     EXPECT_NEAR(result.distance, 10.0 / (240 * 240) * 120 * 121 / 2, 1e-4);
@@ -38,24 +39,24 @@ TEST(EvaluateTest, DistanceOfABodyInFreeFall) {
 TEST(EvaluateTest, StopsAtTheEndOfTheFrameInWhichTheBodyTouchesAPlane) {
     const char* floor = R"({"solver":{"gravity":[0,-10,0]},"planes":[[0,1,0,0]],"stopping":{"planeContact":true}})";
     const Evaluation result = evaluate(block(floor), {});
-    EXPECT_EQ(result.stopped, Stopped::touched_plane);
+    EXPECT_EQ(result.stopped, StopReason::touched_plane);
     EXPECT_GE(result.simulated, 0.300);
     EXPECT_LE(result.simulated, 0.325);
     EXPECT_EQ(result.frames, static_cast<int>(std::lround(result.simulated * 60)));
 
     Scene ignoring = block(floor);
     ignoring.stopping.plane_contact = false;
-    EXPECT_EQ(evaluate(ignoring, {}).stopped, Stopped::completed);
+    EXPECT_EQ(evaluate(ignoring, {}).stopped, StopReason::completed);
 }
 
 TEST(EvaluateTest, StopsWhenTheWindowBroughtNoProgress) {
     const Evaluation resting = evaluate(block(R"({"stopping":{"noProgressAfter":0.2}})"), {});
-    EXPECT_EQ(resting.stopped, Stopped::no_progress);
+    EXPECT_EQ(resting.stopped, StopReason::no_progress);
     EXPECT_EQ(resting.frames, 12);
     EXPECT_NEAR(resting.distance, 0, 1e-6);
 
     const char* forward = R"({"stopping":{"noProgressAfter":0.2},"solver":{"gravity":[1,0,0]}})";
-    EXPECT_EQ(evaluate(block(forward), {}).stopped, Stopped::completed);
+    EXPECT_EQ(evaluate(block(forward), {}).stopped, StopReason::completed);
     const char* backward = R"({"stopping":{"noProgressAfter":0.2},"solver":{"gravity":[-1,0,0]}})";
     const Evaluation back = evaluate(block(backward), {});
     EXPECT_EQ(back.frames, 12);
@@ -67,8 +68,9 @@ TEST(EvaluateTest, SettlingZeroesVelocities) {
     const char* one_frame = R"({"duration":0.016666666666666666,"solver":{"gravity":[10,0,0]},
                                 "settling":{"updates":1000,"timeStep":1e-4,"substeps":1}})";
     std::vector<double> x;
-    evaluate(block(one_frame), {}, Precision::double_precision, {},
-             [&](double, const std::vector<Eigen::Vector3d>& body) { x.push_back(body[0].x()); });
+    evaluate(block(one_frame), {},
+             {.precision = Precision::double_precision,
+              .on_frame = [&](double, const std::vector<Eigen::Vector3d>& body) { x.push_back(body[0].x()); }});
     ASSERT_EQ(x.size(), 2u);
     EXPECT_NEAR(x[0], 0.6, 1e-3);                                    // would be 0.05 further if speeds were kept
     EXPECT_NEAR(x[1] - x[0], 10.0 / (240 * 240) * 4 * 5 / 2, 2e-5);  // from rest
@@ -76,11 +78,11 @@ TEST(EvaluateTest, SettlingZeroesVelocities) {
 
 TEST(EvaluateTest, TheObserverSeesTheStartAndEveryFrame) {
     std::vector<double> times;
-    const Evaluation result = evaluate(block(), {}, Precision::single_precision, {},
-                                       [&](double time, const std::vector<Eigen::Vector3d>& body) {
-                                           EXPECT_EQ(body.size(), 27u);
-                                           times.push_back(time);
-                                       });
+    const auto on_frame = [&](double time, const std::vector<Eigen::Vector3d>& body) {
+        EXPECT_EQ(body.size(), 27u);
+        times.push_back(time);
+    };
+    const Evaluation result = evaluate(block(), {}, {.on_frame = on_frame});
     ASSERT_EQ(times.size(), static_cast<std::size_t>(result.frames) + 1);
     for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], static_cast<double>(i) / 60, 1e-12);
 }
@@ -100,10 +102,11 @@ TEST(EvaluateTest, PerturbationsDependOnTheSeedAndAreSmall) {
     const Scene scene = block(R"({"settling":{"updates":0}})");
     const auto start = [&](const Perturbation& perturbation) {
         std::vector<Eigen::Vector3d> first;
-        evaluate(scene, {}, Precision::double_precision, perturbation,
-                 [&](double time, const std::vector<Eigen::Vector3d>& body) {
-                     if (time == 0) first = body;
-                 });
+        const auto on_frame = [&](double time, const std::vector<Eigen::Vector3d>& body) {
+            if (time == 0) first = body;
+        };
+        evaluate(scene, {},
+                 {.precision = Precision::double_precision, .perturbation = perturbation, .on_frame = on_frame});
         return first;
     };
     const auto plain = start({});
@@ -128,7 +131,7 @@ TEST(EvaluateTest, PerturbationsDependOnTheSeedAndAreSmall) {
 TEST(EvaluateTest, AnUnstableRunSaysWhere) {
     const Scene scene = load_scene("thesis/creature-1", json::parse(R"({"solver":{"relaxationMode":"global"}})"));
     const Evaluation result = evaluate(scene, creature_one);
-    EXPECT_EQ(result.stopped, Stopped::unstable);
+    EXPECT_EQ(result.stopped, StopReason::unstable);
     ASSERT_TRUE(result.instability);
     EXPECT_GE(result.instability->particle, 0);
     EXPECT_FALSE(result.instability->stage.empty());

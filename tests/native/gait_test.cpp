@@ -7,7 +7,7 @@
 #include "natator/actuate.h"
 #include "natator/error.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {

@@ -7,8 +7,8 @@
 #include "fluid_column.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
-#include "natator/scene_json.h"
 #include "natator/solver.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {

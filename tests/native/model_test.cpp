@@ -5,7 +5,7 @@
 #include <set>
 
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {

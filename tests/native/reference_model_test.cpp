@@ -8,7 +8,7 @@
 
 #include "natator/actuate.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 #include "test_name.h"
 
 namespace natator {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "natator/error.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {

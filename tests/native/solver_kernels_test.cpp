@@ -332,8 +332,8 @@ std::vector<float> what_planes_do(const PlaneKernels<float>& planes, bool displa
         const unsigned chosen = planes.near(slots, block, plane) & 0xbfffu;
         pushed += std::popcount(chosen);
         planes.add_density(pressure, block, chosen, plane);
-        planes.press(pressure, block, chosen, plane);
-        planes.leave(slots, block, chosen, plane);
+        planes.apply_pressure(pressure, block, chosen, plane);
+        planes.resolve_penetration(slots, block, chosen, plane);
     }
     EXPECT_GT(pushed, 10);
     std::vector<float> all(fluid.solid_density.begin(), fluid.solid_density.end());

@@ -4,7 +4,7 @@
 #include "bare_particles.h"
 #include "natator/evaluate.h"
 #include "natator/plan.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {
@@ -195,12 +195,13 @@ TEST_P(Parameters, RelaxationFactorZeroIsTheMeanOrNothing) {
 /// A whole scene with it stays finite, with every kind of constraint there is.
 TEST_P(Parameters, RelaxationFactorZeroIsAllowedInAScene) {
     for (const char* mode : {"local", "global"}) {
-        Scene scene = load_scene("thesis/creature-1", {{"duration", 0.05},
-                                                       {"solver", {{"relaxationFactor", 0}, {"relaxationMode", mode}}}});
+        Scene scene = load_scene(
+            "thesis/creature-1",
+            nlohmann::json{{"duration", 0.05}, {"solver", {{"relaxationFactor", 0}, {"relaxationMode", mode}}}});
         scene.scheme = GetParam();
         const Evaluation result = evaluate(scene, {1, {1, 1}, {0, 0.5}, 1});
         EXPECT_FALSE(result.instability) << mode;
-        EXPECT_TRUE(std::isfinite(result.distance) && std::isfinite(result.laws.density_error_mean)) << mode;
+        EXPECT_TRUE(std::isfinite(result.distance) && std::isfinite(result.errors.density_error_mean)) << mode;
     }
 }
 

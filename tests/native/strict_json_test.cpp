@@ -1,8 +1,8 @@
 // JSON that a lenient reader would misunderstand in silence.
 #include <gtest/gtest.h>
 
+#include "io/strict_json.h"
 #include "natator/error.h"
-#include "natator/strict_json.h"
 
 namespace natator {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "natator/evaluate.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 #include "solver/cpu/thread_team.h"
 
 namespace natator {
@@ -56,9 +56,9 @@ TEST(Threads, AnyNumberGivesTheSameBits) {
         const Gait gait{.frequency = 1.8, .amplitude = {0.9, 0.7}, .phase = {0, 0.6}};
         const Evaluation alone = evaluate(scene, gait);
         for (const int threads : {2, 3}) {
-            const Evaluation shared = evaluate(scene, gait, {}, {}, {}, {.threads = threads});
+            const Evaluation shared = evaluate(scene, gait, {.execution = {.threads = threads}});
             EXPECT_EQ(shared.hash, alone.hash) << scheme << " " << threads;
-            EXPECT_EQ(shared.laws.density_error_mean, alone.laws.density_error_mean);
+            EXPECT_EQ(shared.errors.density_error_mean, alone.errors.density_error_mean);
         }
     }
 }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "child_process.h"
+#include "io/protocol.h"
 #include "measure/fnv1a.h"
-#include "natator/protocol.h"
 #include "stream_client.h"
 
 /// Streams that tests begin with, and what they take from them.

@@ -1,7 +1,7 @@
 #include "water/water_study.h"
 
 #include "natator/error.h"
-#include "natator/protocol.h"
+#include "natator/evaluate.h"
 
 namespace natator::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
-#include "solver/gpu_solver.h"
+#include "natator/gpu_solver.h"
 
 namespace natator::bench {
 namespace {

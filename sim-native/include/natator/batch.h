@@ -10,7 +10,7 @@
 
 namespace natator {
 
-/// A GPU that this program can compute on.
+/// A GPU that this library can compute on.
 struct Device {
     int index = 0;
     std::string name;
@@ -19,7 +19,7 @@ struct Device {
     int multiprocessors = 0;
 };
 
-/// All of them; empty without a GPU, without its driver, or if this program was built without CUDA.
+/// All of them; empty without a GPU, without its driver, or if this library was built without CUDA.
 std::vector<Device> cuda_devices();
 
 /// Why the GPU's stages cannot do a scene, in one line; none if they can.
@@ -38,15 +38,22 @@ struct BatchTimes {
     StageProfile* profile = nullptr;  ///< gets the kernel's time by stage, if there is one
 };
 
-/// Evaluates gaits in one scene on a GPU, all at once, or one after another, each by the whole GPU, in scenes of more
-/// than 20 000 particles and with `whole_gpu`, which is the faster way to a single evaluation and has bits of its own;
-/// member k of the result belongs to member k. The result of a member is the same, bit by bit,
-/// whatever the others and their number. A batch that does not fit into the device's memory is computed in parts. Of an
-/// unstable member the CPU does the last substep again, to name its stage. Throws InputError when a gait does not fit
-/// the scene or the scene needs what the GPU's stages do not do, NoDevice without that GPU.
+/// How a batch is computed.
+struct BatchOptions {
+    Precision precision = Precision::single_precision;
+    int device = 0;               ///< number of the GPU, see cuda_devices
+    bool whole_gpu = false;       ///< one member after another, each by the whole GPU; has bits of its own
+    BatchTimes* times = nullptr;  ///< gets the batch's times added, if there is one
+};
+
+/// Evaluates gaits in one scene on a GPU: all at once, or, in scenes of more than 20 000 particles and with
+/// `options.whole_gpu`, one after another, which is the faster way to a single evaluation. Member k of the result
+/// belongs to member k. The result of a member is the same, bit by bit, whatever the others and their number. A batch
+/// that does not fit into the device's memory is computed in parts. Of an unstable member the CPU does the last substep
+/// again, to name its stage. Throws InputError when a gait does not fit the scene or the scene needs what the GPU's
+/// stages do not do, NoDevice without that GPU or if this library was built without CUDA.
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
-                                        Precision precision = Precision::single_precision, int device = 0,
-                                        BatchTimes* times = nullptr, bool whole_gpu = false);
+                                        const BatchOptions& options = {});
 
 /// What has become of a member: its evaluation, or one line that says why there is none.
 using MemberResult = std::variant<Evaluation, std::string>;

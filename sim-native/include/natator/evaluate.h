@@ -4,17 +4,29 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/scene.h"
 #include "natator/snapshot.h"
 #include "natator/solver.h"
-#include "natator/start_cache.h"
 
 namespace natator {
 
+/// What States are computed in: float, or double for reference runs.
 enum class Precision { single_precision, double_precision };
-enum class Stopped { completed, touched_plane, no_progress, unstable };
+
+/// Why an evaluation ended.
+enum class StopReason { completed, touched_plane, no_progress, unstable };
+
+/// As they are in requests and results: "flex", "conserving"; "float", "double"; "completed", "touched-plane",
+/// "no-progress", "unstable".
+const char* to_string(Scheme scheme);
+const char* to_string(Precision precision);
+const char* to_string(StopReason reason);
+/// 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
 
 /// Random shift of all starting positions, for ensembles of a chaotic system.
 struct Perturbation {
@@ -22,8 +34,8 @@ struct Perturbation {
     std::uint64_t seed = 1;
 };
 
-/// How well the final state keeps the laws of mechanics.
-struct LawFigures {
+/// How far the final state is from the laws of mechanics; all dimensionless.
+struct ConservationErrors {
     double linear_momentum = 0;   ///< |sum of m v| / sum of |m v| over the body; 0 for a body that internal forces move
     double angular_momentum = 0;  ///< the same for m r x v about the body's centre of mass
     double density_error_mean = 0;  ///< mean over the fluid of max(density - 1, 0), densities in units of rest density
@@ -32,23 +44,31 @@ struct LawFigures {
 
 /// What one evaluation of a gait in a scene gives.
 struct Evaluation {
-    Stopped stopped = Stopped::completed;
+    StopReason stopped = StopReason::completed;
     double distance = 0;   ///< change of mean x over the body's particles since time 0, length (thesis 2.6)
     double simulated = 0;  ///< s
     int frames = 0;
     std::uint64_t hash = 0;  ///< of the final positions and velocities
     std::optional<Instability> instability;
-    LawFigures laws;
+    ConservationErrors errors;
 };
 
 /// One body position per frame, for callers that want a trajectory.
 using FrameObserver = std::function<void(double time, const std::vector<Eigen::Vector3d>& body_positions)>;
 
+/// How an evaluation is run and what is seen of it. Only `precision` and `perturbation` have a say in what comes out.
+struct EvaluationOptions {
+    Precision precision = Precision::single_precision;
+    Perturbation perturbation{};
+    FrameObserver on_frame{};     ///< called for the settled start and after each frame; empty = not
+    SnapshotRequest snapshot{};
+    Execution execution{};        ///< what it points to must live until evaluate returns
+};
+
 /// Settles the scene, or takes its settled start from the cache, and runs it with a gait until its duration or an early
-/// stop. The result is the same, bit by bit, with and without it.
-/// Throws InputError when the gait does not fit the scene, or the evaluation would cost too much (cost.h).
-Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision = Precision::single_precision,
-                    const Perturbation& perturbation = {}, const FrameObserver& on_frame = {},
-                    const Execution& execution = {}, const SnapshotOrder& snapshot = {});
+/// stop. The result is the same, bit by bit, with and without the cache.
+/// Throws InputError when the gait does not fit the scene, or the evaluation would cost too much (cost.h), and what
+/// `on_frame` and `snapshot.take` throw.
+Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options = {});
 
 }  // namespace natator

@@ -5,7 +5,7 @@
 
 namespace natator {
 
-class StartCache;
+class SettledStateCache;
 
 /// Wall time by stage of a step, see solver/step.h.
 class StageProfile {
@@ -25,10 +25,10 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// How a scene is run, without a say in what comes out.
+/// How a scene is run, without a say in what comes out. What it points to must live as long as what it is given to.
 struct Execution {
     StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
-    const StartCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
+    const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
     int threads = 1;                     ///< for scenes of many thousand particles; small ones use one all the same
     bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };

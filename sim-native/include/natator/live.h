@@ -1,7 +1,7 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,9 +17,10 @@ namespace natator {
 
 /// What a live simulation runs.
 struct LiveSetup {
-    std::string scene;                                    ///< name or path of the scene
-    nlohmann::json overrides = nlohmann::json::object();  ///< merged into it (RFC 7386)
-    std::optional<Gait> gait;                             ///< none: muscles at rest
+    std::string scene;             ///< name or path of the scene, see load_scene
+    std::string overrides{};       ///< JSON merge patch (RFC 7386) on it, as text; empty changes nothing
+    std::optional<Gait> gait{};    ///< none: muscles at rest
+    std::filesystem::path data{};  ///< where the scene is looked up, as in SceneOptions
 };
 
 /// A scene that runs frame by frame and can be changed in between. Until a change each frame is, bit by bit, that of
@@ -37,10 +38,10 @@ public:
     void load(const LiveSetup& setup);
     /// Drives the muscles by another gait from the next frame on. Throws InputError when it does not fit.
     void set_gait(const Gait& gait);
-    /// Merges a patch over the overrides in force. Goes on from the present state if particles and constraints stay the
-    /// same, with other settings, masses, stiffnesses or planes; else, and after an instability, starts anew. True if
-    /// it did. Throws InputError.
-    bool merge_overrides(const nlohmann::json& patch);
+    /// Merges a JSON merge patch, given as text, over the overrides in force. Goes on from the present state if
+    /// particles and constraints stay the same, with other settings, masses, stiffnesses or planes; else, and after an
+    /// instability, starts anew. True if it did. Throws InputError.
+    bool merge_overrides(const std::string& patch);
     /// Goes back to the settled start.
     void reset();
     /// Advances by one time step of the scene. False if it became unstable; then there are no more frames until it

@@ -18,7 +18,7 @@ struct Snapshot {
 };
 
 /// A wish for one Snapshot. Taking it changes nothing in the run.
-struct SnapshotOrder {
+struct SnapshotRequest {
     double at = 0;  ///< s; taken after the first frame that ends at this time or later, of time 0 after the first frame
     std::function<void(const Model&, const Snapshot&)> take;  ///< empty = no snapshot; not called if the run ends before
 };

@@ -33,8 +33,10 @@ public:
 template <class Real>
 class Solver {
 public:
-    /// `execution.profile`, if there is one, must live as long as the Solver.
+    /// Keeps a reference to `model`, which must live, unchanged, as long as the Solver; so must `execution.profile`, if
+    /// there is one. A temporary Model is refused by the compiler.
     explicit Solver(const Model& model, const Execution& execution = {});
+    explicit Solver(const Model&& model, const Execution& execution = {}) = delete;
     ~Solver();
     Solver(Solver&&) noexcept;
     Solver& operator=(Solver&&) noexcept;

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <sstream>
 
+#include "io/strict_json.h"
 #include "natator/error.h"
 #include "natator/limits.h"
-#include "natator/strict_json.h"
 #include "solver/cpu/cell_grid.h"
 
 namespace natator {

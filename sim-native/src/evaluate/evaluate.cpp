@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "law_figures.h"
+#include "conservation_errors.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/measure.h"
@@ -35,41 +35,41 @@ Snapshot snapshot_of(const State<Real>& state, const std::vector<Real>& densitie
 
 /// Runs frame by frame to the duration or an early stop.
 template <class Real>
-Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const FrameObserver& on_frame,
-                       const Execution& execution, const SnapshotOrder& order) {
+Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const EvaluationOptions& options) {
+    const SnapshotRequest& snapshot = options.snapshot;
     const bool swims = !model.body.particles.empty();
     const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
     const double window = swims ? std::round(scene.stopping.no_progress_after / scene.time_step) : 0;
 
-    Solver<Real> solver(model, execution);
-    const StartCache* starts = execution.starts;
+    Solver<Real> solver(model, options.execution);
+    const SettledStateCache* starts = options.execution.starts;
     Evaluation result;
     if (frames == 0) starts = nullptr;  // the figures of a run without frames are those of settling
     State<Real> state = settled_start(model, scene.settling, solver, starts, result.instability);
-    observe(model.body, state, on_frame);
+    observe(model.body, state, options.on_frame);
 
-    bool snapshot_due = static_cast<bool>(order.take);
+    bool snapshot_due = static_cast<bool>(snapshot.take);
     std::vector<double> path{mean_x(model.body, state)};
-    while (!result.instability && result.stopped == Stopped::completed && result.frames < frames) {
+    while (!result.instability && result.stopped == StopReason::completed && result.frames < frames) {
         result.instability = solver.frame(state, gait);
         if (result.instability) break;
         state.time = ++result.frames * scene.time_step;  // free of summed rounding
         path.push_back(mean_x(model.body, state));
-        observe(model.body, state, on_frame);
-        if (snapshot_due && state.time > order.at - scene.time_step / 1000) {
+        observe(model.body, state, options.on_frame);
+        if (snapshot_due && state.time > snapshot.at - scene.time_step / 1000) {
             snapshot_due = false;
-            order.take(model, snapshot_of(state, solver.densities()));
+            snapshot.take(model, snapshot_of(state, solver.densities()));
         }
         if (scene.stopping.plane_contact && touches_plane(model, state)) {
-            result.stopped = Stopped::touched_plane;
+            result.stopped = StopReason::touched_plane;
         } else if (physics::without_progress(path.data(), result.frames, static_cast<long>(window))) {
-            result.stopped = Stopped::no_progress;
+            result.stopped = StopReason::no_progress;
         }
     }
     if (result.instability) {
-        result.stopped = Stopped::unstable;
+        result.stopped = StopReason::unstable;
     } else {
-        result.laws = law_figures(model, state, solver.densities());
+        result.errors = conservation_errors(model, state, solver.densities());
     }
     result.distance = path.back() - path.front();
     result.simulated = result.frames * scene.time_step;
@@ -79,16 +79,15 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
 
 }  // namespace
 
-Evaluation evaluate(const Scene& scene, const Gait& gait, Precision precision, const Perturbation& perturbation,
-                    const FrameObserver& on_frame, const Execution& execution, const SnapshotOrder& snapshot) {
+Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
     Model model = build_model(scene);
     check_evaluation_cost(scene, model);
-    perturb(perturbation, model);
-    Execution own = execution;
-    if (perturbation.amplitude != 0) own.starts = nullptr;  // such starts are as many as seeds
-    return precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, on_frame, own, snapshot)
-                                                    : evaluate_as<float>(scene, model, gait, on_frame, own, snapshot);
+    perturb(options.perturbation, model);
+    EvaluationOptions own = options;
+    if (options.perturbation.amplitude != 0) own.execution.starts = nullptr;  // such starts are as many as seeds
+    return options.precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, own)
+                                                            : evaluate_as<float>(scene, model, gait, own);
 }
 
 }  // namespace natator

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "natator/limits.h"
-#include "natator/start_cache.h"
+#include "natator/settled_state_cache.h"
 #include "settle.h"
 
 namespace natator {
@@ -11,8 +11,8 @@ namespace natator {
 /// The start of the scene at rest: from the cache if there is one and it is there, else settled and kept there. Sets
 /// `instability` if settling was unstable.
 template <class Real>
-State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver, const StartCache* starts,
-                          std::optional<Instability>& instability) {
+State<Real> settled_start(const Model& model, const Settling& settling, Solver<Real>& solver,
+                          const SettledStateCache* starts, std::optional<Instability>& instability) {
     if (settling.updates == 0 || model.particles() > limits::cached_particles) starts = nullptr;
     if (starts)
         if (auto found = starts->find<Real>(model, settling)) return *found;

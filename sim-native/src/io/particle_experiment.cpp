@@ -5,10 +5,10 @@
 #include <limits>
 #include <map>
 
+#include "io/strict_json.h"
 #include "model/cluster.h"
 #include "natator/error.h"
 #include "natator/limits.h"
-#include "natator/strict_json.h"
 
 namespace natator {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "natator/cost.h"
 #include "natator/error.h"
+#include "natator/gpu_solver.h"
 #include "particle_experiment.h"
-#include "solver/gpu_solver.h"
 
 namespace natator {
 namespace {
@@ -135,7 +135,7 @@ json run_particle_experiment(const json& source, const std::string& where, Preci
     check_experiment_cost(experiment, asked, where);
     const auto frames = [&](auto real) {
         using Real = decltype(real);
-        return gpu ? run_frames<Real>(experiment, asked, GpuSolver<Real>(experiment.model, *gpu))
+        return gpu ? run_frames<Real>(experiment, asked, GpuSolver<Real>(experiment.model, {.device = *gpu}))
                    : run_frames<Real>(experiment, asked, Solver<Real>(experiment.model));
     };
     json result = source;

@@ -1,5 +1,5 @@
+#include "io/protocol.h"
 #include "natator/error.h"
-#include "natator/protocol.h"
 #include "scene/field.h"
 
 namespace natator {

@@ -1,8 +1,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "io/strict_json.h"
 #include "natator/snapshot.h"
-#include "natator/strict_json.h"
 
 namespace natator {
 

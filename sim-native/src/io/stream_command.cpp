@@ -1,5 +1,5 @@
-#include "natator/protocol.h"
-#include "natator/stream.h"
+#include "io/protocol.h"
+#include "io/stream.h"
 #include "scene/field.h"
 
 namespace natator {
@@ -40,7 +40,7 @@ json read_overrides(const json& value) {
 LiveSetup read_setup(const json& value) {
     LiveSetup setup;
     fields::read(fields::required(value, place, "scene"), place.key("scene"), {}, setup.scene);
-    if (value.contains("overrides")) setup.overrides = read_overrides(value);
+    if (value.contains("overrides")) setup.overrides = read_overrides(value).dump();
     if (value.contains("gait")) setup.gait = parse_gait(value.at("gait"), "gait");
     return setup;
 }

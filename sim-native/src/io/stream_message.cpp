@@ -2,14 +2,16 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "evaluate/law_figures.h"
+#include "evaluate/conservation_errors.h"
+#include "io/protocol.h"
+#include "io/stream.h"
+#include "io/strict_json.h"
 #include "natator/actuate.h"
 #include "natator/instruction_set.h"
 #include "natator/measure.h"
 #include "natator/momentum.h"
-#include "natator/protocol.h"
-#include "natator/scene_json.h"
-#include "natator/stream.h"
+#include "natator/version.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {
@@ -127,17 +129,18 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     const Scene& scene = simulation.scene();
     const Model& model = simulation.model();
     const SolverParameters& solver = model.parameters;
+    const json overrides = setup.overrides.empty() ? json::object() : parse_json(setup.overrides, "overrides");
     ordered_json body;
     body["protocol"] = 2;
     body["program"] = {{"version", NATATOR_VERSION}, {"instructionSet", to_string(instruction_set())}};
     body["number"] = head.number;
     body["restarted"] = head.restarted;
     body["scene"] = setup.scene;
-    body["overrides"] = setup.overrides;
+    body["overrides"] = overrides;
     body["gait"] = gait_json(simulation.gait());
     body["scheme"] = to_string(model.scheme);
     body["precision"] = to_string(precision_of<Real>);
-    body["definition"] = scene_definition(setup.scene, setup.overrides);
+    body["definition"] = scene_definition(setup.scene, overrides, setup.data);
     body["timeStep"] = model.time_step;
     body["duration"] = scene.duration;
     body["radius"] = solver.radius;
@@ -170,7 +173,7 @@ std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHe
     const Model& model = simulation.model();
     const State<Real>& state = simulation.state();
     const std::vector<Real> densities = simulation.densities();
-    const LawFigures laws = law_figures(model, state, densities);
+    const ConservationErrors errors = conservation_errors(model, state, densities);
     const Eigen::Vector3d velocity = centre_velocity(model, state, model.body.particles);
     const std::uint32_t running = head.running ? flag_running : 0;
     const std::uint32_t touches = touches_plane(model, state) ? flag_touches_plane : 0;
@@ -185,8 +188,8 @@ std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHe
     message.add(head.wall_seconds);
     message.add(simulation.distance());
     message.add_numbers(velocity);
-    message.add_numbers(std::initializer_list<double>{laws.linear_momentum, laws.angular_momentum,
-                                                      laws.density_error_mean, laws.density_error_max});
+    message.add_numbers(std::initializer_list<double>{errors.linear_momentum, errors.angular_momentum,
+                                                      errors.density_error_mean, errors.density_error_max});
     message.add(std::uint32_t{0});
     message.add_numbers(drive(model, simulation.gait(), state.time));
     if (head.fields.position) message.add_vectors(state.position);

@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "natator/strict_json.h"
+#include "io/strict_json.h"
 #include "natator/trajectory.h"
 
 namespace natator {

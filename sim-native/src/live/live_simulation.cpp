@@ -1,13 +1,14 @@
 #include "evaluate/settled_start.h"
+#include "io/strict_json.h"
 #include "merge_patches.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "natator/live.h"
+#include "natator/load_scene.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
 #include "same_layout.h"
 
 namespace natator {
@@ -69,11 +70,11 @@ void LiveSimulation<Real>::set_gait(const Gait& gait) {
 }
 
 template <class Real>
-bool LiveSimulation<Real>::merge_overrides(const nlohmann::json& patch) {
+bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
     LiveSetup next = setup_;
-    next.overrides = merge_patches(std::move(next.overrides), patch);
-    if (next.overrides.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).size() >
-        limits::live_overrides_bytes)
+    const std::string before = next.overrides.empty() ? "{}" : next.overrides;
+    next.overrides = merge_patches(parse_json(before, "overrides"), parse_json(patch, "overrides")).dump();
+    if (next.overrides.size() > limits::live_overrides_bytes)
         throw InputError("overrides: all that are in force together are larger than 1 MiB; load the scene anew");
     std::unique_ptr<Run> run = make_run(next);
     check_gait(*next.gait, run->model.actuators);
@@ -130,7 +131,7 @@ std::vector<Real> LiveSimulation<Real>::densities() {
 
 template <class Real>
 std::unique_ptr<typename LiveSimulation<Real>::Run> LiveSimulation<Real>::make_run(const LiveSetup& setup) const {
-    return std::make_unique<Run>(load_scene(setup.scene, setup.overrides), execution_);
+    return std::make_unique<Run>(load_scene(setup.scene, {setup.overrides, setup.data}), execution_);
 }
 
 template <class Real>

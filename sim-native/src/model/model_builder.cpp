@@ -7,10 +7,10 @@
 #include "body.h"
 #include "disorder_fluid.h"
 #include "fluid_block.h"
+#include "io/strict_json.h"
 #include "muscles.h"
 #include "natator/error.h"
 #include "natator/limits.h"
-#include "natator/strict_json.h"
 
 namespace natator {
 namespace {

@@ -21,8 +21,8 @@ NATATOR_HD T distance_to(const PlaneSurface<R>& plane, const Vec3<T>& x) {
 /// Where a particle `depth` e > 0 too close goes: out by e along the normal, then friction takes its part of the
 /// displacement moved(to) since the substep's start. `from` and the result may be displacements.
 template <class T, class R, class Moved>
-NATATOR_HD Vec3<T> leave_plane(const Vec3<T>& from, T depth, const Vec3<R>& normal, const Friction<R>& rule,
-                               const Moved& moved) {
+NATATOR_HD Vec3<T> resolve_plane_penetration(const Vec3<T>& from, T depth, const Vec3<R>& normal,
+                                             const Friction<R>& rule, const Moved& moved) {
     const Vec3<T> to = from + depth * normal;
     return rule.on ? to - friction(moved(to), normal, depth, rule) : to;
 }

@@ -1,4 +1,4 @@
-#include "natator/strict_json.h"
+#include "io/strict_json.h"
 #include "readers.h"
 
 namespace natator::fields {

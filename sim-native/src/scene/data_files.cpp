@@ -1,11 +1,12 @@
 #include "data_files.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <set>
+#include <nlohmann/json.hpp>
 
+#include "io/strict_json.h"
 #include "natator/error.h"
-#include "natator/strict_json.h"
 
 namespace natator {
 namespace {
@@ -14,20 +15,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* suffix = ".json";
 
-std::vector<fs::path> data_directories() {
-    if (const char* chosen = std::getenv("NATATOR_DATA")) return {chosen};
-    std::vector<fs::path> directories;
-    std::error_code failed;
-    const fs::path executable = fs::read_symlink("/proc/self/exe", failed);
-    if (!failed) directories.push_back(executable.parent_path().parent_path() / "share" / "natator");
-    directories.emplace_back(NATATOR_SOURCE_DATA_DIR);
-    return directories;
+fs::path folder_of(const std::string& kind, const fs::path& data) {
+    return (data.empty() ? data_directory() : data) / kind;
 }
 
-std::string joined(const std::vector<std::string>& names) {
+/// What a name may be, for messages.
+std::string choices(const std::string& kind, const fs::path& data) {
     std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text.empty() ? "none found; set NATATOR_DATA" : text;
+    for (const std::string& name : data_file_names(kind, data)) text += (text.empty() ? "" : ", ") + name;
+    return text.empty() ? "none found in " + quoted(folder_of(kind, data).string()) + "; set NATATOR_DATA" : text;
 }
 
 /// Whether a name stays inside the data directory: words of letters, digits, '-' and '_' between single slashes.
@@ -44,7 +40,14 @@ bool is_plain_name(const std::string& name) {
 
 }  // namespace
 
-nlohmann::json read_data_file(const std::string& kind, const std::string& name) {
+fs::path data_directory() {
+    if (const char* const chosen = std::getenv("NATATOR_DATA")) return chosen;
+    std::error_code failed;
+    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+    return program.parent_path().parent_path() / "share" / "natator";
+}
+
+nlohmann::json read_data_file(const std::string& kind, const std::string& name, const fs::path& data) {
     if (name.ends_with(suffix)) {
         std::error_code failed;
         const fs::file_status status = fs::status(name, failed);
@@ -53,28 +56,25 @@ nlohmann::json read_data_file(const std::string& kind, const std::string& name) 
         return read_json_file(name);
     }
     if (is_plain_name(name)) {
-        for (const fs::path& directory : data_directories()) {
-            const fs::path path = directory / kind / (name + suffix);
-            std::error_code failed;
-            if (fs::is_regular_file(path, failed)) return read_json_file(path.string());
-        }
+        const fs::path path = folder_of(kind, data) / (name + suffix);
+        std::error_code failed;
+        if (fs::is_regular_file(path, failed)) return read_json_file(path.string());
     }
     const std::string one = kind.substr(0, kind.size() - 1);  // "scenes" -> "scene"
-    throw InputError("unknown " + one + " " + quoted(name) + ": must be one of " + joined(data_file_names(kind)) +
+    throw InputError("unknown " + one + " " + quoted(name) + ": must be one of " + choices(kind, data) +
                      ", or a path ending in .json");
 }
 
-std::vector<std::string> data_file_names(const std::string& kind) {
-    std::set<std::string> names;
-    for (const fs::path& directory : data_directories()) {
-        std::error_code failed;
-        const fs::path root = directory / kind;
-        for (fs::recursive_directory_iterator file(root, failed), end; !failed && file != end; file.increment(failed)) {
-            if (file->path().extension() != suffix) continue;
-            names.insert(file->path().lexically_relative(root).replace_extension().generic_string());
-        }
+std::vector<std::string> data_file_names(const std::string& kind, const fs::path& data) {
+    std::vector<std::string> names;
+    std::error_code failed;
+    const fs::path root = folder_of(kind, data);
+    for (fs::recursive_directory_iterator file(root, failed), end; !failed && file != end; file.increment(failed)) {
+        if (file->path().extension() != suffix) continue;
+        names.push_back(file->path().lexically_relative(root).replace_extension().generic_string());
     }
-    return {names.begin(), names.end()};
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 }  // namespace natator

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "io/strict_json.h"
 #include "natator/error.h"
-#include "natator/strict_json.h"
 
 namespace natator::fields {
 namespace {

@@ -1,8 +1,8 @@
 #include "data_files.h"
 #include "field.h"
+#include "io/strict_json.h"
 #include "natator/error.h"
-#include "natator/scene_json.h"
-#include "natator/strict_json.h"
+#include "scene_json.h"
 
 namespace natator {
 namespace {
@@ -13,9 +13,9 @@ using nlohmann::json;
 constexpr int max_bases = 8;
 
 /// A scene file merged onto the scene that its `base` names, and so on.
-json with_bases(const std::string& name, int level) {
+json with_bases(const std::string& name, const std::filesystem::path& data, int level) {
     const Place place{"scene " + quoted(name), ""};
-    json document = read_data_file("scenes", name);
+    json document = read_data_file("scenes", name, data);
     if (!document.is_object()) fields::refuse(place, document, "an object");
     if (!document.contains("base")) return document;
 
@@ -24,13 +24,13 @@ json with_bases(const std::string& name, int level) {
     if (!base.is_string()) fields::refuse(place.key("base"), base, "the name of a scene");
     if (level == max_bases)
         fields::refuse(place.key("base"), base, "part of a chain of at most 8 scenes without a loop");
-    json merged = with_bases(base.get<std::string>(), level + 1);
+    json merged = with_bases(base.get<std::string>(), data, level + 1);
     merged.merge_patch(document);
     return merged;
 }
 
 /// Merges a scene's `creature` onto the creature file that its `name` names, unless it brings its own `slices`.
-void resolve_creature(json& scene, const Place& place) {
+void resolve_creature(json& scene, const Place& place, const std::filesystem::path& data) {
     if (!scene.contains("creature") || !scene.at("creature").is_object()) return;
     json& creature = scene.at("creature");
     if (creature.contains("slices")) return;
@@ -38,7 +38,7 @@ void resolve_creature(json& scene, const Place& place) {
     if (!name.is_string()) fields::refuse(place.key("name"), name, "the name of a creature");
     json merged;
     try {
-        merged = read_data_file("creatures", name.get<std::string>());
+        merged = read_data_file("creatures", name.get<std::string>(), data);
     } catch (const InputError& error) {
         fields::refuse(place.key("name"), error.what());
     }
@@ -49,25 +49,31 @@ void resolve_creature(json& scene, const Place& place) {
 
 }  // namespace
 
-Scene load_scene(const std::string& name) {
-    return load_scene(name, json::object());
-}
-
-json scene_definition(const std::string& name, const json& overrides) {
+json scene_definition(const std::string& name, const json& overrides, const std::filesystem::path& data) {
     const Place place{"scene " + quoted(name), ""};
     if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
-    json document = with_bases(name, 0);
+    json document = with_bases(name, data, 0);
     document.merge_patch(overrides);
-    resolve_creature(document, place.key("creature"));
+    resolve_creature(document, place.key("creature"), data);
     return document;
 }
 
-Scene load_scene(const std::string& name, const json& overrides) {
-    return scene_from_json(scene_definition(name, overrides), name);
+Scene load_scene(const std::string& name, const json& overrides, const std::filesystem::path& data) {
+    return scene_from_json(scene_definition(name, overrides, data), name);
 }
 
-std::vector<std::string> scene_names() {
-    return data_file_names("scenes");
+Scene load_scene(const std::string& name, const SceneOptions& options) {
+    const std::string source = "scene " + quoted(name) + ": overrides";
+    return load_scene(name, options.overrides.empty() ? json::object() : parse_json(options.overrides, source),
+                      options.data);
+}
+
+Scene parse_scene(const std::string& text, const std::string& name) {
+    return scene_from_json(parse_json(text, "scene " + quoted(name)), name);
+}
+
+std::vector<std::string> scene_names(const std::filesystem::path& data) {
+    return data_file_names("scenes", data);
 }
 
 }  // namespace natator

@@ -1,6 +1,6 @@
-#include "natator/scene_json.h"
-#include "natator/strict_json.h"
+#include "io/strict_json.h"
 #include "readers.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {

@@ -1,13 +1,13 @@
 // What a build without CUDA answers.
 #include "natator/batch.h"
 #include "natator/error.h"
-#include "solver/gpu_solver.h"
+#include "natator/gpu_solver.h"
 
 namespace natator {
 namespace {
 
 [[noreturn]] void refuse() {
-    throw NoDevice("backend cuda: this natator-sim was built without CUDA; must be built with -DNATATOR_CUDA=ON");
+    throw NoDevice("backend cuda: natator was built without CUDA; must be built with -DNATATOR_CUDA=ON");
 }
 
 }  // namespace
@@ -20,15 +20,14 @@ std::optional<std::string> gpu_refusal(const Scene&) {
     return "built without CUDA";
 }
 
-std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMember>&, Precision, int, BatchTimes*,
-                                        bool) {
+std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMember>&, const BatchOptions&) {
     refuse();
 }
 
 template <class Real>
 class GpuSolver<Real>::Implementation {};
 template <class Real>
-GpuSolver<Real>::GpuSolver(const Model&, int, GpuPath) {
+GpuSolver<Real>::GpuSolver(const Model&, const GpuSolverOptions&) {
     refuse();
 }
 template <class Real>

@@ -26,7 +26,7 @@ Instability locate_instability(Stages& stages, const Model& model, double time) 
 
 /// Passes the stages that an observer sees on to it.
 template <class Real, class Stages>
-struct Tell {
+struct ObserverHook {
     StepObserver<Real>& observer;
     const Stages& stages;
     void operator()(Stage stage) const {
@@ -36,9 +36,9 @@ struct Tell {
 };
 
 /// Books the time since the last stage, or since its making, on the stage that has ended.
-class Timer {
+class ProfileHook {
 public:
-    explicit Timer(StageProfile& profile) : profile_(profile) {}
+    explicit ProfileHook(StageProfile& profile) : profile_(profile) {}
     void operator()(Stage stage) const {
         if (stage == Stage::iteration) return;
         const auto now = Clock::now();
@@ -53,7 +53,7 @@ private:
 };
 
 /// Does nothing behind a stage.
-struct Ignore {
+struct NoHook {
     void operator()(Stage) const {}
 };
 
@@ -139,9 +139,9 @@ private:
             const double end = start + time_step * (k + 1) / substeps;
             if (gait) actuate(model_, *gait, end, state);
             stages.begin_substep(state, h);
-            const bool finite = observer             ? advance(stages, Tell<Real, Stages>{*observer, stages})
-                                : execution_.profile ? advance(stages, Timer(*execution_.profile))
-                                                     : advance(stages, Ignore{});
+            const bool finite = observer             ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
+                                : execution_.profile ? advance(stages, ProfileHook(*execution_.profile))
+                                                     : advance(stages, NoHook{});
             if (!finite) return locate_instability(stages, model_, state.time);
             state.time = end;
             if (observer) observer->substep_ended(state.velocity);

@@ -110,15 +110,15 @@ NATATOR_STEP void apply_effects(Stages& stages, const Plan& plan, const AfterSta
         after(Stage::fluid_forces);
     }
     if (plan.adhesion) {
-        stages.adhere();
+        stages.apply_adhesion();
         after(Stage::adhesion);
     }
     if (plan.restitution) {
-        stages.rebound();
+        stages.apply_restitution();
         after(Stage::restitution);
     }
     if (plan.sleep) {
-        stages.hold_slow_particles();
+        stages.apply_sleep();
         after(Stage::sleep);
     }
 }

@@ -34,7 +34,7 @@ unsigned near_plane(const NearPlanes<Real>& slots, int block, const PlaneView<Re
 }
 
 template <class Group, bool displaced, class Real>
-void leave_plane_by(const NearPlanes<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
+void resolve_penetration_by(const NearPlanes<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
     using Lane = typename Group::Lane;
     Real* const* const moving = displaced ? slots.displacement : slots.position;
     const PlaneSurface<Real> surface = surface_of(plane);
@@ -45,8 +45,8 @@ void leave_plane_by(const NearPlanes<Real>& slots, int block, unsigned chosen, c
         if constexpr (displaced) base = get3<Group>(slots.base, slot);
         const auto placed = [&](const Vec3<Lane>& at) { return displaced ? base + at : at; };
         const Lane depth = one * (plane.distance - distance_to(surface, placed(from)));
-        const Vec3<Lane> to = leave_plane(from, depth, surface.normal, rule,
-                                          [&](const Vec3<Lane>& at) { return placed(at) - start; });
+        const Vec3<Lane> to = resolve_plane_penetration(from, depth, surface.normal, rule,
+                                                        [&](const Vec3<Lane>& at) { return placed(at) - start; });
         const Vec3<Lane> now = select(depth > 0, to, from);
         put3<Group>(moving, slot, now);
         if constexpr (displaced) put3<Group>(slots.position, slot, base + now);
@@ -54,11 +54,11 @@ void leave_plane_by(const NearPlanes<Real>& slots, int block, unsigned chosen, c
 }
 
 template <class Group, class Real>
-void leave(const NearPlanes<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
+void resolve_penetration(const NearPlanes<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
     if (slots.base[0])
-        leave_plane_by<Group, true>(slots, block, chosen, plane);
+        resolve_penetration_by<Group, true>(slots, block, chosen, plane);
     else
-        leave_plane_by<Group, false>(slots, block, chosen, plane);
+        resolve_penetration_by<Group, false>(slots, block, chosen, plane);
 }
 
 /// 1 - q of particles, between 0 and 1; 0 where not chosen.
@@ -82,7 +82,7 @@ void add_density(const PlanePressure<Real>& slots, int block, unsigned chosen, c
 }
 
 template <class Group, class Real>
-void press(const PlanePressure<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
+void apply_pressure(const PlanePressure<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
     using Lane = typename Group::Lane;
     const PlaneSurface<Real> surface = surface_of(plane);
     for_each_chosen<Group>(block, chosen, [&](int slot, Lane one) {
@@ -95,7 +95,8 @@ void press(const PlanePressure<Real>& slots, int block, unsigned chosen, const P
 
 template <class Group, class Real>
 PlaneKernels<Real> kernels_by() {
-    return {&near_plane<Real>, &leave<Group, Real>, &add_density<Group, Real>, &press<Group, Real>};
+    return {&near_plane<Real>, &resolve_penetration<Group, Real>, &add_density<Group, Real>,
+            &apply_pressure<Group, Real>};
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ struct PlaneKernels {
     /// Bit per lane: is the particle within plane.distance of the plane?
     unsigned (*near)(const NearPlanes<Real>& slots, int block, const PlaneView<Real>& plane);
     /// Moves the chosen particles out of the plane.
-    void (*leave)(const NearPlanes<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane);
+    void (*resolve_penetration)(const NearPlanes<Real>& slots, int block, unsigned chosen,
+                                const PlaneView<Real>& plane);
     /// Adds the plane's part to the density of the chosen particles and to its gradient. Behind a plane the density
     /// goes on as in fluid at rest, else particles crowd at walls and floor and the pressure there is wrong: the part
     /// of the kernel beyond distance s = q R of a particle, integrated,
@@ -52,7 +53,7 @@ struct PlaneKernels {
     /// an idea of Koschier, Bender: Density Maps for Improved SPH Boundary Handling (2017), here in closed form.
     void (*add_density)(const PlanePressure<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane);
     /// The plane's part of the density constraints: Dx_i = w_i lambda_i grad_i C_i. Planes take up any momentum.
-    void (*press)(const PlanePressure<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane);
+    void (*apply_pressure)(const PlanePressure<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane);
 };
 
 NATATOR_DECLARE_KERNELS(PlaneKernels, plane_kernels)

@@ -71,9 +71,9 @@ public:
     void damp_contacts();
     void drag_free_surface();
     void apply_fluid_forces();
-    void adhere();
-    void rebound();
-    void hold_slow_particles();
+    void apply_adhesion();
+    void apply_restitution();
+    void apply_sleep();
 
     /// False if the last substep's outcome is not finite.
     bool finite() const;
@@ -155,10 +155,10 @@ protected:
             work(block, chosen, view);
         }
     }
-    /// Moves what is near planes out of them, see physics::leave_plane.
-    void leave_planes(const NearPlanes<Real>& slots) {
+    /// Moves what is near planes out of them, see physics::resolve_plane_penetration.
+    void resolve_plane_penetrations(const NearPlanes<Real>& slots) {
         for_each_plane_group(ws_.all_blocks(), [&](int block, unsigned chosen, const PlaneView<Real>& plane) {
-            plane_kernels_->leave(slots, block, chosen, plane);
+            plane_kernels_->resolve_penetration(slots, block, chosen, plane);
         });
     }
     /// Densities of the fluid by particle as the last density stage left them; 0 for solids and infinite masses.

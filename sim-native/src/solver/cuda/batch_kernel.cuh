@@ -7,7 +7,7 @@ namespace natator::cuda {
 
 /// What a State carries from frame to frame beside its particles.
 struct Progress {
-    int stopped = -1;  ///< a value of Stopped, or -1 while it runs
+    int stopped = -1;  ///< a value of StopReason, or -1 while it runs
     int frames = 0;
     int bad_particle = 0;  ///< of an unstable one: device number
     double bad_time = 0;   ///< start of the substep that made it

@@ -176,8 +176,8 @@ __device__ void solve_planes_of(const ModelView<Real>& model, Block& block, int 
             start = xyz(block.start()[s]);
             moved = true;
         }
-        displacement = leave_plane(displacement, depth, plane.normal, plane_friction(model),
-                                   [&](const Vec3<Real>& to) { return base + to - start; });
+        displacement = resolve_plane_penetration(displacement, depth, plane.normal, plane_friction(model),
+                                                 [&](const Vec3<Real>& to) { return base + to - start; });
         x = base + displacement;
     });
     if (!moved) return;

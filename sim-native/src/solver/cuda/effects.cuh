@@ -123,7 +123,7 @@ __device__ void push_fluid_by_forces(const ModelView<Real>& model, const Block& 
 
 /// Adhesion, restitution and sleep of slot s, in this order.
 template <class Real, class Block>
-__device__ void adhere(const ModelView<Real>& model, const Block& block, int s) {
+__device__ void apply_adhesion(const ModelView<Real>& model, const Block& block, int s) {
     const Quad<Real> end = block.end_position()[s];
     if (!(end.w > 0)) return;
     Vec3<Real> x = xyz(end), v = velocity_of<Real>(block, s);
@@ -140,7 +140,7 @@ __device__ void adhere(const ModelView<Real>& model, const Block& block, int s) 
 }
 
 template <class Real, class Block>
-__device__ void rebound(const ModelView<Real>& model, const Block& block, int s) {
+__device__ void apply_restitution(const ModelView<Real>& model, const Block& block, int s) {
     const Quad<Real> end = block.end_position()[s];
     if (!(end.w > 0)) return;
     Vec3<Real> v = velocity_of<Real>(block, s);
@@ -154,7 +154,7 @@ __device__ void rebound(const ModelView<Real>& model, const Block& block, int s)
 }
 
 template <class Real, class Block>
-__device__ void hold_if_slow(const ModelView<Real>& model, const Block& block, int s) {
+__device__ void apply_sleep(const ModelView<Real>& model, const Block& block, int s) {
     if (!(block.end_position()[s].w > 0) || !(norm(velocity_of<Real>(block, s)) < model.sleep_threshold)) return;
     set_velocity(block, s, Vec3<Real>{});
     block.end_position()[s] = block.start()[s];

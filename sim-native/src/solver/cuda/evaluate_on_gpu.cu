@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "evaluate/perturb.h"
-#include "evaluate/start_key.h"
+#include "evaluate/settled_state_key.h"
 #include "evaluation.h"
 #include "large/evaluate_large.h"
 #include "natator/actuate.h"
@@ -95,7 +95,7 @@ private:
         static KeptStart<Real> kept;
         int device = 0;
         check(cudaGetDevice(&device), "current device");
-        const std::string key = std::to_string(device) + start_key(model_, settling, sizeof(Real));
+        const std::string key = std::to_string(device) + settled_state_key(model_, settling, sizeof(Real));
         const bool shared = states.size() == 1;
         const std::optional<State<Real>> found = shared ? kept.find(key) : std::nullopt;
         if (found) {
@@ -182,20 +182,21 @@ std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<
 }  // namespace cuda
 
 std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<BatchMember>& members,
-                                        Precision precision, int device, BatchTimes* times, bool whole_gpu) {
+                                        const BatchOptions& options) {
     for (const BatchMember& member : members) check_gait(member.gait, scene.creature ? scene.creature->actuators() : 0);
-    cuda::choose_device(device);
+    cuda::choose_device(options.device);
     if (members.empty()) return {};
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
-    if (whole_gpu || model.particles() > cuda::most_particles_of_a_block)
-        return precision == Precision::double_precision ? cuda::evaluate_large<double>(scene, model, members, times)
-                                                        : cuda::evaluate_large<float>(scene, model, members, times);
-    if (precision == Precision::double_precision) {
-        cuda::Batch<double> batch(scene, model, times);
+    const bool in_double = options.precision == Precision::double_precision;
+    if (options.whole_gpu || model.particles() > cuda::most_particles_of_a_block)
+        return in_double ? cuda::evaluate_large<double>(scene, model, members, options.times)
+                         : cuda::evaluate_large<float>(scene, model, members, options.times);
+    if (in_double) {
+        cuda::Batch<double> batch(scene, model, options.times);
         return cuda::evaluate_in_parts(batch, members);
     }
-    cuda::Batch<float> batch(scene, model, times);
+    cuda::Batch<float> batch(scene, model, options.times);
     return cuda::evaluate_in_parts(batch, members);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "batch_runner.h"
-#include "evaluate/law_figures.h"
+#include "evaluate/conservation_errors.h"
 #include "natator/measure.h"
 
 namespace natator::cuda {
@@ -17,8 +17,8 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
     evaluation.simulated = progress.frames * scene.time_step;
     evaluation.distance = progress.frames > 0 ? path[progress.frames] - path[0] : 0;
     evaluation.hash = state_hash(end);
-    if (progress.stopped >= 0) evaluation.stopped = static_cast<Stopped>(progress.stopped);
-    if (evaluation.stopped == Stopped::unstable) {
+    if (progress.stopped >= 0) evaluation.stopped = static_cast<StopReason>(progress.stopped);
+    if (evaluation.stopped == StopReason::unstable) {
         State<Real> before = end;
         before.time = progress.bad_time;
         const int bad = progress.bad_particle < model.particles() ? particle_of[progress.bad_particle] : 0;
@@ -31,7 +31,7 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
     std::vector<Real> density(model.particles(), Real(0));
     for (std::size_t number = 0; number < densities.size(); ++number)
         if (model.inverse_mass[particle_of[number]] > 0) density[particle_of[number]] = densities[number];
-    evaluation.laws = law_figures(model, end, density);
+    evaluation.errors = conservation_errors(model, end, density);
     return evaluation;
 }
 

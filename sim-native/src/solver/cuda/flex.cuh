@@ -141,8 +141,8 @@ __device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Block& bl
     for_each_near_plane(model, block, s, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {
         const Real depth = model.collision_distance - distance;
         if (depth > 0)
-            x = leave_plane(x, depth, plane.normal, plane_friction(model),
-                            [&](const Vec3<Real>& to) { return to - xyz(block.start()[s]); });
+            x = resolve_plane_penetration(x, depth, plane.normal, plane_friction(model),
+                                          [&](const Vec3<Real>& to) { return to - xyz(block.start()[s]); });
     });
     return x;
 }

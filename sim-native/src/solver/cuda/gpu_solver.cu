@@ -1,4 +1,4 @@
-#include "solver/gpu_solver.h"
+#include "natator/gpu_solver.h"
 
 #include "batch_runner.h"
 #include "large/evaluate_large.h"
@@ -148,7 +148,7 @@ private:
         state = runner_.download(state);
         cuda::Progress progress;
         if (!end.finite) {
-            progress.stopped = static_cast<int>(Stopped::unstable);
+            progress.stopped = static_cast<int>(StopReason::unstable);
             progress.bad_particle = end.bad_particle;
             progress.bad_time = state.time + end.bad_substep * time_step / substeps;
             return progress;
@@ -162,9 +162,10 @@ private:
 };
 
 template <class Real>
-GpuSolver<Real>::GpuSolver(const Model& model, int device, GpuPath path) {
-    cuda::choose_device(device);
+GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) {
+    cuda::choose_device(options.device);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
+    GpuPath path = options.path;
     if (path == GpuPath::by_size)
         path = model.particles() > cuda::most_particles_of_a_block ? GpuPath::whole_gpu : GpuPath::block;
     if (path == GpuPath::block && model.particles() > 65535)

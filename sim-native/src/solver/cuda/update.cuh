@@ -101,14 +101,14 @@ struct BlockStages {
         for_each(model.fluid, [&](int s) { measure_fluid(model, block, s); });
         for_each(model.fluid, [&](int s) { push_fluid_by_forces<scheme>(model, block, s); });
     }
-    __device__ void adhere() {
-        for_each(model.particles, [&](int s) { cuda::adhere(model, block, s); });
+    __device__ void apply_adhesion() {
+        for_each(model.particles, [&](int s) { cuda::apply_adhesion(model, block, s); });
     }
-    __device__ void rebound() {
-        for_each(model.particles, [&](int s) { cuda::rebound(model, block, s); });
+    __device__ void apply_restitution() {
+        for_each(model.particles, [&](int s) { cuda::apply_restitution(model, block, s); });
     }
-    __device__ void hold_slow_particles() {
-        for_each(model.particles, [&](int s) { hold_if_slow(model, block, s); });
+    __device__ void apply_sleep() {
+        for_each(model.particles, [&](int s) { cuda::apply_sleep(model, block, s); });
     }
 
     /// Looks at all once more, if anything came behind the velocities.
@@ -165,7 +165,7 @@ __device__ void note_instability(const ModelView<Real>& model, Block& block, dou
             const bool finite = isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
             if (!finite) lowest = min(lowest, static_cast<int>(block.number()[s]));
         }
-        progress.stopped = static_cast<int>(Stopped::unstable);
+        progress.stopped = static_cast<int>(StopReason::unstable);
         progress.bad_particle = lowest;
         progress.bad_time = time;
     }
@@ -213,9 +213,9 @@ __device__ void end_frame(const BatchView<Real>& batch, int state, int update, B
     if (threadIdx.x == 0) {
         progress.frames = update + 1;
         if (touches)
-            progress.stopped = static_cast<int>(Stopped::touched_plane);
+            progress.stopped = static_cast<int>(StopReason::touched_plane);
         else if (physics::without_progress(path, update + 1, batch.no_progress_frames))
-            progress.stopped = static_cast<int>(Stopped::no_progress);
+            progress.stopped = static_cast<int>(StopReason::no_progress);
     }
     __syncthreads();
 }

@@ -108,7 +108,7 @@ template <class Real>
 void ConservingStages<Real>::push_from_planes() {
     const PlanePressure<Real> fluid = plane_pressure();
     this->for_each_plane_group(ws_.blocks(), [&](int block, unsigned chosen, const PlaneView<Real>& plane) {
-        this->plane_kernels_->press(fluid, block, chosen, plane);
+        this->plane_kernels_->apply_pressure(fluid, block, chosen, plane);
     });
 }
 

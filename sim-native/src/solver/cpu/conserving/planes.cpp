@@ -12,7 +12,7 @@ void ConservingStages<Real>::solve_planes() {
     };
     lay(slots.base, base_);
     lay(slots.displacement, displacement_);
-    this->leave_planes(slots);
+    this->resolve_plane_penetrations(slots);
 }
 
 template void ConservingStages<float>::solve_planes();

@@ -8,7 +8,7 @@ namespace natator::cpu {
 
 /// Acts along the normal only.
 template <class Real>
-void Substep<Real>::adhere() {
+void Substep<Real>::apply_adhesion() {
     const Real most = static_cast<Real>(model_.parameters.adhesion) * h_ * h_;
     const Real touching = constants_.collision_distance + Real(physics::touching_tolerance) * constants_.radius;
     for (int plane = static_cast<int>(model_.planes.size()) - 1; plane >= 0; --plane) {
@@ -29,7 +29,7 @@ void Substep<Real>::adhere() {
 
 /// For particles that end at a plane, from the impact speed 2 |g| h on.
 template <class Real>
-void Substep<Real>::rebound() {
+void Substep<Real>::apply_restitution() {
     const Real restitution = static_cast<Real>(model_.parameters.restitution);
     const Real slowest = 2 * h_ * static_cast<Real>(model_.parameters.gravity.norm());
     const Real touching = constants_.collision_distance + Real(physics::touching_tolerance) * constants_.radius;
@@ -46,9 +46,9 @@ void Substep<Real>::rebound() {
     });
 }
 
-template void Substep<float>::adhere();
-template void Substep<double>::adhere();
-template void Substep<float>::rebound();
-template void Substep<double>::rebound();
+template void Substep<float>::apply_adhesion();
+template void Substep<double>::apply_adhesion();
+template void Substep<float>::apply_restitution();
+template void Substep<double>::apply_restitution();
 
 }  // namespace natator::cpu

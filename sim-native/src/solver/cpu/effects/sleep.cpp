@@ -5,7 +5,7 @@ namespace natator::cpu {
 /// A particle that ends the substep slower than sleepThreshold stays where it started and loses its velocity.
 /// (NVIDIA Flex was measured to hold its position too, but to report v - v_x in every component as its velocity.)
 template <class Real>
-void Substep<Real>::hold_slow_particles() {
+void Substep<Real>::apply_sleep() {
     const Real threshold = static_cast<Real>(model_.parameters.sleepThreshold);
     for (int i = 0; i < ws_.particles; ++i) {
         if (!(norm(new_velocity_[i]) < threshold)) continue;
@@ -14,7 +14,7 @@ void Substep<Real>::hold_slow_particles() {
     }
 }
 
-template void Substep<float>::hold_slow_particles();
-template void Substep<double>::hold_slow_particles();
+template void Substep<float>::apply_sleep();
+template void Substep<double>::apply_sleep();
 
 }  // namespace natator::cpu

@@ -5,7 +5,7 @@ namespace natator::cpu {
 /// Not pooled with other constraints.
 template <class Real>
 void FlexStages<Real>::solve_planes() {
-    this->leave_planes(this->near_planes());
+    this->resolve_plane_penetrations(this->near_planes());
 }
 
 template void FlexStages<float>::solve_planes();

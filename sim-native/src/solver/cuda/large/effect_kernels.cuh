@@ -6,7 +6,18 @@
 
 namespace natator::cuda {
 
-enum class Effect { count_overlaps, damp, apply_change, drag, measure_fluid, push_fluid, adhere, rebound, hold, check };
+enum class Effect {
+    count_overlaps,
+    damp,
+    apply_change,
+    drag,
+    measure_fluid,
+    push_fluid,
+    adhesion,
+    restitution,
+    sleep,
+    check
+};
 
 /// Does one of them to every slot.
 template <Effect effect, Scheme scheme, class Real>
@@ -21,9 +32,9 @@ __global__ void __launch_bounds__(large_threads)
     if constexpr (effect == Effect::drag) drag(model, slots, s);
     if constexpr (effect == Effect::measure_fluid) measure_fluid(model, slots, s);
     if constexpr (effect == Effect::push_fluid) push_fluid_by_forces<scheme>(model, slots, s);
-    if constexpr (effect == Effect::adhere) adhere(model, slots, s);
-    if constexpr (effect == Effect::rebound) rebound(model, slots, s);
-    if constexpr (effect == Effect::hold) hold_if_slow(model, slots, s);
+    if constexpr (effect == Effect::adhesion) apply_adhesion(model, slots, s);
+    if constexpr (effect == Effect::restitution) apply_restitution(model, slots, s);
+    if constexpr (effect == Effect::sleep) apply_sleep(model, slots, s);
     if constexpr (effect == Effect::check)
         note_if_bad(slots, s, xyz(slots.end_position()[s]), velocity_of<Real>(slots, s));
 }
@@ -48,9 +59,9 @@ struct LaunchEffects : LaunchStages<scheme, Real> {
         launch_effect<Effect::measure_fluid>();
         launch_effect<Effect::push_fluid>();
     }
-    void adhere() { launch_effect<Effect::adhere>(); }
-    void rebound() { launch_effect<Effect::rebound>(); }
-    void hold_slow_particles() { launch_effect<Effect::hold>(); }
+    void apply_adhesion() { launch_effect<Effect::adhesion>(); }
+    void apply_restitution() { launch_effect<Effect::restitution>(); }
+    void apply_sleep() { launch_effect<Effect::sleep>(); }
 };
 
 /// Launches a substep.

@@ -80,15 +80,15 @@ private:
         const bool swims = !model_.body.particles.empty();
         const long window = swims ? std::lround(scene_.stopping.no_progress_after / scene_.time_step) : 0;
         if (scene_.stopping.plane_contact && end.touches_plane)
-            progress.stopped = static_cast<int>(Stopped::touched_plane);
+            progress.stopped = static_cast<int>(StopReason::touched_plane);
         else if (physics::without_progress(path.data(), progress.frames, window))
-            progress.stopped = static_cast<int>(Stopped::no_progress);
+            progress.stopped = static_cast<int>(StopReason::no_progress);
     }
 
     static bool note_instability(const typename Runner::End& end, const typename Runner::Update& update,
                                  Progress& progress) {
         if (end.finite) return false;
-        progress.stopped = static_cast<int>(Stopped::unstable);
+        progress.stopped = static_cast<int>(StopReason::unstable);
         progress.bad_particle = end.bad_particle;
         progress.bad_time = update.start_time + end.bad_substep * update.time_step / update.substeps;
         return true;

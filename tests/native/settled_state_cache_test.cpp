@@ -1,4 +1,4 @@
-#include "natator/start_cache.h"
+#include "natator/settled_state_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "natator/evaluate.h"
 #include "natator/model_builder.h"
-#include "natator/scene_json.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {
@@ -22,23 +22,23 @@ Gait short_swimmer_gait() {
     return gait;
 }
 
-class StartCacheTest : public testing::Test {
+class SettledStateCacheTest : public testing::Test {
 protected:
-    StartCacheTest()
+    SettledStateCacheTest()
         : cache_(fs::path(testing::TempDir()) /
                  (std::string("natator-starts-") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
         fs::remove_all(cache_.folder());
     }
-    ~StartCacheTest() override { fs::remove_all(cache_.folder()); }
+    ~SettledStateCacheTest() override { fs::remove_all(cache_.folder()); }
 
     static Scene scene(const std::string& overrides = "{}") {
         nlohmann::json all = {{"duration", 0.05}};
         all.merge_patch(nlohmann::json::parse(overrides));
         return load_scene("bench/small-tank", all);
     }
-    std::uint64_t hash(const Scene& scene, const StartCache* starts,
+    std::uint64_t hash(const Scene& scene, const SettledStateCache* starts,
                        Precision precision = Precision::single_precision) {
-        return evaluate(scene, short_swimmer_gait(), precision, {}, {}, {.starts = starts}).hash;
+        return evaluate(scene, short_swimmer_gait(), {.precision = precision, .execution = {.starts = starts}}).hash;
     }
     std::size_t files() const {
         std::size_t count = 0;
@@ -48,10 +48,10 @@ protected:
     }
     fs::path only_file() const { return fs::directory_iterator(cache_.folder())->path(); }
 
-    StartCache cache_;
+    SettledStateCache cache_;
 };
 
-TEST_F(StartCacheTest, ResultsAreTheSameBitByBitWithAndWithout) {
+TEST_F(SettledStateCacheTest, ResultsAreTheSameBitByBitWithAndWithout) {
     for (const char* scheme : {R"({"scheme":"flex"})", R"({"scheme":"conserving"})"}) {
         for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
             const std::uint64_t settled = hash(scene(scheme), nullptr, precision);
@@ -62,7 +62,7 @@ TEST_F(StartCacheTest, ResultsAreTheSameBitByBitWithAndWithout) {
     EXPECT_EQ(files(), 4u);
 }
 
-TEST_F(StartCacheTest, TheSecondEvaluationReadsWhatTheFirstWrote) {
+TEST_F(SettledStateCacheTest, TheSecondEvaluationReadsWhatTheFirstWrote) {
     const Model model = build_model(scene());
     EXPECT_FALSE(cache_.find<float>(model, scene().settling));
     hash(scene(), &cache_);
@@ -74,7 +74,7 @@ TEST_F(StartCacheTest, TheSecondEvaluationReadsWhatTheFirstWrote) {
     EXPECT_EQ(found->time, 0);
 }
 
-TEST_F(StartCacheTest, AnythingThatSettlingDependsOnMakesAnotherStart) {
+TEST_F(SettledStateCacheTest, AnythingThatSettlingDependsOnMakesAnotherStart) {
     hash(scene(), &cache_);
     std::size_t expected = 1;
     for (const char* other : {R"({"solver":{"viscosity":7}})", R"({"solver":{"maxNeighborsPerParticle":95}})",
@@ -85,7 +85,7 @@ TEST_F(StartCacheTest, AnythingThatSettlingDependsOnMakesAnotherStart) {
     }
 }
 
-TEST_F(StartCacheTest, DamagedFilesAreSettledAnew) {
+TEST_F(SettledStateCacheTest, DamagedFilesAreSettledAnew) {
     const std::uint64_t settled = hash(scene(), &cache_);
     const fs::path file = only_file();
     const auto size = fs::file_size(file);
@@ -100,26 +100,27 @@ TEST_F(StartCacheTest, DamagedFilesAreSettledAnew) {
     EXPECT_EQ(hash(scene(), &cache_), settled);
 }
 
-TEST_F(StartCacheTest, AFolderThatCannotBeMadeChangesNothing) {
-    const StartCache nowhere("/dev/null/starts");
+TEST_F(SettledStateCacheTest, AFolderThatCannotBeMadeChangesNothing) {
+    const SettledStateCache nowhere("/dev/null/starts");
     EXPECT_EQ(hash(scene(), &nowhere), hash(scene(), nullptr));
 }
 
-TEST_F(StartCacheTest, ShiftedStartsAreNotKept) {
-    evaluate(scene(), short_swimmer_gait(), Precision::single_precision, {1e-4, 3}, {}, {.starts = &cache_});
+TEST_F(SettledStateCacheTest, ShiftedStartsAreNotKept) {
+    evaluate(scene(), short_swimmer_gait(), {.perturbation = {1e-4, 3}, .execution = {.starts = &cache_}});
     EXPECT_EQ(files(), 0u);
 }
 
-TEST_F(StartCacheTest, TheOldestFilesGiveWay) {
+TEST_F(SettledStateCacheTest, TheOldestFilesGiveWay) {
     Model model;
     model.position = {{0, 0, 0}};
     model.velocity = {{0, 0, 0}};
     model.inverse_mass = {1};
     model.phase = {1};
-    for (int updates = 1; updates <= StartCache::most_files + 5; ++updates)
+    for (int updates = 1; updates <= SettledStateCache::most_files + 5; ++updates)
         cache_.keep<float>(model, {.updates = updates, .time_step = 1e-4, .substeps = 1}, initial_state<float>(model));
-    EXPECT_EQ(files(), static_cast<std::size_t>(StartCache::most_files));
-    EXPECT_TRUE(cache_.find<float>(model, {.updates = StartCache::most_files + 5, .time_step = 1e-4, .substeps = 1}));
+    EXPECT_EQ(files(), static_cast<std::size_t>(SettledStateCache::most_files));
+    const Settling last{.updates = SettledStateCache::most_files + 5, .time_step = 1e-4, .substeps = 1};
+    EXPECT_TRUE(cache_.find<float>(model, last));
     EXPECT_FALSE(cache_.find<float>(model, {.updates = 1, .time_step = 1e-4, .substeps = 1}));
 }
 

@@ -9,6 +9,6 @@ namespace natator {
 
 /// All that the settled start of a model depends on, as bytes: the model but for its muscles, the settling, the number
 /// of bytes in a Real, the instruction set and the build of this program.
-std::string start_key(const Model& model, const Settling& settling, int real_bytes);
+std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes);
 
 }  // namespace natator

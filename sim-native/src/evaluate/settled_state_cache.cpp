@@ -1,4 +1,4 @@
-#include "natator/start_cache.h"
+#include "natator/settled_state_cache.h"
 
 #include <unistd.h>
 
@@ -13,7 +13,7 @@
 
 #include "byte_writer.h"
 #include "measure/fnv1a.h"
-#include "start_key.h"
+#include "settled_state_key.h"
 
 namespace natator {
 namespace {
@@ -92,25 +92,25 @@ void prune(const fs::path& folder, std::size_t most) {
 
 }  // namespace
 
-StartCache::StartCache(fs::path folder) : folder_(std::move(folder)) {}
+SettledStateCache::SettledStateCache(fs::path folder) : folder_(std::move(folder)) {}
 
-std::optional<StartCache> StartCache::of_user() {
+std::optional<SettledStateCache> SettledStateCache::of_user() {
     const auto variable = [](const char* name) -> std::optional<std::string> {
         const char* const value = std::getenv(name);
         return value ? std::optional<std::string>(value) : std::nullopt;
     };
     if (const auto own = variable("NATATOR_CACHE"))
-        return own->empty() ? std::nullopt : std::optional<StartCache>(StartCache(*own));
+        return own->empty() ? std::nullopt : std::optional<SettledStateCache>(SettledStateCache(*own));
     if (const auto shared = variable("XDG_CACHE_HOME"); shared && !shared->empty())
-        return StartCache(fs::path(*shared) / "natator");
+        return SettledStateCache(fs::path(*shared) / "natator");
     if (const auto home = variable("HOME"); home && !home->empty())
-        return StartCache(fs::path(*home) / ".cache" / "natator");
+        return SettledStateCache(fs::path(*home) / ".cache" / "natator");
     return std::nullopt;
 }
 
 template <class Real>
-std::optional<State<Real>> StartCache::find(const Model& model, const Settling& settling) const {
-    const std::string key = start_key(model, settling, sizeof(Real));
+std::optional<State<Real>> SettledStateCache::find(const Model& model, const Settling& settling) const {
+    const std::string key = settled_state_key(model, settling, sizeof(Real));
     std::ifstream file(file_for(folder_, key), std::ios::binary);
     if (!file) return std::nullopt;
     std::ostringstream content;
@@ -127,8 +127,8 @@ std::optional<State<Real>> StartCache::find(const Model& model, const Settling& 
 }
 
 template <class Real>
-void StartCache::keep(const Model& model, const Settling& settling, const State<Real>& settled) const {
-    const std::string key = start_key(model, settling, sizeof(Real));
+void SettledStateCache::keep(const Model& model, const Settling& settling, const State<Real>& settled) const {
+    const std::string key = settled_state_key(model, settling, sizeof(Real));
     std::string bytes = key + bytes_of(settled);
     const std::uint64_t hash = hash_of(bytes);
     bytes.append(reinterpret_cast<const char*>(&hash), sizeof hash);
@@ -147,9 +147,9 @@ void StartCache::keep(const Model& model, const Settling& settling, const State<
     prune(folder_, most_files);
 }
 
-template std::optional<State<float>> StartCache::find<float>(const Model&, const Settling&) const;
-template std::optional<State<double>> StartCache::find<double>(const Model&, const Settling&) const;
-template void StartCache::keep<float>(const Model&, const Settling&, const State<float>&) const;
-template void StartCache::keep<double>(const Model&, const Settling&, const State<double>&) const;
+template std::optional<State<float>> SettledStateCache::find<float>(const Model&, const Settling&) const;
+template std::optional<State<double>> SettledStateCache::find<double>(const Model&, const Settling&) const;
+template void SettledStateCache::keep<float>(const Model&, const Settling&, const State<float>&) const;
+template void SettledStateCache::keep<double>(const Model&, const Settling&, const State<double>&) const;
 
 }  // namespace natator

@@ -36,9 +36,4 @@ nlohmann::ordered_json result_json(const nlohmann::json& id, const Evaluation& e
 /// The result for a request that could not be carried out.
 nlohmann::ordered_json error_json(const nlohmann::json& id, const std::string& message);
 
-const char* to_string(Scheme scheme);
-const char* to_string(Precision precision);
-const char* to_string(Stopped stopped);
-std::string hash_text(std::uint64_t hash);  ///< 16 hexadecimal digits
-
 }  // namespace natator

@@ -13,12 +13,12 @@ namespace natator {
 /// A start is found by its whole content: all that settling depends on, with the precision, the instruction set and the
 /// build of the program, stands in the file and is compared byte by byte. Safe with several processes at once. The
 /// cache never fails: what cannot be read is not there, what cannot be written is not kept.
-class StartCache {
+class SettledStateCache {
 public:
-    explicit StartCache(std::filesystem::path folder);
+    explicit SettledStateCache(std::filesystem::path folder);
 
     /// In $NATATOR_CACHE, else $XDG_CACHE_HOME/natator, else $HOME/.cache/natator; none if that is empty or unset.
-    static std::optional<StartCache> of_user();
+    static std::optional<SettledStateCache> of_user();
 
     template <class Real>
     std::optional<State<Real>> find(const Model& model, const Settling& settling) const;

@@ -1,4 +1,4 @@
-#include "start_key.h"
+#include "settled_state_key.h"
 
 #include <link.h>
 
@@ -69,7 +69,7 @@ void add_parameters(ByteWriter& key, const SolverParameters& p) {
 
 }  // namespace
 
-std::string start_key(const Model& model, const Settling& settling, int real_bytes) {
+std::string settled_state_key(const Model& model, const Settling& settling, int real_bytes) {
     static const std::string id = build_id();
     ByteWriter key;
     key.add(id);

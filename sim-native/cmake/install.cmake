@@ -1,0 +1,24 @@
+# cmake --install: the library as a CMake package, the programs, and the data that they find beside themselves
+# (../share/natator of the program's folder), wherever the prefix is moved to.
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+set(NATATOR_DATA_DIR share/natator)
+set(NATATOR_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/natator)
+
+install(TARGETS natator EXPORT natatorTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/natator ${CMAKE_CURRENT_BINARY_DIR}/include/natator DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    FILES_MATCHING PATTERN "*.h")
+install(EXPORT natatorTargets NAMESPACE natator:: DESTINATION ${NATATOR_PACKAGE_DIR})
+configure_package_config_file(cmake/natatorConfig.cmake.in natatorConfig.cmake
+    INSTALL_DESTINATION ${NATATOR_PACKAGE_DIR} PATH_VARS NATATOR_DATA_DIR)
+write_basic_package_version_file(natatorConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/natatorConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/natatorConfigVersion.cmake
+    DESTINATION ${NATATOR_PACKAGE_DIR})
+
+install(TARGETS natator-sim RUNTIME DESTINATION bin)
+install(TARGETS natator-bench RUNTIME DESTINATION bin OPTIONAL)  # natator-sim does without it
+install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator)
+install(FILES ${PROJECT_SOURCE_DIR}/ga-java/target/natator.jar DESTINATION ${NATATOR_DATA_DIR} OPTIONAL)
+install(DIRECTORY scenes creatures references DESTINATION ${NATATOR_DATA_DIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/natator)

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "natator/gait.h"
+#include "natator/model.h"
+#include "natator/solver.h"
+#include "natator/state.h"
+
+namespace natator {
+
+/// How a State is computed on a GPU. By one block and by the whole GPU have bits of their own.
+enum class GpuPath {
+    by_size,           ///< as evaluate_on_gpu does: the whole GPU for more than 20 000 particles, else one block
+    block,             ///< by one block of threads, as a member of a batch; at most 65535 particles
+    whole_gpu,         ///< by the whole GPU
+    whole_gpu_search,  ///< the same with contacts searched anew in each iteration, as where their lists overflow
+};
+
+/// Where and how a GpuSolver computes.
+struct GpuSolverOptions {
+    int device = 0;  ///< number of the GPU, see cuda_devices in batch.h
+    GpuPath path = GpuPath::by_size;
+};
+
+/// Advances one State of a Model on a GPU, update by update, as Solver does on the CPU: for observing and testing what
+/// batches compute. The State travels to the device and back with every update, so whole evaluations are faster by
+/// evaluate_on_gpu. Results agree with the CPU's to rounding; the same GPU and input give the same bits. Not shared
+/// between threads. A library built without CUDA has this class too; making one then throws NoDevice.
+///
+/// Real is float or double. Members throw std::bad_alloc when the device's memory does not do and std::runtime_error,
+/// naming the call, when the device fails.
+template <class Real>
+class GpuSolver {
+public:
+    /// Keeps a reference to `model`, which must live, unchanged, as long as this; a temporary one is refused by the
+    /// compiler. Throws NoDevice ("built without CUDA", or no such GPU), InputError when the Model needs what the GPU's
+    /// stages do not do or is too large for `options.path`.
+    explicit GpuSolver(const Model& model, const GpuSolverOptions& options = {});
+    explicit GpuSolver(const Model&& model, const GpuSolverOptions& options = {}) = delete;
+    ~GpuSolver();
+    GpuSolver(GpuSolver&&) noexcept;
+    GpuSolver& operator=(GpuSolver&&) noexcept;
+
+    /// Advances `state` by `time_step` (s) in `substeps` equal substeps, with the rest lengths it holds. Returns where
+    /// the state stopped being finite; `state` then keeps its values from before that substep. The observer is told after the
+    /// last substep what it would have seen in all of them; what is kept for it takes device memory.
+    std::optional<Instability> update(State<Real>& state, double time_step, int substeps,
+                                      StepObserver<Real>* observer = nullptr);
+
+    /// One frame of the model: as an update by the model's time step and substeps, with the muscles driven by `gait`,
+    /// which must fit the model (check_gait).
+    std::optional<Instability> frame(State<Real>& state, const Gait& gait);
+
+    /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids, and for
+    /// all before the first update.
+    std::vector<Real> densities() const;
+    /// Number of fluid and contact neighbours of each particle in the last substep; 0 before the first.
+    std::vector<int> neighbour_counts() const;
+
+private:
+    class Implementation;
+    class ByBlock;
+    class ByWholeGpu;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+extern template class GpuSolver<float>;
+extern template class GpuSolver<double>;
+
+}  // namespace natator

@@ -1,0 +1,53 @@
+# Installs the build BUILD into a prefix below WORK, moves the prefix, and does there what README.md says under "Use from
+# C++": configures and builds the examples of SOURCE against it, and runs them. Any step that fails ends it.
+function(run)
+    execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
+    message("${output}")
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "exit ${result}: ${ARGV}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(expect regex)
+    if(NOT output MATCHES "${regex}")
+        message(FATAL_ERROR "expected in the output: ${regex}")
+    endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
+file(RENAME ${WORK}/first ${WORK}/prefix)
+
+# No header needs nlohmann/json, and no file of the package knows where the sources were.
+file(GLOB headers ${WORK}/prefix/include/natator/*.h)
+file(GLOB package ${WORK}/prefix/lib*/cmake/natator/*.cmake ${WORK}/prefix/lib*/*/cmake/natator/*.cmake)
+foreach(file ${headers})
+    file(STRINGS ${file} found REGEX nlohmann)
+    if(found)
+        message(FATAL_ERROR "${file}: ${found}")
+    endif()
+endforeach()
+string(REGEX REPLACE "([][+.*()^$?|\\\\])" "\\\\\\1" source_regex ${SOURCE})
+set(programs)
+if(OPTIMISED)  # others hold the paths of asserts and of debugging
+    file(GLOB programs ${WORK}/prefix/bin/* ${WORK}/prefix/lib*/*.a)
+endif()
+foreach(file ${package} ${programs})
+    file(STRINGS ${file} found REGEX ${source_regex})
+    if(found)
+        message(FATAL_ERROR "${file} names the source tree: ${found}")
+    endif()
+endforeach()
+
+run(${CMAKE_COMMAND} -E env --unset=NATATOR_DATA ${WORK}/prefix/bin/natator-sim info)
+expect("thesis/creature-1\n")
+
+run(${CMAKE_COMMAND} -S ${SOURCE}/sim-native/examples -B ${WORK}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCUDAToolkit_ROOT=${CUDA})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/falling_drop)
+expect("\n +1\\.0 +0\\.[0-9]+ +[0-9.]+\n")
+run(${CMAKE_COMMAND} -E env --unset=NATATOR_DATA ${WORK}/build/swimmer)
+expect("completed after 1\\.00 s: swam")

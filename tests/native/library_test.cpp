@@ -1,0 +1,91 @@
+// What a program that uses the library relies on: the umbrella header alone, lifetimes, data without an environment.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <type_traits>
+
+#include "natator/natator.h"
+
+namespace natator {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class AnySolver>
+constexpr bool keeps_no_temporary = std::is_constructible_v<AnySolver, Model&> &&
+                                    std::is_constructible_v<AnySolver, const Model&> &&
+                                    !std::is_constructible_v<AnySolver, Model> &&
+                                    !std::is_constructible_v<AnySolver, const Model>;
+static_assert(keeps_no_temporary<Solver<float>> && keeps_no_temporary<Solver<double>>);
+static_assert(keeps_no_temporary<GpuSolver<float>> && keeps_no_temporary<GpuSolver<double>>);
+
+std::string message_of(const std::string& name, const SceneOptions& options) {
+    try {
+        load_scene(name, options);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// A folder with a scene and a creature of its own.
+class LibraryTest : public testing::Test {
+protected:
+    LibraryTest()
+        : data_(fs::path(testing::TempDir()) /
+                ("natator-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+        fs::create_directories(data_ / "scenes" / "my");
+        fs::create_directories(data_ / "creatures");
+        std::ofstream(data_ / "scenes" / "my" / "base.json") << R"({"duration": 3, "fluid": {"count": [2, 2, 2]}})";
+        std::ofstream(data_ / "scenes" / "my" / "pool.json") << R"({"base": "my/base", "creature": {"name": "eel"}})";
+        std::ofstream(data_ / "creatures" / "eel.json")
+            << R"({"slices": [{"height": 2, "width": 2}, {"height": 2, "width": 2}], "joints": []})";
+    }
+    ~LibraryTest() override { fs::remove_all(data_); }
+
+    const fs::path data_;
+};
+
+TEST_F(LibraryTest, ScenesAndCreaturesComeFromTheFolderThatIsNamed) {
+    EXPECT_EQ(scene_names(data_), (std::vector<std::string>{"my/base", "my/pool"}));
+    const Scene scene = load_scene("my/pool", {.data = data_});
+    EXPECT_EQ(scene.duration, 3);
+    ASSERT_TRUE(scene.creature);
+    EXPECT_EQ(scene.creature->slices.size(), 2u);
+    EXPECT_NE(message_of("thesis/creature-1", {.data = data_}).find("must be one of my/base, my/pool"),
+              std::string::npos);
+    const std::string nowhere = message_of("pool", {.data = data_ / "none"});
+    EXPECT_NE(nowhere.find("none found in \"" + (data_ / "none" / "scenes").string() + "\""), std::string::npos)
+        << nowhere;
+    LiveSimulation<float> live({.scene = "my/base", .data = data_});
+    EXPECT_EQ(live.model().particles(), 8);
+}
+
+TEST_F(LibraryTest, WithoutAFolderScenesAreBesideTheProgram) {
+    EXPECT_EQ(data_directory(), fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" / "natator");
+    EXPECT_EQ(scene_names(), scene_names(data_directory()));
+    EXPECT_TRUE(load_scene("thesis/creature-1").creature);
+}
+
+TEST_F(LibraryTest, OverridesAreText) {
+    EXPECT_EQ(load_scene("my/base", {.overrides = R"({"duration": 1, "fluid": null})", .data = data_}).duration, 1);
+    EXPECT_EQ(message_of("my/base", {.overrides = "{\"duration\":", .data = data_})
+                  .find("scene \"my/base\": overrides: not valid JSON: "),
+              0u);
+    EXPECT_EQ(message_of("my/base", {.overrides = "[1]", .data = data_})
+                  .find("scene \"my/base\": overrides = [1]: must be an object"),
+              0u);
+    EXPECT_EQ(parse_scene(R"({"duration": 2, "fluid": {}})", "mine").duration, 2);
+    EXPECT_THROW(parse_scene(R"({"duration": 0})", "mine"), InputError);
+}
+
+TEST_F(LibraryTest, WithoutAGpuASolverOnItSaysSo) {
+    if (!cuda_devices().empty()) GTEST_SKIP() << "there is a GPU";
+    const Model model = build_model(load_scene("my/base", {.data = data_}));
+    EXPECT_THROW(GpuSolver<float>{model}, NoDevice);
+    EXPECT_THROW(evaluate_on_gpu(load_scene("my/base", {.data = data_}), {BatchMember{}}), NoDevice);
+}
+
+}  // namespace
+}  // namespace natator
