@@ -77,7 +77,7 @@ NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterSt
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) {
-    if (plan.fluid) {
+    if (plan.fluid || plan.water) {
         stages.solve_density_constraint();
         after(Stage::density_constraint);
     }

@@ -71,11 +71,6 @@ private:
     void apply_correction(int slot, Real share = 1);
     /// Applies the corrections of springs or clusters and books them as internal to their body.
     void apply_internal_corrections();
-    void move(int slot, const Vec3<Real>& by) {
-        displacement_.add(slot, by);
-        ws_.position.set(slot, base_.at(slot) + displacement_.at(slot));
-    }
-
     /// Particles that springs and clusters hang together; none of infinite mass.
     struct FreeBody {
         std::vector<int> particles;
@@ -88,8 +83,6 @@ private:
     ConservingConstants<Real> own_;
     Real overlap_push_ = 0;                                  ///< how far a substep may push overlaps apart, length
     bool looked_for_overlap_ = false, overlapping_ = false;  ///< in this substep
-    Vector3Array<Real> base_;                                ///< predicted positions by slot
-    Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it
     AlignedVector<Real> lambda_, response_, lambda_sum_, solid_gradient_square_;
     AlignedVector<Real> overlap_;         ///< C_i at the start of the substep if it is an overlap, else 0
     AlignedVector<Real> overlap_lambda_;  ///< what has pushed it out in this substep
@@ -105,6 +98,14 @@ private:
     std::vector<std::vector<Vec3<Real>>> cluster_displacement_;  ///< sum of the substep's corrections per member
 
 protected:
+    void move(int slot, const Vec3<Real>& by) {
+        displacement_.add(slot, by);
+        ws_.position.set(slot, base_.at(slot) + displacement_.at(slot));
+    }
+
+    Vector3Array<Real> base_;          ///< predicted positions by slot
+    Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it
+
     using Substep<Real>::model_;
     using Substep<Real>::plan_;
     using Substep<Real>::constants_;

@@ -8,38 +8,60 @@ namespace natator::cpu {
 /// them.
 constexpr double least_wall_distance = 0.3;
 
-/// x + h v + shift. Water does not touch planes otherwise: their mirror images hold it.
+/// Where a particle is put that is nearer to a plane than it may be. Water does not touch planes otherwise: their mirror
+/// images hold it.
+template <class Real>
+Vec3<Real> DfsphStages<Real>::before_planes(int particle, Vec3<Real> x) const {
+    const Real held = std::min(static_cast<Real>(least_wall_distance * this->model_.parameters.fluidRestDistance),
+                               this->constants_.collision_distance);
+    for (const Plane& plane : this->model_.planes) {
+        const physics::PlaneSurface<Real> surface{vec3<Real>(plane.normal.template cast<Real>()),
+                                                  static_cast<Real>(plane.offset)};
+        x = put_before(surface, this->model_.is_fluid(particle) ? held : this->constants_.collision_distance, x);
+    }
+    return x;
+}
+
+/// x* = x + h v* + shift, v* without the density solve.
 template <class Real>
 void DfsphStages<Real>::predict() {
     auto& ws = this->ws_;
-    const Real held = std::min(static_cast<Real>(least_wall_distance * this->model_.parameters.fluidRestDistance),
-                               this->constants_.collision_distance);
-    std::vector<physics::PlaneSurface<Real>> surfaces;
-    for (const Plane& plane : this->model_.planes)
-        surfaces.push_back({vec3<Real>(plane.normal.template cast<Real>()), static_cast<Real>(plane.offset)});
-
-    for (int i = 0; i < ws.particles; ++i) {
-        if (!(this->inverse_mass_[i] > 0)) continue;
-        const Real distance = this->model_.is_fluid(i) ? held : this->constants_.collision_distance;
-        for (const auto& surface : surfaces)
-            this->state_->position[i] = eigen(put_before(surface, distance, vec3(this->state_->position[i])));
-    }
-    water_.solve(*this->state_, this->h_, *this->team_);
+    for (int i = 0; i < ws.particles; ++i)
+        if (this->inverse_mass_[i] > 0)
+            this->state_->position[i] = eigen(before_planes(i, vec3(this->state_->position[i])));
+    water_.begin(*this->state_, this->h_, *this->team_);
     for (int i = 0; i < ws.particles; ++i) {
         Vec3<Real> v = water_.velocity(i);
         if (this->plan_.clamp_speed) v = clamped(v, this->constants_.max_speed);
-        Vec3<Real> x = vec3(this->state_->position[i]) + this->h_ * v + water_.shift(i);
-        if (this->model_.is_fluid(i) && this->inverse_mass_[i] > 0) {
-            for (const auto& surface : surfaces) {
-                const Real deeper = held - (dot(surface.normal, x) + surface.offset);
-                if (!(deeper > 0)) continue;
-                x += deeper * surface.normal;
-                v += std::max(-dot(surface.normal, v), Real(0)) * surface.normal;
-            }
-        }
         ws.predicted_velocity[i] = eigen(v);
-        ws.predicted_position[i] = eigen(x);
+        ws.predicted_position[i] = eigen(vec3(this->state_->position[i]) + this->h_ * v + water_.shift(i));
     }
+}
+
+/// Tells the water how the solids move by now, and the solids how it has pushed them.
+template <class Real>
+void DfsphStages<Real>::solve_density_constraint() {
+    const auto& solids = this->ws_.solid_ids;
+    for (const int i : solids) water_.set_velocity(i, present_velocity(i));
+    if (!solids.empty()) water_.lay_velocities_out(*this->team_);
+    water_.correct_density(*this->team_);
+    for (const int i : solids) {
+        if (!(this->inverse_mass_[i] > 0)) continue;
+        this->move(this->ws_.slot_of[i], this->h_ * (water_.velocity(i) - present_velocity(i)));
+    }
+}
+
+/// The fluid goes where its velocities take it.
+template <class Real>
+void DfsphStages<Real>::update_velocities() {
+    for (const int i : this->ws_.fluid_ids) {
+        const int slot = this->ws_.slot_of[i];
+        if (!(this->inverse_mass_[i] > 0)) continue;
+        const Vec3<Real> v = water_.velocity(i);
+        this->displacement_.set(slot, this->h_ * (v - this->ws_.predicted.at(slot)));
+        this->ws_.position.set(slot, before_planes(i, this->base_.at(slot) + this->displacement_.at(slot)));
+    }
+    ConservingStages<Real>::update_velocities();
 }
 
 template <class Real>

@@ -5,8 +5,8 @@
 
 namespace natator::cpu {
 
-/// The stages of scheme `dfsph`: the water first, by pressure solves on velocities, then the solids' constraints as in
-/// scheme `conserving`, from where the water has pushed them.
+/// The stages of scheme `dfsph`: each iteration is a pass of the water's density solve, on velocities, and then one of the
+/// solids' constraints as in scheme `conserving`, so that both see what the other has done.
 template <class Real>
 class DfsphStages : public ConservingStages<Real> {
 public:
@@ -21,6 +21,8 @@ public:
         if (this->plan_.planes) find_plane_contacts();
     }
     void find_plane_contacts();
+    void solve_density_constraint();
+    void update_velocities();
 
     /// At the last substep's start, by particle, in units of rest density; 0 for solids.
     std::vector<Real> densities() const;
@@ -28,6 +30,13 @@ public:
     std::vector<int> neighbour_counts() const;
 
 private:
+    /// Of a particle as the iterations have left it, length/s.
+    Vec3<Real> present_velocity(int particle) const {
+        const int slot = this->ws_.slot_of[particle];
+        return this->ws_.predicted.at(slot) + 1 / this->h_ * this->displacement_.at(slot);
+    }
+    Vec3<Real> before_planes(int particle, Vec3<Real> x) const;
+
     Water<Real> water_;
 };
 

@@ -14,7 +14,6 @@ namespace {
 constexpr double wet = 0.9;            ///< density from which a particle is held incompressible
 constexpr double relaxation = 0.5;     ///< of the Jacobi passes
 constexpr int divergence_passes = 1;   ///< on the velocities as they are
-constexpr int density_passes = 3;      ///< on the density that they lead to
 constexpr double most_excess = 0.05;   ///< of rest density that a substep takes off
 constexpr double shift_strength = 0.5; ///< of R h |dv| times where neighbours crowd
 constexpr double longest_shift = 0.05; ///< of the rest distance, a substep
@@ -58,11 +57,6 @@ Water<Real>::Water(const Model& model)
     for (auto* array : {&density_, &fastest_square_, &response_, &target_, &impulse_sum_}) array->resize(image_begin_);
     for (auto& array : correction_) array.resize(image_begin_);
     crowding_.resize(image_begin_);
-}
-
-template <class Real>
-Vec3<Real> Water<Real>::velocity(int particle) const {
-    return velocity_.at(slot_of_[particle]);
 }
 
 template <class Real>
@@ -266,22 +260,26 @@ WaterView<Real> Water<Real>::view() {
     return all;
 }
 
+/// A Jacobi pass towards target_.
 template <class Real>
-void Water<Real>::solve_pressure(int passes, ThreadTeam& team) {
-    for (int pass = 0; pass < passes; ++pass) {
-        on_all_threads(team, kernels_->compute_impulse);
-        for (std::size_t k = 0; k < image_owner_.size(); ++k) impulse_[image_begin_ + k] = impulse_[image_owner_[k]];
-        on_all_threads(team, kernels_->apply_impulse);
-        mirror_velocities();
-    }
+void Water<Real>::push_apart(ThreadTeam& team) {
+    on_all_threads(team, kernels_->compute_impulse);
+    for (std::size_t k = 0; k < image_owner_.size(); ++k) impulse_[image_begin_ + k] = impulse_[image_owner_[k]];
+    on_all_threads(team, kernels_->apply_impulse);
+    mirror_velocities();
 }
 
 template <class Real>
-void Water<Real>::solve(const State<Real>& state, Real h, ThreadTeam& team) {
+void Water<Real>::lay_velocities_out(ThreadTeam& team) {
+    on_all_threads(team, kernels_->pack);
+    mirror_velocities();
+}
+
+template <class Real>
+void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     h_ = h;
     lay_out(state);
     find_neighbours(team);
-    // Images are packed with the far slot's block and behind it.
     on_all_threads(team, kernels_->pack);
     for (int slot = image_begin_; slot <= far_slot_; ++slot) {
         const Real quadruples[8] = {position_.x[slot], position_.y[slot], position_.z[slot], volume_[slot],
@@ -295,7 +293,7 @@ void Water<Real>::solve(const State<Real>& state, Real h, ThreadTeam& team) {
 
     std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
-    solve_pressure(divergence_passes, team);
+    for (int pass = 0; pass < divergence_passes; ++pass) push_apart(team);
     if (dynamic_viscosity_ > 0)
         on_all_threads(team, [&](const WaterView<Real>& part) {
             kernels_->add_viscosity(part, 10 * h * dynamic_viscosity_);
@@ -307,9 +305,12 @@ void Water<Real>::solve(const State<Real>& state, Real h, ThreadTeam& team) {
             velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
         target_[slot] = volume_[slot] / h * std::min(density_[slot] - 1, Real(most_excess));
     }
-    on_all_threads(team, kernels_->pack);
-    mirror_velocities();
-    solve_pressure(density_passes, team);
+    lay_velocities_out(team);
+}
+
+template <class Real>
+void Water<Real>::correct_density(ThreadTeam& team) {
+    push_apart(team);
 }
 
 template class Water<float>;

@@ -22,11 +22,17 @@ class Water {
 public:
     explicit Water(const Model& model);
 
-    /// From the state at the start of a substep of length h (s).
-    void solve(const State<Real>& state, Real h, ThreadTeam& team);
+    /// Takes the state at the start of a substep of length h (s): makes its velocities free of divergence, then adds
+    /// viscosity and gravity.
+    void begin(const State<Real>& state, Real h, ThreadTeam& team);
+    /// One Jacobi pass of the density solve: pushes apart where the velocities lead to more than rest density.
+    void correct_density(ThreadTeam& team);
 
-    /// After pressure, viscosity and gravity, by particle, length/s.
-    Vec3<Real> velocity(int particle) const;
+    /// As the last call left it, by particle, length/s.
+    Vec3<Real> velocity(int particle) const { return velocity_.at(slot_of_[particle]); }
+    void set_velocity(int particle, const Vec3<Real>& v) { velocity_.set(slot_of_[particle], v); }
+    /// Velocities that were set are not seen before this.
+    void lay_velocities_out(ThreadTeam& team);
     /// What keeps particles evenly spread, by particle, length; no velocity comes with it.
     Vec3<Real> shift(int particle) const;
 
@@ -41,7 +47,7 @@ private:
     void find_neighbours(ThreadTeam& team);
     void mirror_corrections();
     void mirror_velocities();
-    void solve_pressure(int passes, ThreadTeam& team);
+    void push_apart(ThreadTeam& team);
     WaterView<Real> view();
 
     template <class Work>
