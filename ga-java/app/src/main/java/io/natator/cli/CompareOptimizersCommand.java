@@ -9,8 +9,8 @@ import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.SceneInfo;
-import io.natator.study.optimizer.Contestant;
 import io.natator.study.optimizer.OptimizerStudy;
+import io.natator.study.optimizer.OptimizerVariant;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.Arrays;
@@ -98,7 +98,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         queueOptions.atOnce(execution);
         Map<String, EvolutionSettings> scenes = scenes(execution);
-        OptimizerStudy study = new OptimizerStudy(scenes, contestants(), seeds, cmaEsPopulation, directory);
+        OptimizerStudy study = new OptimizerStudy(scenes, variants(), seeds, cmaEsPopulation, directory);
         boolean all = queueOptions.carryOut(study::run, EvolutionRun.withTimeLimit(execution, scenes.values()),
                 study.size(), study.finished(), study.evaluations(), study.recorded(), spec.commandLine().getErr());
         PrintWriter out = spec.commandLine().getOut();
@@ -125,15 +125,15 @@ final class CompareOptimizersCommand implements Callable<Integer> {
         return scenes;
     }
 
-    private List<Contestant> contestants() {
-        List<String> known = Arrays.stream(Contestant.values()).map(Contestant::label).toList();
+    private List<OptimizerVariant> variants() {
+        List<String> known = Arrays.stream(OptimizerVariant.values()).map(OptimizerVariant::label).toList();
         return optimizers.stream().map(name -> {
             int index = known.indexOf(name.toLowerCase(Locale.ROOT));
             if (index < 0) {
                 throw new InvalidInputException("--optimizers has " + name + "; expected some of "
                         + String.join(",", known));
             }
-            return Contestant.values()[index];
+            return OptimizerVariant.values()[index];
         }).toList();
     }
 }

@@ -138,13 +138,13 @@ final class EvolveCommand implements Callable<Integer> {
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
         Path directory = outputDir != null ? outputDir : freeFolder(settings.scene());
-        Plan plan = new Plan(settings, execution);
+        RunPreview preview = new RunPreview(settings, execution);
         if (dryRun) {
-            plan.print(directory, spec.commandLine().getOut());
+            preview.print(directory, spec.commandLine().getOut());
             return ExitCode.OK;
         }
         RunFolder folder = RunFolder.create(directory, settings);
-        plan.print(folder, spec.commandLine().getOut());
+        preview.print(folder, spec.commandLine().getOut());
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
         return ExitCode.OK;
     }

@@ -55,7 +55,8 @@ final class EvolvePhase {
     }
 
     private static long expected(EvolutionSettings settings) {
-        return Math.round(settings.population() * (1 + Pace.CHILDREN_PER_SELECTED * settings.generations()));
+        return Math.round(settings.population()
+                * (1 + ProgressEstimate.CHILDREN_PER_SELECTED * settings.generations()));
     }
 
     /** Says how many evaluations are left and how long they will take, judged by a few short ones. */
@@ -78,12 +79,12 @@ final class EvolvePhase {
                             .of(together, duration == null ? THESIS_SECONDS : duration) / together;
                     out.printf(Locale.ROOT, "  creature %d, %-10s  %7d evaluations of %.3f s: %s%n", creature,
                             scheme.name().toLowerCase(Locale.ROOT), evaluations, each,
-                            Pace.readable(Math.round(evaluations * each)));
+                            ProgressEstimate.readable(Math.round(evaluations * each)));
                     seconds += evaluations * each;
                 }
             }
         }
-        out.printf("about %s, with %s%n", Pace.readable(Math.round(seconds)),
+        out.printf("about %s, with %s%n", ProgressEstimate.readable(Math.round(seconds)),
                 execution.mode() == SimulatorMode.BATCH ? "batches of " + together : together + " at once");
     }
 }

@@ -97,7 +97,7 @@ final class ExportCommand implements Callable<Integer> {
             throw new InvalidInputException("--every is " + every + "; expected a whole number from 1");
         }
         Path simulator = simulatorOption.path();
-        Swimmer swimmer = Swimmer.of(source, generation, gait);
+        SwimSource swimmer = SwimSource.of(source, generation, gait);
         JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
         Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme();
         TreeSet<StreamField> wanted = new TreeSet<>(fields);

@@ -33,7 +33,8 @@ final class MeasurePhase {
         if (missing > 0) {
             err.printf("%d evaluations to measure%n", missing);
             try (Evaluator evaluator = Evaluator.open(execution);
-                    Stopper stopper = new Stopper(evaluator, stopAfter, () -> QueueOptions.sayGoodbye(err))) {
+                    ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
+                            () -> QueueOptions.sayGoodbye(err))) {
                 study.measure(evaluator, execution, counter(missing, err));
             } catch (InterruptedException e) {
                 return false;
@@ -44,7 +45,8 @@ final class MeasurePhase {
         int recordings = study.missingRecordings();
         err.printf("%d runs to record or time%n", recordings);
         err.flush();
-        try (Stopper stopper = new Stopper(recorder::interrupt, left, () -> QueueOptions.sayGoodbye(err))) {
+        try (ShutdownHandler shutdown = new ShutdownHandler(recorder::interrupt, left,
+                () -> QueueOptions.sayGoodbye(err))) {
             study.record(execution, counter(recordings, err));
             return true;
         } catch (InterruptedException e) {

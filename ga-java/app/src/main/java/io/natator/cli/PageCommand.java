@@ -8,9 +8,9 @@ import io.natator.config.MergePatch;
 import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
-import io.natator.share.RecordedSwim;
-import io.natator.share.ReplayPage;
-import io.natator.share.SwimRecorder;
+import io.natator.replay.Replay;
+import io.natator.replay.ReplayHtml;
+import io.natator.replay.ReplayRecorder;
 import io.natator.simulator.SimulationResult;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
@@ -90,16 +90,17 @@ final class PageCommand implements Callable<Integer> {
         if (!(maxSize > 0) || Double.isInfinite(maxSize)) {
             throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes above 0");
         }
-        ReplayPage.check(output);
+        ReplayHtml.check(output);
         Path simulator = simulatorOption.path();
-        List<RecordedSwim> swims = new ArrayList<>();
+        List<Replay> swims = new ArrayList<>();
         for (String source : sources) {
-            for (Swimmer swimmer : swimmers(source)) {
+            for (SwimSource swimmer : swimmers(source)) {
                 swims.add(recorded(swimmer, simulator));
             }
         }
         String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
-        ReplayPage.Written written = new ReplayPage(heading, swims, !noWater).write(output, (long) (maxSize * MEGABYTE));
+        ReplayHtml.Written written = new ReplayHtml(heading, swims, !noWater).write(output,
+                (long) (maxSize * MEGABYTE));
         String precision = written.largestError() > 0
                 ? String.format(Locale.ROOT, "water to %.0e of a length unit", written.largestError()) : "no water";
         spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s, %s%n", output,
@@ -109,8 +110,8 @@ final class PageCommand implements Callable<Integer> {
     }
 
     /** The best of a run, and with {@code --best} those after it. */
-    private List<Swimmer> swimmers(String source) {
-        Swimmer first = Swimmer.of(source, null, gait);
+    private List<SwimSource> swimmers(String source) {
+        SwimSource first = SwimSource.of(source, null, gait);
         if (first.run() == null || best == 1) {
             return List.of(first);
         }
@@ -121,23 +122,23 @@ final class PageCommand implements Callable<Integer> {
         if (gaits.size() < best) {
             throw new InvalidInputException("--best is " + best + "; " + source + " knows " + gaits.size() + " gaits");
         }
-        return gaits.stream().map(one -> new Swimmer(first.run(), null, first.scene(), first.overrides(), one,
+        return gaits.stream().map(one -> new SwimSource(first.run(), null, first.scene(), first.overrides(), one,
                 first.scheme(), first.duration(), one.equals(first.gait()) ? first.best() : null)).toList();
     }
 
-    private RecordedSwim recorded(Swimmer swimmer, Path simulator) throws InterruptedException {
+    private Replay recorded(SwimSource swimmer, Path simulator) throws InterruptedException {
         JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
         StreamOptions options = StreamOptions.recording(swimmer.scene(), overrides, swimmer.gaitJson(),
                 swimmer.seconds(sceneOptions.duration(), overrides, simulator))
                 .with(sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme(), null);
-        RecordedSwim swim = new SwimRecorder(simulator).record(swimmer.name(), options);
+        Replay swim = new ReplayRecorder(simulator).record(swimmer.name(), options);
         StreamFrame last = swim.frames().get(swim.frames().size() - 1);
         Reproduction stored = swimmer.reproduction(simulator, sceneOptions.overrides(), sceneOptions.scheme());
         if (stored != null) {
             warn(stored, swim.frames());
         }
         String name = swimmer.run() == null ? swimmer.name() : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
-        return new RecordedSwim(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
+        return new Replay(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
                 + " s", swim.scene(), swim.json(), swim.frames(),
                 stored == null ? null : Verdict.of(swimmer.best()).text());
     }

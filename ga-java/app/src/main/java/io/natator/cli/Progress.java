@@ -1,11 +1,11 @@
 package io.natator.cli;
 
-import io.natator.evolution.GenerationSummary;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Numbers;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
 import java.io.PrintStream;
 import java.io.PrintWriter;
@@ -26,7 +26,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
     private static final long INTERVAL_NANOSECONDS = 10_000_000_000L;
 
     private final EvolutionSettings settings;
-    private final Pace pace;
+    private final ProgressEstimate estimate;
     private final LongSupplier clock;
     private final PrintWriter out;
     private final ProgressBar bar;
@@ -50,7 +50,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
     Progress(EvolutionSettings settings, EvolutionState from, long recorded, PrintWriter out, PrintStream terminal,
             LongSupplier clock) {
         this.settings = settings;
-        this.pace = new Pace(settings, from, recorded, clock);
+        this.estimate = new ProgressEstimate(settings, from, recorded, clock);
         this.clock = clock;
         this.out = out;
         this.said = clock.getAsLong();
@@ -67,12 +67,12 @@ final class Progress implements EvolutionListener, AutoCloseable {
     @Override
     public synchronized void generationStarted(int number, int simulations) {
         generation = number;
-        pace.generationStarted(number, simulations);
+        estimate.generationStarted(number, simulations);
     }
 
     @Override
     public synchronized void evaluated(EvaluationRecord evaluation) {
-        pace.evaluated();
+        estimate.evaluated();
         SimulationResult result = evaluation.result();
         if (result.status() == SimulationResult.Status.OK && (best == null || result.score() > best)) {
             best = result.score();
@@ -98,8 +98,8 @@ final class Progress implements EvolutionListener, AutoCloseable {
 
     /** For the terminal, from the bar's own thread. */
     private synchronized String barLine() {
-        int full = (int) (CELLS * pace.percent() / 100);
-        return String.format(Locale.ROOT, "%3d %% [%s%s] %s, %s", pace.percent(), "=".repeat(full),
+        int full = (int) (CELLS * estimate.percent() / 100);
+        return String.format(Locale.ROOT, "%3d %% [%s%s] %s, %s", estimate.percent(), "=".repeat(full),
                 " ".repeat(CELLS - full), generation(), counts());
     }
 
@@ -110,7 +110,8 @@ final class Progress implements EvolutionListener, AutoCloseable {
 
     private String counts() {
         return String.format(Locale.ROOT, "best %s, evaluations %d of %s, elapsed %s, left %s",
-                best == null ? "-" : Numbers.fixed(best, 4), pace.done(), pace.total(), pace.elapsed(), pace.left());
+                best == null ? "-" : Numbers.fixed(best, 4), estimate.done(), estimate.total(), estimate.elapsed(),
+                estimate.left());
     }
 
     @Override

@@ -61,11 +61,11 @@ final class QueueOptions {
             PrintWriter err) throws InterruptedException {
         int atOnce = atOnce(execution);
         try (Evaluator evaluator = EvolutionRun.open(execution);
-                Stopper stopper = new Stopper(evaluator, stopAfter, () -> sayGoodbye(err))) {
+                ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter, () -> sayGoodbye(err))) {
             StudyProgress progress = new StudyProgress(runs, finished, evaluations, recorded, err) {
                 @Override
                 public EvolutionListener forRun() {
-                    return execution.mode() == SimulatorMode.BATCH ? stopper.beforeLateGenerations()
+                    return execution.mode() == SimulatorMode.BATCH ? shutdown.beforeLateGenerations()
                             : new EvolutionListener() { };
                 }
             };

@@ -34,24 +34,26 @@ final class RunLauncher {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
             String how = "continue by: " + ProgramName.asCalled() + " resume " + folder.directory();
             try (Evaluator evaluator = EvolutionRun.open(limited);
-                    Stopper stopper = new Stopper(evaluator, stopAfter, () -> say("interrupted; " + how))) {
-                evolve(folder, limited, evaluator, stopper, how);
+                    ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
+                            () -> say("interrupted; " + how))) {
+                evolve(folder, limited, evaluator, shutdown, how);
             }
         }
     }
 
-    private void evolve(RunFolder folder, ExecutionSettings execution, Evaluator evaluator, Stopper stopper, String how)
+    private void evolve(RunFolder folder, ExecutionSettings execution, Evaluator evaluator, ShutdownHandler shutdown,
+            String how)
             throws InterruptedException {
         EvolutionRun.Outcome outcome;
         try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().size(), err,
                 System.console() != null ? System.err : null)) {
             List<EvolutionListener> listeners = new ArrayList<>(List.of(progress));
             if (execution.mode() == SimulatorMode.BATCH) {
-                listeners.add(stopper.beforeLateGenerations());
+                listeners.add(shutdown.beforeLateGenerations());
             }
             outcome = new EvolutionRun(folder).run(execution, evaluator, listeners.toArray(EvolutionListener[]::new));
         } catch (EvolutionStoppedException | InterruptedException e) {
-            if (stopper.isTimeUp()) {
+            if (shutdown.isTimeUp()) {
                 say("time is up; " + how);
             }
             return;

@@ -1,13 +1,13 @@
 package io.natator.cli;
 
-import io.natator.evolution.GenerationSummary;
-import io.natator.checkpoint.Savings;
+import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
 import java.io.PrintWriter;
 import java.nio.file.Path;
@@ -84,14 +84,14 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     private static void printSavings(StoredRun run, PrintWriter out) {
-        Savings savings = run.savings();
-        if (savings != null) {
+        EvaluationStatistics statistics = run.statistics();
+        if (statistics != null) {
             out.println("not simulated");
             out.printf(Locale.ROOT, "  early stop  %.1f %% of the time: %d of %d evaluations ended early, as if %.0f "
-                    + "had not been made%n", 100 * savings.shareOfEarlyStops(), savings.stoppedEarly(),
-                    savings.evaluations(), savings.shareOfEarlyStops() * savings.evaluations());
-            out.printf("  unchanged   %d chromosomes, evaluated in an earlier generation%n", savings.unchanged());
-            out.printf("  cache       %d evaluations, made by an earlier run%n", savings.fromCache());
+                    + "had not been made%n", 100 * statistics.shareOfEarlyStops(), statistics.stoppedEarly(),
+                    statistics.evaluations(), statistics.shareOfEarlyStops() * statistics.evaluations());
+            out.printf("  unchanged   %d chromosomes, evaluated in an earlier generation%n", statistics.unchanged());
+            out.printf("  cache       %d evaluations, made by an earlier run%n", statistics.fromCache());
         }
     }
 

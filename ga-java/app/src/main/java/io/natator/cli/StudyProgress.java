@@ -49,7 +49,7 @@ abstract class StudyProgress implements RunQueue.Watcher {
             double rate = done / ((now - started) / NANOSECONDS);
             out.printf(Locale.ROOT, "%d of %d runs, %d of %d evaluations, %.1f evaluations/s, left %s%n", finished, runs,
                     before + done, evaluations, rate,
-                    Pace.readable(Math.round(Math.max(evaluations - before - done, 0) / rate)));
+                    ProgressEstimate.readable(Math.round(Math.max(evaluations - before - done, 0) / rate)));
             out.flush();
         }
     }

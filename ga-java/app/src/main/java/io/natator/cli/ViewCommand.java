@@ -11,7 +11,7 @@ import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SceneInfo;
 import io.natator.study.thesis.ThesisData;
-import io.natator.view.Start;
+import io.natator.view.InitialScene;
 import io.natator.view.ViewServer;
 import io.natator.view.ViewSettings;
 import java.io.PrintWriter;
@@ -85,7 +85,7 @@ final class ViewCommand implements Callable<Integer> {
         CountDownLatch told = new CountDownLatch(1);
         PrintWriter out = spec.commandLine().getOut();
         BackgroundCheck check = null;
-        Stopper stopper = new Stopper(told::countDown, null, () -> { });
+        ShutdownHandler shutdown = new ShutdownHandler(told::countDown, null, () -> { });
         try (ViewServer server = new ViewServer(settings)) {
             if (server.isOpenToOthers()) {
                 PrintWriter err = spec.commandLine().getErr();
@@ -106,7 +106,7 @@ final class ViewCommand implements Callable<Integer> {
             if (check != null) {
                 check.close();
             }
-            stopper.close();
+            shutdown.close();
         }
         return ExitCode.OK;
     }
@@ -127,14 +127,14 @@ final class ViewCommand implements Callable<Integer> {
      * @param scene that was chosen; null if the runs tell it
      * @param run   of it, or null
      */
-    private Start start(String scene, Path run, Path program) throws InterruptedException {
+    private InitialScene start(String scene, Path run, Path program) throws InterruptedException {
         Gait given = gait == null ? null : GaitFile.read(gait);
         if (run != null) {
             return start(StoredRun.settings(run), given, StoredRun.best(run), program);
         }
-        ObjectNode overrides = Start.patch(sceneOptions.overrides(), sceneOptions.scheme());
+        ObjectNode overrides = InitialScene.patch(sceneOptions.overrides(), sceneOptions.scheme());
         SceneInfo.of(scene, overrides, program);
-        return new Start(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
+        return new InitialScene(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
     }
 
     /** Whether a run's best gait swims in just the scene in which it was found. */
@@ -142,12 +142,13 @@ final class ViewCommand implements Callable<Integer> {
         return gait == null && sceneOptions.scheme() == null && sceneOptions.overrides() == null;
     }
 
-    private Start start(EvolutionSettings run, Gait given, BestGait best, Path program) throws InterruptedException {
+    private InitialScene start(EvolutionSettings run, Gait given, BestGait best, Path program)
+            throws InterruptedException {
         Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.scheme();
-        ObjectNode overrides = Start.patch(MergePatch.both(run.overrides(), sceneOptions.overrides()), scheme);
+        ObjectNode overrides = InitialScene.patch(MergePatch.both(run.overrides(), sceneOptions.overrides()), scheme);
         if (sceneOptions.overrides() != null) {
             SceneInfo.of(run.scene(), overrides, program);
         }
-        return new Start(run.scene(), overrides, given != null || best == null ? given : best.gait());
+        return new InitialScene(run.scene(), overrides, given != null || best == null ? given : best.gait());
     }
 }

@@ -2,12 +2,12 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-import io.natator.evolution.GenerationSummary;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
 import io.natator.simulator.SimulationResult;
 import java.io.ByteArrayOutputStream;

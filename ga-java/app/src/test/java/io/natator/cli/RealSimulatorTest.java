@@ -3,8 +3,8 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
-import io.natator.checkpoint.Savings;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.io.PrintWriter;
@@ -98,9 +98,9 @@ class RealSimulatorTest {
             assertThat(folder.resolve("second").resolve(file))
                     .hasSameBinaryContentAs(folder.resolve("without").resolve(file));
         }
-        Savings savings = StoredRun.savings(folder.resolve("second"));
-        assertThat(savings.fromCache()).isEqualTo(savings.evaluations()).isPositive();
-        assertThat(StoredRun.savings(folder.resolve("without")).fromCache()).isZero();
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("second"));
+        assertThat(statistics.fromCache()).isEqualTo(statistics.evaluations()).isPositive();
+        assertThat(StoredRun.statistics(folder.resolve("without")).fromCache()).isZero();
     }
 
     @ParameterizedTest

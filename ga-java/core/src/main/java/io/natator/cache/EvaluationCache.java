@@ -2,7 +2,7 @@ package io.natator.cache;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.config.Json;
-import io.natator.simulator.Digest;
+import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationResult;
 import java.io.IOException;
 import java.nio.charset.CharacterCodingException;
@@ -49,7 +49,7 @@ public final class EvaluationCache {
     public SimulationResult find(String key) {
         try {
             String[] lines = Files.readString(file(key)).split("\n", -1);
-            if (lines.length != 4 || !lines[0].equals(key) || !lines[2].equals(Digest.of(lines[0] + lines[1]))) {
+            if (lines.length != 4 || !lines[0].equals(key) || !lines[2].equals(Sha256.of(lines[0] + lines[1]))) {
                 return null;
             }
             return Json.parse(lines[1], SimulationResult.class);
@@ -69,7 +69,7 @@ public final class EvaluationCache {
             Files.createDirectories(file.getParent());
             Path fresh = Files.createTempFile(file.getParent(), "new-", ".tmp");
             try {
-                Files.writeString(fresh, key + "\n" + json + "\n" + Digest.of(key + json) + "\n");
+                Files.writeString(fresh, key + "\n" + json + "\n" + Sha256.of(key + json) + "\n");
                 Files.move(fresh, file, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
             } finally {
                 Files.deleteIfExists(fresh);
@@ -86,7 +86,7 @@ public final class EvaluationCache {
     }
 
     private Path file(String key) {
-        String digest = Digest.of(key);
+        String digest = Sha256.of(key);
         return folder.resolve(digest.substring(0, 2)).resolve(digest.substring(2) + ".json");
     }
 }

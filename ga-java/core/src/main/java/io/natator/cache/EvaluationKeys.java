@@ -4,9 +4,9 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
-import io.natator.simulator.Digest;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.SceneInfo;
+import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
 import java.nio.file.Path;
 import java.util.Arrays;
@@ -26,7 +26,7 @@ final class EvaluationKeys {
     EvaluationKeys(ExecutionSettings execution) throws InterruptedException {
         simulator = execution.simulator();
         ProgramInfo info = ProgramInfo.of(simulator);
-        program.put("program", Digest.of(simulator));
+        program.put("program", Sha256.of(simulator));
         program.put("instructionSet", info.instructionSet());
         program.put("backend", execution.backend());
         if (execution.backend() != Backend.CPU) {
@@ -50,7 +50,7 @@ final class EvaluationKeys {
         List<Object> name = Arrays.asList(scene, overrides);
         String digest = scenes.get(name);
         if (digest == null) {
-            digest = Digest.of(SceneInfo.definition(scene, overrides, simulator));
+            digest = Sha256.of(SceneInfo.definition(scene, overrides, simulator));
             scenes.put(name, digest);
         }
         return digest;

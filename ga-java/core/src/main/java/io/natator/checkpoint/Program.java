@@ -3,8 +3,8 @@ package io.natator.checkpoint;
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import io.natator.config.Backend;
 import io.natator.config.Json;
-import io.natator.simulator.Digest;
 import io.natator.simulator.ProgramInfo;
+import io.natator.simulator.Sha256;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -32,7 +32,7 @@ public record Program(String version, String commit, String instructionSet, Back
     public static Program at(Path simulator, Backend backend, int device) throws InterruptedException {
         ProgramInfo info = ProgramInfo.of(simulator);
         String gpu = backend != Backend.CPU && device < info.devices().size() ? info.devices().get(device) : null;
-        return new Program(info.version(), info.commit(), info.instructionSet(), backend, gpu, Digest.of(simulator));
+        return new Program(info.version(), info.commit(), info.instructionSet(), backend, gpu, Sha256.of(simulator));
     }
 
     /**

@@ -39,7 +39,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private final Encoding encoding;
     private final EvolutionState checkpoint;
     private final EvaluationLog log;
-    private final Timings timings;
+    private final GenerationTimes timings;
 
     private RunFolder(Path directory, EvolutionSettings settings) {
         this.directory = directory;
@@ -53,7 +53,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             log.close();
             throw e;
         }
-        this.timings = new Timings(directory.resolve("timings.csv"));
+        this.timings = new GenerationTimes(directory.resolve("timings.csv"));
     }
 
     /**
@@ -159,8 +159,8 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     }
 
     /** Writes what the run did not have to simulate. */
-    public void write(Savings savings) {
-        AtomicFile.write(directory.resolve(SAVINGS), Json.document(savings));
+    public void write(EvaluationStatistics statistics) {
+        AtomicFile.write(directory.resolve(SAVINGS), Json.document(statistics));
     }
 
     /** Writes the best gaits that were run in vacuum, in the order in which they were found. */

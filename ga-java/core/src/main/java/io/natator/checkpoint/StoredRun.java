@@ -23,11 +23,11 @@ import org.slf4j.LoggerFactory;
  * @param state       after the last finished generation, or null
  * @param best        the best gait so far, or null
  * @param evaluations all that are recorded, in the order of their ids
- * @param savings     what it did not have to simulate, or null if that was not recorded
+ * @param statistics     what it did not have to simulate, or null if that was not recorded
  * @param vacuum      best gaits that were run in vacuum
  */
 public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
-        List<EvaluationRecord> evaluations, Savings savings, List<VacuumRecord> vacuum) {
+        List<EvaluationRecord> evaluations, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
 
     private static final Logger LOG = LoggerFactory.getLogger(StoredRun.class);
 
@@ -45,15 +45,15 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     public static StoredRun in(Path directory) {
         EvolutionSettings settings = settings(directory);
         EvolutionState state = state(directory);
-        Savings savings;
+        EvaluationStatistics statistics;
         try {
-            savings = savings(directory);
+            statistics = statistics(directory);
         } catch (InvalidInputException e) {
             LOG.warn("{}; shown without it", e.getMessage());
-            savings = null;
+            statistics = null;
         }
         return new StoredRun(directory, settings, state, best(directory, settings, state),
-                EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS)), savings, vacuumRecords(directory));
+                EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS)), statistics, vacuumRecords(directory));
     }
 
     /** The settings of the run in a folder. */
@@ -121,8 +121,8 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */
-    public static Savings savings(Path directory) {
-        return optional(directory, RunFolder.SAVINGS, Savings.class);
+    public static EvaluationStatistics statistics(Path directory) {
+        return optional(directory, RunFolder.SAVINGS, EvaluationStatistics.class);
     }
 
     /** The best gaits of the run in a folder that were run in vacuum; none if that was not asked for. */

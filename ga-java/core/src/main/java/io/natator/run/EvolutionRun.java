@@ -112,7 +112,7 @@ public final class EvolutionRun {
             List<EvolutionListener> listeners) throws InterruptedException {
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
-        List<EvolutionListener> all = new ArrayList<>(List.of(folder, new SavingsCounter(folder, duration, found)));
+        List<EvolutionListener> all = new ArrayList<>(List.of(folder, new EvaluationCounter(folder, duration, found)));
         if (settings.vacuumCheck()) {
             all.add(new VacuumCheck(folder, evaluator));
         }

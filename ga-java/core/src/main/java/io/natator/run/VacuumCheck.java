@@ -13,7 +13,7 @@ import io.natator.simulator.Evaluator;
 import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
-import io.natator.simulator.Vacuum;
+import io.natator.simulator.VacuumRequests;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -58,7 +58,7 @@ final class VacuumCheck implements EvolutionListener {
         SimulationRequest request = new SimulationRequest(individual.result().id(), settings.scene(), gait, null,
                 settings.scheme(), settings.overrides());
         try {
-            return evaluator.evaluate(Vacuum.of(request, duration));
+            return evaluator.evaluate(VacuumRequests.of(request, duration));
         } catch (RequestRejectedException e) {
             return SimulationResult.failed(request.id(), e.getMessage());
         }

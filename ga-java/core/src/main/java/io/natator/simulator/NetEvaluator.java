@@ -29,7 +29,7 @@ public final class NetEvaluator implements Evaluator {
         evaluator.evaluateAll(requests, result -> {
             if (result.fitness() > 0) {
                 inWater.put(result.id(), result);
-                inVacuum.add(Vacuum.of(asked.get(result.id()), result.simulated()));
+                inVacuum.add(VacuumRequests.of(asked.get(result.id()), result.simulated()));
             } else {
                 whenDone.accept(result);
             }

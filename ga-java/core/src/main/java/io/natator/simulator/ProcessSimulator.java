@@ -54,7 +54,7 @@ public final class ProcessSimulator implements Simulator {
             throws SimulatorFailure {
         SimulationResult result;
         try {
-            result = Answer.read(output.text());
+            result = ResultReader.read(output.text());
         } catch (SimulatorFailure e) {
             throw new SimulatorFailure(e.getMessage() + end(output), e);
         }
@@ -75,7 +75,7 @@ public final class ProcessSimulator implements Simulator {
 
     private static String end(NativeProgram.Output output) {
         return "; exit status " + output.exitStatus()
-                + (output.errorText().isEmpty() ? "" : ", errors " + Answer.shown(output.errorText()));
+                + (output.errorText().isEmpty() ? "" : ", errors " + ResultReader.shown(output.errorText()));
     }
 
     @Override

@@ -86,7 +86,7 @@ final class ServeProcess implements AutoCloseable {
         if (line.fault != null) {
             throw new SimulatorFailure(line.fault + end());
         }
-        SimulationResult result = Answer.read(line.text);
+        SimulationResult result = ResultReader.read(line.text);
         answered = true;
         return result;
     }
@@ -101,7 +101,7 @@ final class ServeProcess implements AutoCloseable {
         if (!answered && (status == EXIT_BAD_INPUT || status == EXIT_NO_DEVICE) && !said.isEmpty()) {
             throw new RequestRejectedException(said, status == EXIT_BAD_INPUT);
         }
-        return "; exit status " + status + (said.isEmpty() ? "" : ", errors " + Answer.shown(said));
+        return "; exit status " + status + (said.isEmpty() ? "" : ", errors " + ResultReader.shown(said));
     }
 
     private void write() {
@@ -133,7 +133,7 @@ final class ServeProcess implements AutoCloseable {
                 }
             }
             answers.put(new Line(null, line.size() == 0 ? "output ended"
-                    : "output ended within a line: " + Answer.shown(line.toString(StandardCharsets.UTF_8))));
+                    : "output ended within a line: " + ResultReader.shown(line.toString(StandardCharsets.UTF_8))));
         } catch (IOException e) {
             answers.offer(new Line(null, "output not readable: " + e.getMessage()));
         } catch (InterruptedException e) {

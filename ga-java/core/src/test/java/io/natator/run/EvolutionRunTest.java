@@ -5,9 +5,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
-import io.natator.checkpoint.Savings;
 import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
@@ -78,9 +78,9 @@ class EvolutionRunTest {
         assertThat(longer).isBetween(1, without / 4);
         assertSame("first", "without");
         assertSame("second", "without");
-        assertThat(StoredRun.savings(folder.resolve("without")).fromCache()).isZero();
-        Savings savings = StoredRun.savings(folder.resolve("second"));
-        assertThat(savings.fromCache()).isEqualTo(savings.evaluations()).isEqualTo(without - 1);
+        assertThat(StoredRun.statistics(folder.resolve("without")).fromCache()).isZero();
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("second"));
+        assertThat(statistics.fromCache()).isEqualTo(statistics.evaluations()).isEqualTo(without - 1);
     }
 
     @Test
@@ -103,18 +103,18 @@ class EvolutionRunTest {
     void savingsAddUp() throws InterruptedException, IOException {
         run("run", SETTINGS, execution);
 
-        Savings savings = StoredRun.savings(folder.resolve("run"));
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("run"));
         EvolutionState end;
         try (RunFolder run = RunFolder.open(folder.resolve("run"))) {
             end = run.checkpoint();
         }
-        assertThat(savings.evaluations()).isEqualTo(end.evaluations());
-        assertThat(savings.unchanged() + savings.evaluations())
+        assertThat(statistics.evaluations()).isEqualTo(end.evaluations());
+        assertThat(statistics.unchanged() + statistics.evaluations())
                 .isEqualTo(end.history().stream().mapToLong(one -> one.population()).sum());
-        assertThat(savings.unchanged()).isGreaterThanOrEqualTo(5 * 12);
-        assertThat(savings.wholeSeconds()).isEqualTo(4.0 * end.evaluations());
-        assertThat(savings.stoppedEarly()).isZero();
-        assertThat(savings.shareOfEarlyStops()).isZero();
+        assertThat(statistics.unchanged()).isGreaterThanOrEqualTo(5 * 12);
+        assertThat(statistics.wholeSeconds()).isEqualTo(4.0 * end.evaluations());
+        assertThat(statistics.stoppedEarly()).isZero();
+        assertThat(statistics.shareOfEarlyStops()).isZero();
     }
 
     private List<EvaluationRecord> evaluations(String name) {

@@ -14,7 +14,7 @@ import java.util.List;
  * @param velocity [column][row][2] in the plane's axes, scene units per second; null where there is no fluid
  * @param body     the swimmer's particles in the plane's axes
  */
-public record FlowField(View view, double time, double[] origin, double[][][] velocity, double[][] body) {
+public record FlowField(SlicePlane view, double time, double[] origin, double[][][] velocity, double[][] body) {
 
     /** Size of a cell, scene units: the spacing of the fluid in the thesis. */
     public static final double CELL = 0.09;
@@ -24,7 +24,7 @@ public record FlowField(View view, double time, double[] origin, double[][][] ve
     static final double LAYER = 0.15;
 
     /** The field of a moment. */
-    public static FlowField of(Snapshot snapshot, View view) {
+    public static FlowField of(Snapshot snapshot, SlicePlane view) {
         int first = view.first();
         int second = view.second();
         double middle = snapshot.body().stream().mapToDouble(one -> one.position()[view.depth()]).average().orElse(0);
@@ -70,7 +70,7 @@ public record FlowField(View view, double time, double[] origin, double[][][] ve
         return particles.stream().mapToDouble(one -> sign * one.position()[axis]).min().orElse(0);
     }
 
-    private static double[][] places(List<Snapshot.Particle> particles, View view) {
+    private static double[][] places(List<Snapshot.Particle> particles, SlicePlane view) {
         List<double[]> places = new ArrayList<>();
         particles.forEach(one -> places.add(new double[] {one.position()[view.first()], one.position()[view.second()]}));
         return places.toArray(double[][]::new);
@@ -94,7 +94,7 @@ public record FlowField(View view, double time, double[] origin, double[][][] ve
         double ofSecond = slope(at(column + 1, row), at(column - 1, row), at(column, row), 1);
         double ofFirst = slope(at(column, row + 1), at(column, row - 1), at(column, row), 0);
         double counterclockwise = ofSecond - ofFirst;
-        return view == View.ABOVE ? -counterclockwise : counterclockwise;
+        return view == SlicePlane.ABOVE ? -counterclockwise : counterclockwise;
     }
 
     private double[] at(int column, int row) {

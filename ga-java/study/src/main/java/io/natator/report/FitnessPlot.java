@@ -1,7 +1,7 @@
 package io.natator.report;
 
-import io.natator.evolution.GenerationSummary;
 import io.natator.checkpoint.RunFolder;
+import io.natator.evolution.GenerationSummary;
 import io.natator.plot.Picture;
 import java.awt.BasicStroke;
 import java.awt.Color;

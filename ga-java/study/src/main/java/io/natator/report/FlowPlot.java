@@ -1,7 +1,7 @@
 package io.natator.report;
 
 import io.natator.flow.FlowField;
-import io.natator.flow.View;
+import io.natator.flow.SlicePlane;
 import java.awt.BasicStroke;
 import java.awt.Color;
 import java.awt.Font;
@@ -145,7 +145,7 @@ public final class FlowPlot {
 
     /** 1 where the picture's second axis points down (z from above), −1 where it points up (y). */
     private int downwards() {
-        return field.view() == View.ABOVE ? 1 : -1;
+        return field.view() == SlicePlane.ABOVE ? 1 : -1;
     }
 
     private double x(double place) {

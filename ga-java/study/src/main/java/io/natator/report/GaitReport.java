@@ -12,10 +12,10 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
 import io.natator.flow.FlowField;
-import io.natator.realism.Attitude;
-import io.natator.realism.FishMode;
-import io.natator.realism.ModeFit;
-import io.natator.realism.Swimming;
+import io.natator.kinematics.Attitude;
+import io.natator.kinematics.FishMode;
+import io.natator.kinematics.ModeFit;
+import io.natator.kinematics.Swimming;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
 import io.natator.verdict.Reproduction;
@@ -66,8 +66,8 @@ public final class GaitReport {
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
         SimulationRequest request = new SimulationRequest(0, settings.scene(), run.best().gait(), settings.duration(),
                 settings.scheme(), runningOn(settings.overrides()));
-        Recording recording = Recorded.of(request, duration / 2, execution);
-        Page page = new Page(folder, settings.scene() + ", seed " + settings.seed());
+        Recording recording = RecordingFactory.of(request, duration / 2, execution);
+        ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         progress(page);
         Verdict verdict = Verdict.of(run.best());
         page.text("**" + verdict.text() + "** (one run, not a mean)."
@@ -103,7 +103,7 @@ public final class GaitReport {
     }
 
     /** Whoever reads of a run that is not finished is told so first. */
-    private void progress(Page page) {
+    private void progress(ReportDocument page) {
         if (!run.state().isLastOf(run.settings())) {
             page.text("**This run is not finished.** Done are generation " + run.state().generation()
                     + (run.settings().generations() == EvolutionSettings.NO_LIMIT ? ""
@@ -113,7 +113,7 @@ public final class GaitReport {
         }
     }
 
-    private void pictures(Page page, Recording recording) throws IOException {
+    private void pictures(ReportDocument page, Recording recording) throws IOException {
         Files.createDirectories(folder);
         FitnessPlot.draw(run.settings().scene() + ", seed " + run.settings().seed(), run.state().history(), folder);
         page.picture(folder.resolve("fitness.png"), "fitness over generations");
@@ -138,7 +138,7 @@ public final class GaitReport {
         return ModeFit.all(new Swimming(recording.unrolled()), run.best().gait().frequency());
     }
 
-    private void numbers(Page page, Recording recording) {
+    private void numbers(ReportDocument page, Recording recording) {
         BestGait best = run.best();
         Gait gait = best.gait();
         double length = recording.spine().restLength();

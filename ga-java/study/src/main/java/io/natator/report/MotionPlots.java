@@ -1,11 +1,11 @@
 package io.natator.report;
 
+import io.natator.kinematics.Attitude;
+import io.natator.kinematics.FishMode;
+import io.natator.kinematics.ModeFit;
+import io.natator.kinematics.SpinePath;
+import io.natator.kinematics.Swimming;
 import io.natator.plot.Picture;
-import io.natator.realism.Attitude;
-import io.natator.realism.FishMode;
-import io.natator.realism.ModeFit;
-import io.natator.realism.SpinePath;
-import io.natator.realism.Swimming;
 import java.awt.BasicStroke;
 import java.io.IOException;
 import java.nio.file.Path;

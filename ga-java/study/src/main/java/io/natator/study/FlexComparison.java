@@ -23,7 +23,7 @@ final class FlexComparison {
     private static final Logger LOG = LoggerFactory.getLogger(FlexComparison.class);
 
     private final List<Variant> variants;
-    private final List<Trial> trials;
+    private final List<StudyRun> trials;
     private final Path logFile;
     private final String simulatorDigest;
 
@@ -38,7 +38,7 @@ final class FlexComparison {
         this.trials = variants.stream()
                 .flatMap(variant -> Arrays.stream(Interval.values())
                         .flatMap(interval -> IntStream.rangeClosed(1, runs)
-                                .mapToObj(seed -> new Trial(variant, interval, seed))))
+                                .mapToObj(seed -> new StudyRun(variant, interval, seed))))
                 .toList();
         this.logFile = logFile;
         this.simulatorDigest = simulatorDigest;
@@ -51,8 +51,8 @@ final class FlexComparison {
      * @return one comparison for each interval of each variant that has results, in the order of the variants
      */
     List<Comparison> run(Evaluator evaluator, String only) throws InterruptedException {
-        try (TrialLog log = new TrialLog(logFile, trials, simulatorDigest)) {
-            List<Trial> missing = trials.stream()
+        try (StudyLog log = new StudyLog(logFile, trials, simulatorDigest)) {
+            List<StudyRun> missing = trials.stream()
                     .filter(trial -> only == null || trial.variant().name().equals(only))
                     .filter(trial -> log.resultOf(trial) == null)
                     .toList();
@@ -64,16 +64,16 @@ final class FlexComparison {
         }
     }
 
-    private static void evaluate(List<Trial> missing, Evaluator evaluator, TrialLog log)
+    private static void evaluate(List<StudyRun> missing, Evaluator evaluator, StudyLog log)
             throws InterruptedException {
         List<SimulationRequest> requests = new ArrayList<>();
-        for (Trial trial : missing) {
+        for (StudyRun trial : missing) {
             requests.add(trial.request(requests.size()));
         }
-        ListIterator<Trial> next = missing.listIterator();
+        ListIterator<StudyRun> next = missing.listIterator();
         evaluator.evaluateInOrder(requests, result -> {
             SimulationRequest request = requests.get(next.nextIndex());
-            Trial trial = next.next();
+            StudyRun trial = next.next();
             log.append(trial, request, result);
             LOG.info("{} of {}: {}, {}, seed {}: {}", next.nextIndex(), missing.size(), trial.variant().name(),
                     trial.interval().label(), trial.seed(), outcome(result));
@@ -85,7 +85,7 @@ final class FlexComparison {
                 : result.status() + (result.error() == null ? "" : ", " + result.error());
     }
 
-    private Comparison compare(Variant variant, Interval interval, TrialLog log) {
+    private Comparison compare(Variant variant, Interval interval, StudyLog log) {
         List<Double> speeds = trials.stream()
                 .filter(trial -> trial.variant() == variant && trial.interval() == interval)
                 .map(log::resultOf)

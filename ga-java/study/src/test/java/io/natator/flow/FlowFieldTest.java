@@ -35,7 +35,7 @@ class FlowFieldTest {
 
     @Test
     void aStreamHasItsVelocityAndNoVorticity() {
-        FlowField field = FlowField.of(fluid(place -> new double[] {0.3, 5, -0.1}), View.ABOVE);
+        FlowField field = FlowField.of(fluid(place -> new double[] {0.3, 5, -0.1}), SlicePlane.ABOVE);
 
         assertThat(field.columns()).isEqualTo(20);
         assertThat(field.rows()).isEqualTo(12);
@@ -49,8 +49,10 @@ class FlowFieldTest {
     @Test
     void aRigidRotationHasTwiceItsRate() {
         double rate = 1.5;
-        FlowField above = FlowField.of(fluid(place -> new double[] {rate * place[2], 0, -rate * place[0]}), View.ABOVE);
-        FlowField side = FlowField.of(fluid(place -> new double[] {-rate * place[1], rate * place[0], 0}), View.SIDE);
+        FlowField above = FlowField.of(fluid(place -> new double[] {rate * place[2], 0, -rate * place[0]}),
+                SlicePlane.ABOVE);
+        FlowField side = FlowField.of(fluid(place -> new double[] {-rate * place[1], rate * place[0], 0}),
+                SlicePlane.SIDE);
 
         assertThat(above.vorticity(10, 6)).isCloseTo(2 * rate, within(1e-9));
         assertThat(side.vorticity(10, 3)).isCloseTo(2 * rate, within(1e-9));
@@ -63,7 +65,7 @@ class FlowFieldTest {
         Snapshot gap = new Snapshot(0, whole.fluid().stream().filter(one -> Math.abs(one.position()[0] - 0.9) > 0.4).toList(),
                 whole.body());
 
-        FlowField field = FlowField.of(gap, View.ABOVE);
+        FlowField field = FlowField.of(gap, SlicePlane.ABOVE);
 
         assertThat(field.velocity()[10][5]).isNull();
         assertThat(field.vorticity(10, 5)).isNaN();

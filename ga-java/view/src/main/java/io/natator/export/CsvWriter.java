@@ -9,10 +9,10 @@ import java.nio.file.Path;
 /** One table, {@code swim.csv}: a row for each particle in each frame. Numbers have all their digits. */
 final class CsvWriter implements FrameWriter {
 
-    private final Swim swim;
+    private final ExportContext swim;
     private final BufferedWriter out;
 
-    CsvWriter(Swim swim, Path folder) throws IOException {
+    CsvWriter(ExportContext swim, Path folder) throws IOException {
         this.swim = swim;
         this.out = Files.newBufferedWriter(folder.resolve("swim.csv"));
         out.write("frame,time,particle,kind,x,y,z" + (swim.hasVelocity() ? ",vx,vy,vz" : "")

@@ -82,7 +82,7 @@ public final class Export {
             throws IOException {
         process.grant(CREDIT);
         StreamMessage.Scene scene = null;
-        Swim swim = null;
+        ExportContext swim = null;
         FrameWriter writer = null;
         int frames = 0;
         try {
@@ -91,7 +91,7 @@ public final class Export {
                 if (message instanceof StreamMessage.Frame next) {
                     StreamFrame frame = next.decode();
                     if (writer == null) {
-                        swim = Swim.of(next.scene(), frame, water);
+                        swim = ExportContext.of(next.scene(), frame, water);
                         writer = format.open(swim, path);
                     }
                     writer.frame(frame);

@@ -25,10 +25,10 @@ public enum ExportFormat {
 
     @FunctionalInterface
     private interface Opening {
-        FrameWriter open(Swim swim, Path folder) throws IOException;
+        FrameWriter open(ExportContext swim, Path folder) throws IOException;
     }
 
-    FrameWriter open(Swim swim, Path folder) throws IOException {
+    FrameWriter open(ExportContext swim, Path folder) throws IOException {
         return opening.open(swim, folder);
     }
 

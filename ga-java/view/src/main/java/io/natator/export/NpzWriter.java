@@ -23,11 +23,11 @@ final class NpzWriter implements FrameWriter {
     /** The same export gives the same bytes. */
     private static final LocalDateTime ENTRY_TIME = LocalDateTime.of(1980, 1, 1, 0, 0);
 
-    private final Swim swim;
+    private final ExportContext swim;
     private final Path file;
     private final List<NpyColumn> columns = new ArrayList<>();
 
-    NpzWriter(Swim swim, Path folder) throws IOException {
+    NpzWriter(ExportContext swim, Path folder) throws IOException {
         this.swim = swim;
         this.file = folder.resolve("swim.npz");
         int particles = swim.shown().size();

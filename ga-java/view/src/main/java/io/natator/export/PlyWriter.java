@@ -13,11 +13,11 @@ import java.util.Locale;
 /** For Blender and others: a binary PLY file for each frame, a vertex for each particle. */
 final class PlyWriter implements FrameWriter {
 
-    private final Swim swim;
+    private final ExportContext swim;
     private final Path folder;
     private final ByteBuffer rows;
 
-    PlyWriter(Swim swim, Path folder) {
+    PlyWriter(ExportContext swim, Path folder) {
         this.swim = swim;
         this.folder = folder;
         int floats = 3 + (swim.hasVelocity() ? 3 : 0) + (swim.hasDensity() ? 1 : 0) + 1;

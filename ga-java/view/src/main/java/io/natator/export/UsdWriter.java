@@ -18,13 +18,13 @@ final class UsdWriter implements FrameWriter {
 
     private static final double MUSCLE_WIDTH = 0.05;  // in solid rest distances
 
-    private final Swim swim;
+    private final ExportContext swim;
     private final Path folder;
     private final List<UsdPrim> prims = new ArrayList<>();
     private long first = -1;
     private long last = -1;
 
-    UsdWriter(Swim swim, Path folder) throws IOException {
+    UsdWriter(ExportContext swim, Path folder) throws IOException {
         this.swim = swim;
         this.folder = folder;
         StreamScene scene = swim.scene();
@@ -101,7 +101,7 @@ final class UsdWriter implements FrameWriter {
         curves.sample("float[] primvars:contraction", (samples, frame) -> {
             float[] contraction = new float[muscles.size()];
             for (int i = 0; i < contraction.length; i++) {
-                contraction[i] = Swim.contraction(muscles.get(i), frame);
+                contraction[i] = ExportContext.contraction(muscles.get(i), frame);
             }
             samples.add(frame.frame(), contraction, 1);
         });

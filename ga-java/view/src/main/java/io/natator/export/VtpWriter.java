@@ -17,7 +17,7 @@ import java.util.stream.IntStream;
  */
 final class VtpWriter implements FrameWriter {
 
-    private final Swim swim;
+    private final ExportContext swim;
     private final Path folder;
     private final BufferedWriter index;
     private final Fixed water;
@@ -40,7 +40,7 @@ final class VtpWriter implements FrameWriter {
         }
     }
 
-    VtpWriter(Swim swim, Path folder) throws IOException {
+    VtpWriter(ExportContext swim, Path folder) throws IOException {
         this.swim = swim;
         this.folder = folder;
         this.water = swim.hasWater() ? Fixed.of(swim.water()) : null;
@@ -93,7 +93,7 @@ final class VtpWriter implements FrameWriter {
     private PolyData muscles(StreamFrame frame) {
         List<StreamScene.Muscle> muscles = swim.scene().muscles();
         ByteBuffer contraction = LittleEndian.buffer((long) muscles.size() * Float.BYTES);
-        muscles.forEach(muscle -> contraction.putFloat(Swim.contraction(muscle, frame)));
+        muscles.forEach(muscle -> contraction.putFloat(ExportContext.contraction(muscle, frame)));
         PolyData lines = new PolyData(frame.time(), swim.solids().floats(frame.position(), 3));
         lines.cells("Lines", muscleNodes, muscleEnds);
         lines.ofCells("Float32", "contraction", contraction.flip());

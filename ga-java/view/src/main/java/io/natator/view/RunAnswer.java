@@ -1,11 +1,11 @@
 package io.natator.view;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import io.natator.evolution.GenerationSummary;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
+import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.Verdict;
 import java.nio.file.Path;
@@ -65,7 +65,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
 
     /** A run's changes to its scene and its scheme as one patch, or null if there is neither. */
     static ObjectNode overrides(EvolutionSettings settings) {
-        return Start.patch(settings.overrides(), settings.scheme());
+        return InitialScene.patch(settings.overrides(), settings.scheme());
     }
 
     private static List<Generation> generations(StoredRun run) {

@@ -2,7 +2,7 @@ package io.natator.view;
 
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
-import io.natator.realism.FishMode;
+import io.natator.kinematics.FishMode;
 import io.natator.simulator.ProgramInfo;
 import java.util.Arrays;
 import java.util.LinkedHashMap;
@@ -22,7 +22,7 @@ import java.util.stream.IntStream;
  * @param modes   how real fish swim
  * @param gaits   known gaits by the scene that they are for
  */
-record SetupAnswer(String version, List<String> scenes, List<Scheme> schemes, Start start, List<Run> runs,
+record SetupAnswer(String version, List<String> scenes, List<Scheme> schemes, InitialScene start, List<Run> runs,
         List<Mode> modes, Map<String, Gait> gaits) {
 
     /** A run folder: its place on the command line, from 0, and the folder's name. */
@@ -39,7 +39,7 @@ record SetupAnswer(String version, List<String> scenes, List<Scheme> schemes, St
         List<Run> runs = IntStream.range(0, settings.runs().size())
                 .mapToObj(id -> new Run(id, RunAnswer.name(settings.runs().get(id)))).toList();
         List<Mode> modes = Arrays.stream(FishMode.values())
-                .map(mode -> new Mode(mode.label(), Motion.fishEnvelope(mode, frequency))).toList();
+                .map(mode -> new Mode(mode.label(), LiveKinematics.fishEnvelope(mode, frequency))).toList();
         return new SetupAnswer(program.version(), program.scenes(), List.of(Scheme.values()), settings.start(), runs,
                 modes, gaits(program.scenes(), settings.known()));
     }

@@ -42,12 +42,12 @@ final class StreamSession implements AutoCloseable {
     private final Set<String> files;
     private final Executor analysts;
     private final ReentrantLock sending = new ReentrantLock();
-    private final Motion motion = new Motion();
+    private final LiveKinematics motion = new LiveKinematics();
     private final Deque<Long> deaths = new ArrayDeque<>();
-    private Course course;
+    private SessionState course;
     private StreamProcess process;
     private boolean closed;
-    private CompletableFuture<Motion.Analysis> analysis;
+    private CompletableFuture<LiveKinematics.Analysis> analysis;
     private long analysed = System.nanoTime();
 
     /** The socket cannot be written to any more. */
@@ -114,7 +114,7 @@ final class StreamSession implements AutoCloseable {
 
     private void begin(ClientCommand start) throws StreamException {
         boolean started = false;
-        course = new Course(start);
+        course = new SessionState(start);
         try {
             started = startProcess();
         } finally {
@@ -233,7 +233,7 @@ final class StreamSession implements AutoCloseable {
             analysis = null;
         }
         if (analysis == null && System.nanoTime() - analysed >= ANALYSIS_NANOSECONDS) {
-            Motion.Beats beats = motion.lastBeats();
+            LiveKinematics.Beats beats = motion.lastBeats();
             if (beats != null) {
                 analysed = System.nanoTime();
                 analysis = CompletableFuture.supplyAsync(beats::analyse, analysts);

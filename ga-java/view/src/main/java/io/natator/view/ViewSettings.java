@@ -15,7 +15,7 @@ import java.util.function.Function;
  * @param known     the gait that the page offers in a scene of this name, or null
  * @param runs      run folders that may be looked at; the page knows them by their place in this list
  */
-public record ViewSettings(Path simulator, String host, int port, Start start, Function<String, Gait> known,
+public record ViewSettings(Path simulator, String host, int port, InitialScene start, Function<String, Gait> known,
         List<Path> runs) {
 
     /** The address of this machine that no other can reach. */

@@ -4,9 +4,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 import com.microsoft.playwright.Route;
-import io.natator.share.RecordedSwim;
-import io.natator.share.ReplayPage;
-import io.natator.share.SwimRecorder;
+import io.natator.replay.Replay;
+import io.natator.replay.ReplayHtml;
+import io.natator.replay.ReplayRecorder;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
 import java.net.URI;
@@ -160,10 +160,10 @@ class ModulesTest extends BrowserTest {
     /** From the simulator through the packed file into the browser. */
     @Test
     void aReplayShowsThePlacesThatWereSimulated() throws InterruptedException {
-        RecordedSwim swim = new SwimRecorder(ViewFixture.SIMULATOR)
+        Replay swim = new ReplayRecorder(ViewFixture.SIMULATOR)
                 .record("swim", StreamOptions.recording("thesis/creature-1", null, null, 0.25));
         Path file = folder.resolve("swim.html");
-        ReplayPage.Written written = new ReplayPage("swim", List.of(swim), true).write(file, 10_000_000);
+        ReplayHtml.Written written = new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000);
         own = file.toString();
         page.navigate(file.toUri().toString());
         await("window.natator && natator.time() > 0");

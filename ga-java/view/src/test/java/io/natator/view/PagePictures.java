@@ -42,7 +42,8 @@ class PagePictures extends BrowserTest {
     void aCreatureSwims(String name) throws Exception {
         Path run = RESULTS.resolve("thesis").resolve("runs").resolve(name);
         EvolutionSettings settings = StoredRun.settings(run);
-        Start start = new Start(settings.scene(), Start.patch(settings.overrides(), settings.scheme()),
+        InitialScene start = new InitialScene(settings.scene(),
+                InitialScene.patch(settings.overrides(), settings.scheme()),
                 StoredRun.best(run).gait());
         ViewSettings view = new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0, start, scene -> null,
                 List.of(run));

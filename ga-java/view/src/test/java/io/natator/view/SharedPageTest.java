@@ -7,9 +7,9 @@ import static org.assertj.core.api.Assertions.within;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
-import io.natator.share.RecordedSwim;
-import io.natator.share.ReplayPage;
-import io.natator.share.SwimRecorder;
+import io.natator.replay.Replay;
+import io.natator.replay.ReplayHtml;
+import io.natator.replay.ReplayRecorder;
 import io.natator.stream.StreamOptions;
 import java.awt.image.BufferedImage;
 import java.io.IOException;
@@ -35,10 +35,10 @@ class SharedPageTest extends BrowserTest {
     @BeforeAll
     static void write() throws IOException, InterruptedException {
         JsonNode gait = Json.parse(ViewFixture.GAIT.replace('\'', '"'), JsonNode.class);
-        RecordedSwim swim = new SwimRecorder(ViewFixture.SIMULATOR).record("swim", StreamOptions
+        Replay swim = new ReplayRecorder(ViewFixture.SIMULATOR).record("swim", StreamOptions
                 .recording("thesis/creature-1", null, gait, SECONDS).with(Scheme.CONSERVING, null));
         file = folder.resolve("swim.html");
-        new ReplayPage("swim", List.of(swim), true).write(file, 10_000_000);
+        new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000);
     }
 
     @Override

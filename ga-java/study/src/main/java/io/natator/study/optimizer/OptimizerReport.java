@@ -62,10 +62,10 @@ final class OptimizerReport {
             Path directory) throws IOException {
         List<CurveBand> bands = new ArrayList<>();
         page.append("\n## ").append(scene).append("\n\n").append(columns(runs.get(0).settings().evaluations()));
-        for (Contestant contestant : Contestant.values()) {
-            List<OptimizerRun> own = runs.stream().filter(run -> run.contestant() == contestant).toList();
+        for (OptimizerVariant variant : OptimizerVariant.values()) {
+            List<OptimizerRun> own = runs.stream().filter(run -> run.variant() == variant).toList();
             if (!own.isEmpty()) {
-                CurveBand band = new CurveBand(contestant.label(), own.stream().map(OptimizerRun::curve).toList());
+                CurveBand band = new CurveBand(variant.label(), own.stream().map(OptimizerRun::curve).toList());
                 bands.add(band);
                 int population = own.get(0).settings().population();
                 page.append(row(band, population, own));

@@ -10,11 +10,11 @@ import java.nio.file.Path;
  * One run of the study.
  *
  * @param scene      short name of the scene
- * @param contestant what searches
+ * @param variant what searches
  * @param settings   all that determines the run
  * @param directory  its run folder
  */
-record OptimizerRun(String scene, Contestant contestant, EvolutionSettings settings, Path directory) {
+record OptimizerRun(String scene, OptimizerVariant variant, EvolutionSettings settings, Path directory) {
 
     /** Itself as one of many runs. */
     PlannedRun plan() {

@@ -24,25 +24,25 @@ public final class OptimizerStudy {
      *
      * @param scenes         settings by short name of a scene; its size is that of JGAP and random search, its number
      *                       of evaluations what every run takes
-     * @param contestants    at least one
+     * @param variants    at least one
      * @param seeds          runs of each with seeds 1, 2, …; at least 1
      * @param cmaEsPopulation evaluations in a generation of CMA-ES, or null for its inventor's 4 + ⌊3 ln n⌋ with n genes
      * @param directory      where the run folders and results go
      */
-    public OptimizerStudy(Map<String, EvolutionSettings> scenes, List<Contestant> contestants, int seeds,
+    public OptimizerStudy(Map<String, EvolutionSettings> scenes, List<OptimizerVariant> variants, int seeds,
             Integer cmaEsPopulation, Path directory) {
         Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
         this.directory = directory;
         for (int seed = 1; seed <= seeds; seed++) {
             for (Map.Entry<String, EvolutionSettings> scene : scenes.entrySet()) {
-                for (Contestant contestant : contestants) {
-                    EvolutionSettings settings = contestant.in(scene.getValue().withSeed(seed));
-                    if (contestant.isCmaEs()) {
+                for (OptimizerVariant variant : variants) {
+                    EvolutionSettings settings = variant.in(scene.getValue().withSeed(seed));
+                    if (variant.isCmaEs()) {
                         settings = settings.withSize(cmaEsPopulation != null ? cmaEsPopulation : usualSize(settings),
                                 settings.generations());
                     }
-                    runs.add(new OptimizerRun(scene.getKey(), contestant, settings,
-                            directory.resolve(scene.getKey()).resolve(contestant.label()).resolve("seed-" + seed)));
+                    runs.add(new OptimizerRun(scene.getKey(), variant, settings,
+                            directory.resolve(scene.getKey()).resolve(variant.label()).resolve("seed-" + seed)));
                 }
             }
         }

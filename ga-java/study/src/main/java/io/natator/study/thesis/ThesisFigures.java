@@ -1,16 +1,16 @@
 package io.natator.study.thesis;
 
-import io.natator.evolution.GenerationSummary;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Scheme;
+import io.natator.evolution.GenerationSummary;
 import io.natator.flow.FlowField;
+import io.natator.kinematics.FishMode;
 import io.natator.plot.Picture;
-import io.natator.realism.FishMode;
 import io.natator.report.Charts;
 import io.natator.report.FlowPlot;
 import io.natator.report.MotionPlots;
-import io.natator.report.Page;
 import io.natator.report.Recording;
+import io.natator.report.ReportDocument;
 import io.natator.study.Sample;
 import java.awt.Color;
 import java.io.IOException;
@@ -25,31 +25,31 @@ import org.knowm.xchart.XYChart;
 final class ThesisFigures {
 
     private final Path folder;
-    private final Findings findings;
+    private final StudyResults results;
     private final Map<String, Recording> recordings;
 
     /** Pictures go into {@code figures} in the folder. */
-    ThesisFigures(Path folder, Findings findings, Map<String, Recording> recordings) {
+    ThesisFigures(Path folder, StudyResults results, Map<String, Recording> recordings) {
         this.folder = folder.resolve("figures");
-        this.findings = findings;
+        this.results = results;
         this.recordings = recordings;
     }
 
-    void add(Page page) throws IOException {
+    void add(ReportDocument page) throws IOException {
         page.heading(2, "Pictures");
         addFitness(page);
         addMotions(page);
         addParameters(page);
     }
 
-    private void addFitness(Page page) throws IOException {
+    private void addFitness(ReportDocument page) throws IOException {
         page.heading(3, "Fitness over generations");
         for (int creature = 1; creature <= 4; creature++) {
             XYChart chart = Charts.lines("Creature " + creature + ": best distance", "generation", "scene units");
-            for (Scheme scheme : Catalogue.SCHEMES) {
-                for (EvolvedRun run : findings.evolved(creature, scheme)) {
+            for (Scheme scheme : ExperimentCatalogue.SCHEMES) {
+                for (EvolvedRun run : results.evolved(creature, scheme)) {
                     List<GenerationSummary> history = StoredRun.state(run.plan().directory()).history();
-                    Charts.add(chart, Shown.name(scheme) + ", seed " + run.seed(),
+                    Charts.add(chart, TableFormat.name(scheme) + ", seed " + run.seed(),
                             history.stream().mapToDouble(GenerationSummary::generation).toArray(),
                             history.stream().mapToDouble(GenerationSummary::best).toArray(), scheme.ordinal(), 1.5f);
                 }
@@ -60,7 +60,7 @@ final class ThesisFigures {
         }
     }
 
-    private void addMotions(Page page) throws IOException {
+    private void addMotions(ReportDocument page) throws IOException {
         for (Map.Entry<String, Recording> entry : recordings.entrySet()) {
             String name = entry.getKey();
             page.heading(3, title(name));
@@ -86,18 +86,18 @@ final class ThesisFigures {
                 : "Best evolved, " + name.replace("-conserving", ", conserving").replace("-flex", ", flex");
     }
 
-    private void addParameters(Page page) throws IOException {
+    private void addParameters(ReportDocument page) throws IOException {
         page.heading(3, "Parameters (4.1)");
         for (Parameter parameter : Parameter.values()) {
             XYChart chart = Charts.lines("Speed over " + parameter.label(), parameter.label() + label(parameter),
                     "speed in fluid (scene units/s)");
             int colour = 0;
-            for (String gait : Catalogue.STUDIED_GAITS) {
-                for (Scheme scheme : Catalogue.SCHEMES) {
+            for (String gait : ExperimentCatalogue.STUDIED_GAITS) {
+                for (Scheme scheme : ExperimentCatalogue.SCHEMES) {
                     addCurve(chart, parameter, gait, scheme, colour++);
                 }
             }
-            Catalogue.SCHEMES.forEach(scheme -> addCost(chart, parameter, scheme));
+            ExperimentCatalogue.SCHEMES.forEach(scheme -> addCost(chart, parameter, scheme));
             if (!chart.getSeriesMap().isEmpty()) {
                 String file = "4.1-" + parameter.label().replace(' ', '-');
                 page.picture(Picture.save(chart, folder.resolve(file)), "speed over " + parameter.label());
@@ -118,15 +118,15 @@ final class ThesisFigures {
     private void addCurve(XYChart chart, Parameter parameter, String gait, Scheme scheme, int colour) {
         List<double[]> points = new ArrayList<>();
         for (double value : parameter.settings()) {
-            Sample speed = findings.measurements()
-                    .speed(ExperimentTables.of(findings, parameter, value, gait, scheme, false));
+            Sample speed = results.measurements()
+                    .speed(ExperimentTables.of(results, parameter, value, gait, scheme, false));
             if (speed.count() > 0 && value < 1e20) {
                 points.add(new double[] {logarithmic(parameter) ? Math.log(value) / Math.log(2) : value, speed.mean(),
                     speed.hasSpread() ? speed.standardDeviation() : 0});
             }
         }
         if (!points.isEmpty()) {
-            String name = String.format(Locale.ROOT, "creature %s, %s", gait.charAt(0), Shown.name(scheme));
+            String name = String.format(Locale.ROOT, "creature %s, %s", gait.charAt(0), TableFormat.name(scheme));
             double[] x = points.stream().mapToDouble(point -> point[0]).toArray();
             double[] y = points.stream().mapToDouble(point -> point[1]).toArray();
             double[] deviation = points.stream().mapToDouble(point -> point[2]).toArray();
@@ -137,14 +137,15 @@ final class ThesisFigures {
     private void addCost(XYChart chart, Parameter parameter, Scheme scheme) {
         List<double[]> points = new ArrayList<>();
         for (double value : parameter.settings()) {
-            double cost = findings.costs().of(ExperimentTables.of(findings, parameter, value,
-                    Catalogue.STUDIED_GAITS.get(0), scheme, false));
+            double cost = results.timings().of(ExperimentTables.of(results, parameter, value,
+                    ExperimentCatalogue.STUDIED_GAITS.get(0), scheme, false));
             if (Double.isFinite(cost) && value < 1e20) {
                 points.add(new double[] {logarithmic(parameter) ? Math.log(value) / Math.log(2) : value, cost});
             }
         }
         if (!points.isEmpty()) {
-            Charts.addOnTheRight(chart, "cost, " + Shown.name(scheme), points.stream().mapToDouble(point -> point[0]).toArray(),
+            Charts.addOnTheRight(chart, "cost, " + TableFormat.name(scheme),
+                    points.stream().mapToDouble(point -> point[0]).toArray(),
                     points.stream().mapToDouble(point -> point[1]).toArray(), "cost (core seconds per simulated second)",
                     scheme == Scheme.FLEX ? Color.GRAY : Color.LIGHT_GRAY);
         }

@@ -3,8 +3,8 @@ package io.natator.study.thesis;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
-import io.natator.report.Page;
 import io.natator.report.Recording;
+import io.natator.report.ReportDocument;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
@@ -24,7 +24,7 @@ final class ThesisReport {
     private static final String COMMENTARY = "commentary.md";
 
     private final Path directory;
-    private final Findings findings;
+    private final StudyResults results;
     private final int asked;
     private final Map<String, Recording> recordings;
     private final String command;
@@ -36,27 +36,27 @@ final class ThesisReport {
      * @param asked     how many evolutions were asked for
      * @param command   what the study was made by
      */
-    ThesisReport(Path directory, Findings findings, int asked, Map<String, Recording> recordings, String command) {
+    ThesisReport(Path directory, StudyResults results, int asked, Map<String, Recording> recordings, String command) {
         this.directory = directory;
-        this.findings = findings;
+        this.results = results;
         this.asked = asked;
         this.recordings = recordings;
         this.command = command;
     }
 
     Path write() {
-        Page page = new Page(directory, "The thesis, redone");
+        ReportDocument page = new ReportDocument(directory, "The thesis, redone");
         page.text("P. Fajdiga's master's thesis (University of Ljubljana, 2019) evolved swimming creatures in NVIDIA Flex. "
                 + "This is the same work with Natator: what was asked, what came out, and where it disagrees. Generated; "
                 + "do not edit.");
         page.list(scale());
-        new Conclusions(findings).add(page);
+        new ClaimsSection(results).add(page);
         addPictures(page);
         page.heading(2, "Tables");
-        new SpeedTables(findings).add(page);
-        new RealismTables(findings).add(page);
-        new ExperimentTables(findings).add(page);
-        new Disagreements(findings).add(page);
+        new SpeedTables(results).add(page);
+        new RealismTables(results).add(page);
+        new ExperimentTables(results).add(page);
+        new DifferencesSection(results).add(page);
         addCommentary(page);
         addCommands(page);
         try {
@@ -68,16 +68,16 @@ final class ThesisReport {
 
     private List<String> scale() {
         List<String> items = new ArrayList<>();
-        List<EvolutionSettings> settings = findings.evolved().stream()
+        List<EvolutionSettings> settings = results.evolved().stream()
                 .map(run -> StoredRun.settings(run.plan().directory())).toList();
-        items.add(findings.evolved().size() + " of " + asked + " evolutions are finished" + (settings.isEmpty() ? "."
+        items.add(results.evolved().size() + " of " + asked + " evolutions are finished" + (settings.isEmpty() ? "."
                 : ": " + each(settings.stream().map(EvolutionSettings::population)) + " chromosomes, "
                 + each(settings.stream().map(EvolutionSettings::generations)) + " generations, operators "
                 + each(settings.stream().map(one -> Json.line(one.operators()).replace("\"", ""))) + ", on "
                 + each(settings.stream().map(one -> one.backend().argument())) + "."));
-        items.add(findings.measurements().size() + " evaluations measured, by the native program of SHA-256 "
-                + each(findings.measurements().programs().stream()) + ".");
-        items.add(findings.motions().size() + " runs recorded with all their particles.");
+        items.add(results.measurements().size() + " evaluations measured, by the native program of SHA-256 "
+                + each(results.measurements().programs().stream()) + ".");
+        items.add(results.motions().size() + " runs recorded with all their particles.");
         return items;
     }
 
@@ -86,9 +86,9 @@ final class ThesisReport {
         return values.distinct().map(String::valueOf).collect(Collectors.joining(", "));
     }
 
-    private void addPictures(Page page) {
+    private void addPictures(ReportDocument page) {
         try {
-            new ThesisFigures(directory, findings, recordings).add(page);
+            new ThesisFigures(directory, results, recordings).add(page);
         } catch (IOException e) {
             throw new UncheckedIOException("cannot draw: " + e.getMessage(), e);
         } catch (LinkageError e) {
@@ -98,7 +98,7 @@ final class ThesisReport {
     }
 
     /** What a person wrote, marked as such. */
-    private void addCommentary(Page page) {
+    private void addCommentary(ReportDocument page) {
         Path file = directory.resolve(COMMENTARY);
         if (!Files.exists(file)) {
             return;
@@ -114,7 +114,7 @@ final class ThesisReport {
         }
     }
 
-    private void addCommands(Page page) {
+    private void addCommands(ReportDocument page) {
         page.heading(2, "Commands");
         page.code(command);
         page.text("which continues where it was stopped; `--phase evolve`, `measure` and `report` do a part of it. Every "
@@ -122,6 +122,6 @@ final class ThesisReport {
                 + "of rows of `motions.jsonl`; costs are in `costs.jsonl`. Evolved gaits are in `best.json` of the run "
                 + "folders, with settings and every generation's figures. Pictures are drawn from `recordings/`. Sources "
                 + "of the published and of Flex' numbers:");
-        page.list(findings.data().about());
+        page.list(results.data().about());
     }
 }

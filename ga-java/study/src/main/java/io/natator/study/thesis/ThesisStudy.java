@@ -2,11 +2,11 @@ package io.natator.study.thesis;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Limits;
 import io.natator.config.Json;
+import io.natator.config.Limits;
 import io.natator.config.Scheme;
-import io.natator.report.Recorded;
 import io.natator.report.Recording;
+import io.natator.report.RecordingFactory;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import java.nio.file.Files;
@@ -27,11 +27,11 @@ public final class ThesisStudy implements AutoCloseable {
     private final Path directory;
     private final Double duration;
     private final List<EvolvedRun> evolved;
-    private final Catalogue catalogue;
+    private final ExperimentCatalogue catalogue;
     private final ThesisData data = ThesisData.load();
-    private final Measurements measurements;
-    private final Motions motions;
-    private final Costs costs;
+    private final MeasurementLog measurements;
+    private final KinematicsLog motions;
+    private final TimingLog timings;
 
     /**
      * Opens the study.
@@ -45,10 +45,10 @@ public final class ThesisStudy implements AutoCloseable {
         this.directory = directory;
         this.duration = duration;
         this.evolved = plan.finished();
-        this.catalogue = new Catalogue(data, evolved, duration, directory);
-        this.measurements = new Measurements(directory, runs);
-        this.motions = new Motions(directory, runs);
-        this.costs = new Costs(directory);
+        this.catalogue = new ExperimentCatalogue(data, evolved, duration, directory);
+        this.measurements = new MeasurementLog(directory, runs);
+        this.motions = new KinematicsLog(directory, runs);
+        this.timings = new TimingLog(directory);
     }
 
     /** How many evaluations are still to be measured. */
@@ -60,7 +60,7 @@ public final class ThesisStudy implements AutoCloseable {
     public int missingRecordings() {
         long pictures = pictured().entrySet().stream().filter(picture -> recorded(picture).isEmpty()).count();
         return motions.missing(catalogue.recorded()).size() + (int) pictures
-                + costs.missing(catalogue.timed()).size();
+                + timings.missing(catalogue.timed()).size();
     }
 
     /**
@@ -83,12 +83,12 @@ public final class ThesisStudy implements AutoCloseable {
         motions.record(catalogue.recorded(), execution, done);
         for (Map.Entry<String, SimulationRequest> picture : pictured().entrySet()) {
             if (recorded(picture).isEmpty()) {
-                double seconds = duration == null ? Catalogue.THESIS_SECONDS : duration;
-                Recorded.of(picture.getValue(), seconds / 2, execution).write(recording(picture.getKey()));
+                double seconds = duration == null ? ExperimentCatalogue.THESIS_SECONDS : duration;
+                RecordingFactory.of(picture.getValue(), seconds / 2, execution).write(recording(picture.getKey()));
                 done.run();
             }
         }
-        costs.time(catalogue.timed(), execution, done);
+        timings.time(catalogue.timed(), execution, done);
     }
 
     private Path recording(String name) {
@@ -113,14 +113,14 @@ public final class ThesisStudy implements AutoCloseable {
 
     /** Of each creature in each scheme the best evolution that is measured. */
     private List<EvolvedRun> bestEvolved() {
-        Findings findings = findings();
+        StudyResults results = results();
         return evolved.stream().map(EvolvedRun::creature).distinct().sorted()
-                .flatMap(creature -> Catalogue.SCHEMES.stream().map(scheme -> findings.best(creature, scheme)))
+                .flatMap(creature -> ExperimentCatalogue.SCHEMES.stream().map(scheme -> results.best(creature, scheme)))
                 .filter(Objects::nonNull).toList();
     }
 
-    private Findings findings() {
-        return new Findings(data, catalogue, measurements, motions, costs, evolved);
+    private StudyResults results() {
+        return new StudyResults(data, catalogue, measurements, motions, timings, evolved);
     }
 
     /** The recording of just this, if there is one: with more seeds another run may be the best. */
@@ -147,13 +147,13 @@ public final class ThesisStudy implements AutoCloseable {
      * @return the page
      */
     public Path report(EvolutionPlan plan, String command) {
-        return new ThesisReport(directory, findings(), plan.runs().size(), recordings(), command).write();
+        return new ThesisReport(directory, results(), plan.runs().size(), recordings(), command).write();
     }
 
     @Override
     public void close() {
         measurements.close();
         motions.close();
-        costs.close();
+        timings.close();
     }
 }

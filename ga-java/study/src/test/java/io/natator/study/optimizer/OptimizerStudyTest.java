@@ -38,7 +38,7 @@ class OptimizerStudyTest {
     private OptimizerStudy study(String name, long evaluations) {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
                 .withSize(8, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations);
-        return new OptimizerStudy(Map.of("creature-3", settings), List.of(Contestant.values()), 3, null,
+        return new OptimizerStudy(Map.of("creature-3", settings), List.of(OptimizerVariant.values()), 3, null,
                 folder.resolve(name));
     }
 
@@ -90,9 +90,9 @@ class OptimizerStudyTest {
         assertThat(pieces.finished()).isEqualTo(pieces.size()).isEqualTo(12);
         whole.report("the command");
         pieces.report("the command");
-        for (Contestant contestant : Contestant.values()) {
+        for (OptimizerVariant variant : OptimizerVariant.values()) {
             for (int seed = 1; seed <= 3; seed++) {
-                String run = "creature-3/" + contestant.label() + "/seed-" + seed + "/";
+                String run = "creature-3/" + variant.label() + "/seed-" + seed + "/";
                 for (String file : List.of("evaluations.jsonl", "generations.csv", "best.json")) {
                     assertThat(folder.resolve("pieces").resolve(run + file))
                             .hasSameTextualContentAs(folder.resolve("whole").resolve(run + file));

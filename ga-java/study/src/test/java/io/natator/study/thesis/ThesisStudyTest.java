@@ -9,8 +9,8 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.evolution.ToySimulator;
-import io.natator.realism.FishMode;
-import io.natator.report.Recorded;
+import io.natator.kinematics.FishMode;
+import io.natator.report.RecordingFactory;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.FakeSimulator;
 import io.natator.simulator.SceneInfo;
@@ -80,9 +80,9 @@ class ThesisStudyTest {
     void reportsOnWhatIsThere() throws IOException, InterruptedException {
         ExecutionSettings execution = new ExecutionSettings(SIMULATOR, 2, Duration.ofMinutes(5));
         ThesisData data = ThesisData.load();
-        Catalogue catalogue = new Catalogue(data, List.of(), DURATION, folder);
+        ExperimentCatalogue catalogue = new ExperimentCatalogue(data, List.of(), DURATION, folder);
         Experiment experiment = catalogue.speeds(data.gait("2"), Scheme.FLEX).get(0);
-        try (Motions motions = new Motions(folder, RUNS)) {
+        try (KinematicsLog motions = new KinematicsLog(folder, RUNS)) {
             motions.record(List.of(experiment), execution, () -> { });
             assertThat(motions.of(experiment)).hasSize(RUNS).allSatisfy(motion -> {
                 assertThat(motion.simulated()).isCloseTo(DURATION, within(1e-6));
@@ -91,7 +91,7 @@ class ThesisStudyTest {
             });
             assertThat(motions.missing(List.of(experiment))).isEmpty();
         }
-        Recorded.of(experiment.request(), DURATION / 2, execution)
+        RecordingFactory.of(experiment.request(), DURATION / 2, execution)
                 .write(folder.resolve("recordings").resolve("thesis-2.json.gz"));
         Path page;
         try (ThesisStudy study = study()) {
@@ -115,7 +115,7 @@ class ThesisStudyTest {
     @Test
     void theStandardValueOfEveryParameterIsTheScenesOwn() {
         ThesisData data = ThesisData.load();
-        Catalogue catalogue = new Catalogue(data, List.of(), null, folder);
+        ExperimentCatalogue catalogue = new ExperimentCatalogue(data, List.of(), null, folder);
         SimulationRequest plain = catalogue.speeds(data.gait("1"), Scheme.FLEX).get(0).request();
         for (Parameter parameter : Parameter.values()) {
             List<SimulationRequest> requests = catalogue.study(parameter, "1", Scheme.FLEX).stream()
@@ -157,10 +157,10 @@ class ThesisStudyTest {
         Sample drift = Sample.of(List.of(0.15, 0.15));
         Sample noisy = Sample.of(List.of(0.3, -0.1));
 
-        assertThat(Conclusions.swims(swift, still)).isEqualTo("yes");
-        assertThat(Conclusions.swims(swift, drift)).startsWith("doubtful");
-        assertThat(Conclusions.swims(noisy, still)).startsWith("no");
-        assertThat(Conclusions.swims(Sample.of(List.of(-0.2, -0.2)), still)).isEqualTo("no");
-        assertThat(Conclusions.swims(Sample.of(List.of()), still)).isEqualTo("–");
+        assertThat(ClaimsSection.swims(swift, still)).isEqualTo("yes");
+        assertThat(ClaimsSection.swims(swift, drift)).startsWith("doubtful");
+        assertThat(ClaimsSection.swims(noisy, still)).startsWith("no");
+        assertThat(ClaimsSection.swims(Sample.of(List.of(-0.2, -0.2)), still)).isEqualTo("no");
+        assertThat(ClaimsSection.swims(Sample.of(List.of()), still)).isEqualTo("–");
     }
 }
