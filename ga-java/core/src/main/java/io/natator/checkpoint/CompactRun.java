@@ -3,6 +3,7 @@ package io.natator.checkpoint;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.evolution.EvolutionState;
+import io.natator.file.AtomicFile;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;

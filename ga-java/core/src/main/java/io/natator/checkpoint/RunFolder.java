@@ -9,6 +9,8 @@ import io.natator.encoding.Encoding;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
+import io.natator.file.AtomicFile;
+import io.natator.file.JsonLines;
 import io.natator.simulator.SimulationResult;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -38,14 +40,14 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private EvolutionSettings settings;
     private final Encoding encoding;
     private final EvolutionState checkpoint;
-    private final EvaluationLog log;
+    private final JsonLines<EvaluationRecord> log;
     private final GenerationTimes timings;
 
     private RunFolder(Path directory, EvolutionSettings settings) {
         this.directory = directory;
         this.settings = settings;
         this.encoding = settings.encoding().forActuators(settings.actuators());
-        this.log = new EvaluationLog(directory.resolve(EVALUATIONS));
+        this.log = JsonLines.locked(directory.resolve(EVALUATIONS), EvaluationRecord.class);
         try {
             this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
                     ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
@@ -97,7 +99,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
-        int recorded = folder.log.records().size();
+        int recorded = folder.log.rows().size();
         if (folder.checkpoint != null && recorded < folder.checkpoint.evaluations()) {
             folder.close();
             throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + recorded
@@ -112,7 +114,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * it is simulated anew from its first failure.
      */
     private void dropFailures() {
-        List<EvaluationRecord> all = log.records();
+        List<EvaluationRecord> all = log.rows();
         int first = checkpoint == null ? 0 : (int) checkpoint.evaluations();
         int failed = 0;
         int firstFailed = -1;
@@ -150,7 +152,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     /** Simulations that were recorded when the folder was opened, in the order of their ids. */
     public List<EvaluationRecord> recorded() {
-        return log.records();
+        return log.rows();
     }
 
     /** Writes where and how the run is carried out. */
@@ -176,7 +178,9 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     @Override
     public void evaluated(EvaluationRecord evaluation) {
-        log.append(evaluation);
+        if (evaluation.result().id() >= log.size()) {
+            log.append(evaluation);
+        }
     }
 
     /** Writes the checkpoint before what follows from it: if the run is killed right after, the rest can be made from it. */

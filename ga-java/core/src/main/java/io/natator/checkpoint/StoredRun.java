@@ -1,16 +1,14 @@
 package io.natator.checkpoint;
 
-import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
+import io.natator.file.JsonLines;
 import io.natator.simulator.SimulationResult;
-import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.List;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -53,7 +51,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
             statistics = null;
         }
         return new StoredRun(directory, settings, state, best(directory, settings, state),
-                EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS)), statistics, vacuumRecords(directory));
+                evaluations(directory), statistics, vacuumRecords(directory));
     }
 
     /** The settings of the run in a folder. */
@@ -93,7 +91,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** The evaluations that the run in a folder has recorded. */
     public static List<EvaluationRecord> evaluations(Path directory) {
-        return EvaluationLog.read(directory.resolve(RunFolder.EVALUATIONS));
+        return JsonLines.read(directory.resolve(RunFolder.EVALUATIONS), EvaluationRecord.class);
     }
 
     /** The state after the last finished generation of the run in a folder, or null. */
@@ -127,18 +125,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** The best gaits of the run in a folder that were run in vacuum; none if that was not asked for. */
     public static List<VacuumRecord> vacuumRecords(Path directory) {
-        Path file = directory.resolve(RunFolder.VACUUM);
-        try {
-            List<VacuumRecord> records = new ArrayList<>();
-            for (String line : Files.exists(file) ? Files.readAllLines(file) : List.<String>of()) {
-                records.add(Json.parse(line, VacuumRecord.class));
-            }
-            return records;
-        } catch (JsonProcessingException e) {
-            throw new InvalidInputException(file + ": " + Json.reason(e), e);
-        } catch (IOException e) {
-            throw new InvalidInputException("cannot read " + AtomicFile.reason(file, e), e);
-        }
+        return JsonLines.read(directory.resolve(RunFolder.VACUUM), VacuumRecord.class);
     }
 
     /** The best evaluation of all generations up to this one, the earliest of equals; null if none is recorded. */

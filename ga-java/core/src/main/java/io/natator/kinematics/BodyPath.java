@@ -1,10 +1,7 @@
 package io.natator.kinematics;
 
-import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
-import java.io.BufferedReader;
-import java.io.IOException;
-import java.nio.file.Files;
+import io.natator.file.CsvReader;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -17,7 +14,7 @@ import java.util.List;
  */
 public record BodyPath(double[] times, double[][][] particles) {
 
-    private static final String HEADER = "frame,time,particle,x,y,z";
+    private static final List<String> COLUMNS = List.of("frame", "time", "particle", "x", "y", "z");
 
     /**
      * Reads the file.
@@ -28,29 +25,18 @@ public record BodyPath(double[] times, double[][][] particles) {
         List<Double> times = new ArrayList<>();
         List<double[][]> frames = new ArrayList<>();
         List<double[]> frame = new ArrayList<>();
-        int number = 1;
-        try (BufferedReader lines = Files.newBufferedReader(file)) {
-            if (!HEADER.equals(lines.readLine())) {
-                throw new InvalidInputException(file + ": expected the columns " + HEADER);
-            }
-            for (String line = lines.readLine(); line != null; line = lines.readLine()) {
-                number++;
-                String[] fields = line.split(",", -1);
-                if (Integer.parseInt(fields[0]) == times.size()) {
+        try (CsvReader table = new CsvReader(file, COLUMNS)) {
+            while (table.next()) {
+                if (table.number("frame") == times.size()) {
                     addFrame(frames, frame);
-                    times.add(Double.valueOf(fields[1]));
+                    times.add(table.number("time"));
                 }
-                frame.add(new double[] {Double.parseDouble(fields[3]), Double.parseDouble(fields[4]),
-                    Double.parseDouble(fields[5])});
+                frame.add(new double[] {table.number("x"), table.number("y"), table.number("z")});
             }
-            addFrame(frames, frame);
-            return new BodyPath(times.stream().mapToDouble(Double::doubleValue).toArray(),
-                    frames.toArray(double[][][]::new));
-        } catch (IOException e) {
-            throw new InvalidInputException(file + " cannot be read: " + FileErrors.reason(file, e), e);
-        } catch (NumberFormatException | ArrayIndexOutOfBoundsException e) {
-            throw new InvalidInputException(file + ", line " + number + ": expected six numbers", e);
         }
+        addFrame(frames, frame);
+        return new BodyPath(times.stream().mapToDouble(Double::doubleValue).toArray(),
+                frames.toArray(double[][][]::new));
     }
 
     private static void addFrame(List<double[][]> frames, List<double[]> frame) {

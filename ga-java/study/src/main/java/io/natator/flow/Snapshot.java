@@ -1,10 +1,7 @@
 package io.natator.flow;
 
-import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
-import java.io.BufferedReader;
-import java.io.IOException;
-import java.nio.file.Files;
+import io.natator.file.CsvReader;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -18,7 +15,7 @@ import java.util.List;
  */
 public record Snapshot(double time, List<Particle> fluid, List<Particle> body) {
 
-    private static final String HEADER = "time,kind,mass,x,y,z,vx,vy,vz,density";
+    private static final List<String> COLUMNS = List.of("time", "kind", "x", "y", "z", "vx", "vy", "vz");
 
     /**
      * A particle.
@@ -38,27 +35,14 @@ public record Snapshot(double time, List<Particle> fluid, List<Particle> body) {
         List<Particle> fluid = new ArrayList<>();
         List<Particle> body = new ArrayList<>();
         double time = 0;
-        int number = 1;
-        try (BufferedReader lines = Files.newBufferedReader(file)) {
-            if (!HEADER.equals(lines.readLine())) {
-                throw new InvalidInputException(file + ": expected the columns " + HEADER);
+        try (CsvReader table = new CsvReader(file, COLUMNS)) {
+            while (table.next()) {
+                time = table.number("time");
+                (table.text("kind").equals("fluid") ? fluid : body).add(new Particle(
+                        new double[] {table.number("x"), table.number("y"), table.number("z")},
+                        new double[] {table.number("vx"), table.number("vy"), table.number("vz")}));
             }
-            for (String line = lines.readLine(); line != null; line = lines.readLine()) {
-                number++;
-                String[] fields = line.split(",", -1);
-                time = Double.parseDouble(fields[0]);
-                (fields[1].equals("fluid") ? fluid : body).add(new Particle(three(fields, 3), three(fields, 6)));
-            }
-            return new Snapshot(time, fluid, body);
-        } catch (IOException e) {
-            throw new InvalidInputException(file + " cannot be read: " + FileErrors.reason(file, e), e);
-        } catch (NumberFormatException | ArrayIndexOutOfBoundsException e) {
-            throw new InvalidInputException(file + ", line " + number + ": expected ten fields", e);
         }
-    }
-
-    private static double[] three(String[] fields, int first) {
-        return new double[] {Double.parseDouble(fields[first]), Double.parseDouble(fields[first + 1]),
-            Double.parseDouble(fields[first + 2])};
+        return new Snapshot(time, fluid, body);
     }
 }

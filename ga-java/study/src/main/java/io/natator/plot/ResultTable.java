@@ -1,15 +1,13 @@
 package io.natator.plot;
 
-import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
-import java.io.IOException;
-import java.nio.file.Files;
+import io.natator.file.CsvReader;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 
 /**
- * A study's results: rows of text under named columns, without quoted fields.
+ * A study's results: rows of text under named columns.
  *
  * @param columns names of the columns
  * @param rows    one field per column each
@@ -23,28 +21,13 @@ record ResultTable(List<String> columns, List<List<String>> rows) {
      * @throws InvalidInputException naming what is wrong
      */
     static ResultTable read(Path file, List<String> required) {
-        List<String> lines;
-        try {
-            lines = Files.readAllLines(file);
-        } catch (IOException e) {
-            throw new InvalidInputException(file + ": cannot be read: " + FileErrors.reason(file, e), e);
-        }
-        List<String> columns = lines.isEmpty() ? List.of() : fields(lines.get(0));
-        for (String name : required) {
-            if (!columns.contains(name)) {
-                throw new InvalidInputException(file + ": has no column " + name);
+        try (CsvReader table = new CsvReader(file, required)) {
+            List<List<String>> rows = new ArrayList<>();
+            while (table.next()) {
+                rows.add(table.fields());
             }
+            return new ResultTable(table.columns(), List.copyOf(rows));
         }
-        List<List<String>> rows = new ArrayList<>();
-        for (int i = 1; i < lines.size(); i++) {
-            List<String> row = fields(lines.get(i));
-            if (row.size() != columns.size()) {
-                throw new InvalidInputException(file + ": line " + (i + 1) + " has " + row.size()
-                        + " fields, expected " + columns.size());
-            }
-            rows.add(row);
-        }
-        return new ResultTable(columns, List.copyOf(rows));
     }
 
     String text(List<String> row, String column) {
@@ -78,9 +61,5 @@ record ResultTable(List<String> columns, List<List<String>> rows) {
     /** What a column holds, each value once, in the order of its first row. */
     List<String> distinct(String column) {
         return rows.stream().map(row -> text(row, column)).distinct().toList();
-    }
-
-    private static List<String> fields(String line) {
-        return List.of(line.split(",", -1));
     }
 }

@@ -11,6 +11,7 @@ import java.util.stream.Collectors;
 import org.commonmark.Extension;
 import org.commonmark.ext.gfm.tables.TablesExtension;
 import org.commonmark.node.Node;
+import org.commonmark.node.Text;
 import org.commonmark.parser.Parser;
 import org.commonmark.renderer.html.HtmlRenderer;
 
@@ -107,12 +108,8 @@ public final class ReportDocument {
     public Path write(String name) throws IOException {
         String markdown = String.join("\n\n", parts) + "\n";
         Files.createDirectories(folder);
-        Files.writeString(folder.resolve("report.html"), HTML.formatted(titleText(), rendered(markdown)));
+        Files.writeString(folder.resolve("report.html"), HTML.formatted(HtmlRenderer.builder().build().render(new Text(title)), rendered(markdown)));
         return Files.writeString(folder.resolve(name), markdown);
-    }
-
-    private String titleText() {
-        return title.replace("&", "&amp;").replace("<", "&lt;");
     }
 
     private String rendered(String markdown) {

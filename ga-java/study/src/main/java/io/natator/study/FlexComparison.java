@@ -23,7 +23,7 @@ final class FlexComparison {
     private static final Logger LOG = LoggerFactory.getLogger(FlexComparison.class);
 
     private final List<Variant> variants;
-    private final List<StudyRun> trials;
+    private final List<StudyRun> studyRuns;
     private final Path logFile;
     private final String simulatorDigest;
 
@@ -35,7 +35,7 @@ final class FlexComparison {
      */
     FlexComparison(List<Variant> variants, int runs, Path logFile, String simulatorDigest) {
         this.variants = variants;
-        this.trials = variants.stream()
+        this.studyRuns = variants.stream()
                 .flatMap(variant -> Arrays.stream(Interval.values())
                         .flatMap(interval -> IntStream.rangeClosed(1, runs)
                                 .mapToObj(seed -> new StudyRun(variant, interval, seed))))
@@ -51,10 +51,10 @@ final class FlexComparison {
      * @return one comparison for each interval of each variant that has results, in the order of the variants
      */
     List<Comparison> run(Evaluator evaluator, String only) throws InterruptedException {
-        try (StudyLog log = new StudyLog(logFile, trials, simulatorDigest)) {
-            List<StudyRun> missing = trials.stream()
-                    .filter(trial -> only == null || trial.variant().name().equals(only))
-                    .filter(trial -> log.resultOf(trial) == null)
+        try (StudyLog log = new StudyLog(logFile, studyRuns, simulatorDigest)) {
+            List<StudyRun> missing = studyRuns.stream()
+                    .filter(run -> only == null || run.variant().name().equals(only))
+                    .filter(run -> log.resultOf(run) == null)
                     .toList();
             evaluate(missing, evaluator, log);
             return variants.stream()
@@ -67,16 +67,16 @@ final class FlexComparison {
     private static void evaluate(List<StudyRun> missing, Evaluator evaluator, StudyLog log)
             throws InterruptedException {
         List<SimulationRequest> requests = new ArrayList<>();
-        for (StudyRun trial : missing) {
-            requests.add(trial.request(requests.size()));
+        for (StudyRun run : missing) {
+            requests.add(run.request(requests.size()));
         }
         ListIterator<StudyRun> next = missing.listIterator();
         evaluator.evaluateInOrder(requests, result -> {
             SimulationRequest request = requests.get(next.nextIndex());
-            StudyRun trial = next.next();
-            log.append(trial, request, result);
-            LOG.info("{} of {}: {}, {}, seed {}: {}", next.nextIndex(), missing.size(), trial.variant().name(),
-                    trial.interval().label(), trial.seed(), outcome(result));
+            StudyRun run = next.next();
+            log.append(run, request, result);
+            LOG.info("{} of {}: {}, {}, seed {}: {}", next.nextIndex(), missing.size(), run.variant().name(),
+                    run.interval().label(), run.seed(), outcome(result));
         });
     }
 
@@ -86,8 +86,8 @@ final class FlexComparison {
     }
 
     private Comparison compare(Variant variant, Interval interval, StudyLog log) {
-        List<Double> speeds = trials.stream()
-                .filter(trial -> trial.variant() == variant && trial.interval() == interval)
+        List<Double> speeds = studyRuns.stream()
+                .filter(run -> run.variant() == variant && run.interval() == interval)
                 .map(log::resultOf)
                 .flatMap(FlexComparison::speed)
                 .toList();

@@ -1,14 +1,15 @@
 package io.natator.study;
 
 import io.natator.config.InvalidInputException;
-import java.io.IOException;
-import java.nio.file.Files;
+import io.natator.file.CsvReader;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
-import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.function.Function;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 /**
  * One run of NVIDIA Flex 1.2.0 in {@code tests/conformance/variants/variants.csv}.
@@ -38,30 +39,13 @@ record FlexRun(Map<String, String> columns) {
      * @throws InvalidInputException if the file is missing or is not such a table
      */
     static List<FlexRun> readAll(Path csv) {
-        List<String> lines;
-        try {
-            lines = Files.readAllLines(csv);
-        } catch (IOException e) {
-            throw new InvalidInputException("measurements " + csv + " cannot be read: " + e.getMessage(), e);
-        }
-        String[] header = lines.isEmpty() ? new String[0] : lines.get(0).split(",");
-        List<String> required = new ArrayList<>(List.of("name", "medium"));
-        Arrays.stream(Interval.values()).map(Interval::flexColumn).forEach(required::add);
-        if (!Arrays.asList(header).containsAll(required)) {
-            throw new InvalidInputException("measurements " + csv + ": expected columns " + required);
-        }
+        List<String> required = Stream.concat(Stream.of("name", "medium"),
+                Arrays.stream(Interval.values()).map(Interval::flexColumn)).toList();
         List<FlexRun> runs = new ArrayList<>();
-        for (int line = 1; line < lines.size(); line++) {
-            String[] values = lines.get(line).split(",", -1);
-            if (values.length != header.length) {
-                throw new InvalidInputException("measurements " + csv + ", line " + (line + 1) + ": " + values.length
-                        + " values; expected " + header.length);
+        try (CsvReader table = new CsvReader(csv, required)) {
+            while (table.next()) {
+                runs.add(new FlexRun(table.columns().stream().collect(Collectors.toMap(Function.identity(), table::text))));
             }
-            Map<String, String> columns = new LinkedHashMap<>();
-            for (int column = 0; column < header.length; column++) {
-                columns.put(header[column], values[column]);
-            }
-            runs.add(new FlexRun(columns));
         }
         return runs;
     }

@@ -45,7 +45,8 @@ class ReportDocumentTest {
                 ```
                 """);
         String html = Files.readString(folder.resolve("report.html"));
-        assertThat(html).contains("<h1>Title &amp; more</h1>", "<strong>bold</strong> <code>code</code>", "<td>a &lt; b</td>",
+        assertThat(html).contains("<title>Title &amp; more</title>", "<h1>Title &amp; more</h1>",
+                "<strong>bold</strong> <code>code</code>", "<td>a &lt; b</td>",
                 "<td align=\"right\">1</td>", "src=\"data:image/png;base64,", "<li>one</li>", "<pre><code>run it")
                 .doesNotContain("not there", "src=\"plots");
     }

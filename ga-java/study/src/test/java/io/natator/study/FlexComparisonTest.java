@@ -1,8 +1,10 @@
 package io.natator.study;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
+import io.natator.config.InvalidInputException;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SimulationResult.Status;
@@ -123,11 +125,13 @@ class FlexComparisonTest {
     }
 
     @Test
-    void linesThatAreNoEvaluationsAreDropped() throws InterruptedException, IOException {
+    void aDamagedLogIsNamedAndKept() throws InterruptedException, IOException {
         study(FIRST);
-        Files.writeString(log, "null\n{}\nnoise\n", StandardOpenOption.APPEND);
-        study(FIRST);
-        assertThat(Files.readAllLines(log)).hasSize(2 * RUNS);
+        Files.writeString(log, "noise\n", StandardOpenOption.APPEND);
+        String before = Files.readString(log);
+        assertThatThrownBy(() -> study(FIRST)).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(log + ", line " + (2 * RUNS + 1) + ": ");
+        assertThat(log).hasContent(before);
     }
 
     private List<Comparison> study(Variant... variants) throws InterruptedException {

@@ -5,6 +5,7 @@ import io.natator.config.Json;
 import io.natator.kinematics.BodyPath;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
+import io.natator.study.KeyedLog;
 import io.natator.simulator.TrajectoryRecorder;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -22,7 +23,7 @@ import java.util.stream.IntStream;
 /** The recorded runs of the study, {@code motions.jsonl}: what was recorded and measured once stays. */
 final class KinematicsLog implements AutoCloseable {
 
-    private final JsonLines<SwimKinematics> rows;
+    private final KeyedLog<SwimKinematics> rows;
     private final int runs;
 
     /**
@@ -32,7 +33,7 @@ final class KinematicsLog implements AutoCloseable {
      */
     KinematicsLog(Path directory, int runs) {
         this.runs = runs;
-        this.rows = new JsonLines<>(directory.resolve("motions.jsonl"), SwimKinematics.class,
+        this.rows = new KeyedLog<>(directory.resolve("motions.jsonl"), SwimKinematics.class,
                 row -> key(row.request()));
     }
 

@@ -6,6 +6,7 @@ import io.natator.simulator.Evaluator;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
+import io.natator.study.KeyedLog;
 import io.natator.study.Sample;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -19,7 +20,7 @@ import java.util.stream.IntStream;
  */
 final class MeasurementLog implements AutoCloseable {
 
-    private final JsonLines<Measurement> rows;
+    private final KeyedLog<Measurement> rows;
     private final int runs;
 
     /**
@@ -29,7 +30,7 @@ final class MeasurementLog implements AutoCloseable {
      */
     MeasurementLog(Path directory, int runs) {
         this.runs = runs;
-        this.rows = new JsonLines<>(directory.resolve("measurements.jsonl"), Measurement.class,
+        this.rows = new KeyedLog<>(directory.resolve("measurements.jsonl"), Measurement.class,
                 row -> key(row.request()));
     }
 

@@ -8,6 +8,7 @@ import io.natator.simulator.Evaluator;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
+import io.natator.study.KeyedLog;
 import java.nio.file.Path;
 import java.util.HashSet;
 import java.util.List;
@@ -20,10 +21,10 @@ final class TimingLog implements AutoCloseable {
     private static final int TRIALS = 3;
     private static final double NANOSECONDS = 1e9;
 
-    private final JsonLines<Timing> rows;
+    private final KeyedLog<Timing> rows;
 
     TimingLog(Path directory) {
-        rows = new JsonLines<>(directory.resolve("costs.jsonl"), Timing.class, row -> key(row.request()));
+        rows = new KeyedLog<>(directory.resolve("costs.jsonl"), Timing.class, row -> key(row.request()));
     }
 
     private static String key(SimulationRequest request) {

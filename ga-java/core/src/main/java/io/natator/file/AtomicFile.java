@@ -1,4 +1,4 @@
-package io.natator.checkpoint;
+package io.natator.file;
 
 import java.io.FileOutputStream;
 import java.io.IOException;
@@ -10,7 +10,7 @@ import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 
 /** Writes files that are at every moment either the old or the new one, whole. */
-final class AtomicFile {
+public final class AtomicFile {
 
     private AtomicFile() {
     }
@@ -20,7 +20,7 @@ final class AtomicFile {
      *
      * @throws UncheckedIOException if that fails; the old file is then untouched
      */
-    static void write(Path file, String content) {
+    public static void write(Path file, String content) {
         Path fresh = file.resolveSibling(file.getFileName() + ".new");
         try {
             try (FileOutputStream out = new FileOutputStream(fresh.toFile())) {
@@ -34,7 +34,7 @@ final class AtomicFile {
     }
 
     /** The file and what is wrong with it, once each. */
-    static String reason(Path file, IOException e) {
+    public static String reason(Path file, IOException e) {
         String message = e instanceof AccessDeniedException ? "permission denied" : String.valueOf(e.getMessage());
         return message.startsWith(file.toString()) ? message : file + ": " + message;
     }
