@@ -36,7 +36,7 @@ import picocli.CommandLine.Spec;
 final class CompareOptimizersCommand implements Callable<Integer> {
 
     private static final List<String> WITHOUT_OUTCOME =
-            List.of("--stop-after", "--simulator-path", "--workers", "--timeout", "--no-cache");
+            List.of("--stop-after", "--simulator-path", "--workers", "--timeout", "--no-cache", "--compact");
 
     @Spec
     private CommandSpec spec;
@@ -56,6 +56,11 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where runs and results go.")
     private Path directory;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--compact", description = "Keep of finished runs a line in DIR/SCENE.jsonl instead of a folder: "
+            + "their single evaluations, a megabyte each, can be made again.")
+    private boolean compact;
 
     @Section(Topic.SCENE)
     @Option(names = "--creatures", paramLabel = "N", split = ",", defaultValue = "1,2",
@@ -101,6 +106,9 @@ final class CompareOptimizersCommand implements Callable<Integer> {
         OptimizerStudy study = new OptimizerStudy(scenes, variants(), seeds, cmaEsPopulation, directory);
         boolean all = queueOptions.carryOut(study::run, EvolutionRun.withTimeLimit(execution, scenes.values()),
                 study.size(), study.finished(), study.evaluations(), study.recorded(), spec.commandLine().getErr());
+        if (compact) {
+            study.compact();
+        }
         PrintWriter out = spec.commandLine().getOut();
         if (!all) {
             out.printf("%d of %d runs finished; the same command continues%n", study.finished(), study.size());

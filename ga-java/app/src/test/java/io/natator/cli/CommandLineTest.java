@@ -161,6 +161,15 @@ class CommandLineTest {
         assertThat(file("study", "README.md")).contains("8 of 8 runs are finished", "| jgap-corrected | 6 | 2 |",
                 "| jgap-stock | 6 | 2 |", "| cma-es | 8 | 2 |", "| random | 6 | 2 |");
         assertThat(folder.resolve("study/creature-1.png")).isNotEmptyFile();
+        assertThat(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png")).isNotEmptyFile();
+
+        String page = file("study", "README.md");
+        List<String> compact = new ArrayList<>(List.of(study));
+        compact.add("--compact");
+        assertThat(natator(compact.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(file("study", "README.md")).isEqualTo(page);
+        assertThat(file("study", "creature-1.jsonl")).hasLineCount(8);
+        assertThat(folder.resolve("study/creature-1")).doesNotExist();
     }
 
     @Test

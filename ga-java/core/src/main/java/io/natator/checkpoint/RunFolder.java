@@ -35,6 +35,12 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     static final String VACUUM = "vacuum.jsonl";
     static final String ENVIRONMENT = "environment.json";
     static final String EVALUATIONS = "evaluations.jsonl";
+    private static final String GENERATIONS = "generations.csv";
+    private static final String TIMINGS = "timings.csv";
+    private static final String PLOTS = "plots";
+    /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
+    private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
+            ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CONFIG, ".");
 
     private final Path directory;
     private EvolutionSettings settings;
@@ -55,7 +61,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             log.close();
             throw e;
         }
-        this.timings = new GenerationTimes(directory.resolve("timings.csv"));
+        this.timings = new GenerationTimes(directory.resolve(TIMINGS));
     }
 
     /**
@@ -80,6 +86,20 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
         }
         return new RunFolder(directory, settings);
+    }
+
+    /** Removes what a run wrote, and its folder unless there is something else in it. Can be done again after a kill. */
+    public static void delete(Path directory) {
+        try {
+            for (String name : FILES) {
+                Path file = directory.resolve(name).normalize();
+                if (!Files.isDirectory(file) || !isOccupied(file)) {
+                    Files.deleteIfExists(file);
+                }
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot remove " + AtomicFile.reason(directory, e), e);
+        }
     }
 
     /** Whether there is anything at this path but an empty folder. */
@@ -200,7 +220,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * @return the best gait, or null if there is none
      */
     public BestGait writeResults(EvolutionState state, Double bodyLength, SimulationResult vacuum) {
-        AtomicFile.write(directory.resolve("generations.csv"), GenerationTable.csv(state.history()));
+        AtomicFile.write(directory.resolve(GENERATIONS), GenerationTable.csv(state.history()));
         if (state.best() == null) {
             return null;
         }
@@ -212,7 +232,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     /** The folder for pictures, made if it is not there. */
     public Path plots() {
-        Path plots = directory.resolve("plots");
+        Path plots = directory.resolve(PLOTS);
         try {
             return Files.createDirectories(plots);
         } catch (IOException e) {

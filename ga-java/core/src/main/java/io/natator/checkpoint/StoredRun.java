@@ -1,5 +1,6 @@
 package io.natator.checkpoint;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
@@ -126,6 +127,11 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     /** The best gaits of the run in a folder that were run in vacuum; none if that was not asked for. */
     public static List<VacuumRecord> vacuumRecords(Path directory) {
         return JsonLines.read(directory.resolve(RunFolder.VACUUM), VacuumRecord.class);
+    }
+
+    /** A JSON file of its folder as it stands; null if it is not there. */
+    public JsonNode document(String name) {
+        return optional(directory, name, JsonNode.class);
     }
 
     /** The best evaluation of all generations up to this one, the earliest of equals; null if none is recorded. */

@@ -29,7 +29,8 @@ final class OptimizerReport {
             ```
 
             which continues a study that was stopped. %d of %d runs are finished; each has a run folder,
-            `SCENE/OPTIMIZER/seed-S`. `comparison.csv` holds the tables with all their digits.
+            `SCENE/OPTIMIZER/seed-S`, or with `--compact` a line in `SCENE.jsonl`: settings, best gait, figures of every
+            generation, and where its best fitness rose. `comparison.csv` holds the tables with all their digits.
 
             Best fitness so far, the distance swum in scene units, after a tenth, a quarter, half and all of the
             evaluations: median [lower quartile, upper quartile] over the seeds; mean ± standard deviation at the end.
@@ -65,7 +66,7 @@ final class OptimizerReport {
         for (OptimizerVariant variant : OptimizerVariant.values()) {
             List<OptimizerRun> own = runs.stream().filter(run -> run.variant() == variant).toList();
             if (!own.isEmpty()) {
-                CurveBand band = new CurveBand(variant.label(), own.stream().map(OptimizerRun::curve).toList());
+                CurveBand band = new CurveBand(variant.label(), own.stream().map(run -> run.summary().curve()).toList());
                 bands.add(band);
                 int population = own.get(0).settings().population();
                 page.append(row(band, population, own));
@@ -105,7 +106,7 @@ final class OptimizerReport {
     }
 
     private static String inVacuum(List<OptimizerRun> runs) {
-        List<double[]> known = runs.stream().map(OptimizerRun::vacuumDistance).filter(Double::isFinite)
+        List<double[]> known = runs.stream().map(run -> run.summary().vacuumDistance()).filter(Double::isFinite)
                 .map(distance -> new double[] {distance}).toList();
         return known.isEmpty() ? "–" : shown(new CurveBand("", known).quantile(1, 0.5));
     }

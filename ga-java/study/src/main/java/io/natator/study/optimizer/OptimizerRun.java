@@ -1,7 +1,5 @@
 package io.natator.study.optimizer;
 
-import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.run.PlannedRun;
 import java.nio.file.Path;
@@ -10,26 +8,31 @@ import java.nio.file.Path;
  * One run of the study.
  *
  * @param scene      short name of the scene
- * @param variant what searches
+ * @param variant    what searches
  * @param settings   all that determines the run
  * @param directory  its run folder
+ * @param summary    what is kept of it in {@code SCENE.jsonl}; null if it is not there
  */
-record OptimizerRun(String scene, OptimizerVariant variant, EvolutionSettings settings, Path directory) {
+record OptimizerRun(String scene, OptimizerVariant variant, EvolutionSettings settings, Path directory,
+        RunSummary summary) {
 
     /** Itself as one of many runs. */
     PlannedRun plan() {
         return new PlannedRun(settings, directory);
     }
 
-    /** Best fitness after each evaluation. */
-    double[] curve() {
-        return StoredRun.bestFitness(StoredRun.evaluations(directory));
+    boolean isFinished() {
+        return summary != null || plan().isFinished();
     }
 
-    /** What the finished run's best gait does in vacuum, in scene units; NaN if that is not known. */
-    double vacuumDistance() {
-        BestGait best = StoredRun.in(directory).best();
-        return best == null || best.vacuum() == null || best.vacuum().distance() == null ? Double.NaN
-                : best.vacuum().distance();
+    /** How many of its evaluations are recorded. */
+    long recorded() {
+        return summary != null ? summary.evaluations() : plan().recorded();
+    }
+
+    /** The same run with what is kept of it once it is finished. */
+    OptimizerRun summarised() {
+        return summary != null ? this
+                : new OptimizerRun(scene, variant, settings, directory, RunSummary.of(variant.label(), directory));
     }
 }

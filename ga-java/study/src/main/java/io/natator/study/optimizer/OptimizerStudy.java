@@ -7,17 +7,20 @@ import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 
 /**
  * Optimizers side by side: each runs on each scene with each seed, and all take the same number of evaluations. Every
- * run has a run folder of its own, {@code SCENE/OPTIMIZER/seed-S}, so the study continues wherever it was stopped.
+ * run has a run folder of its own, {@code SCENE/OPTIMIZER/seed-S}, so the study continues wherever it was stopped; of
+ * finished ones it can keep a line in {@code SCENE.jsonl} instead.
  */
 public final class OptimizerStudy {
 
     private final Path directory;
     private final List<OptimizerRun> runs = new ArrayList<>();
+    private final Map<String, RunSummaries> kept = new LinkedHashMap<>();
 
     /**
      * What is to be compared.
@@ -33,6 +36,7 @@ public final class OptimizerStudy {
             Integer cmaEsPopulation, Path directory) {
         Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
         this.directory = directory;
+        scenes.keySet().forEach(scene -> kept.put(scene, new RunSummaries(directory, scene)));
         for (int seed = 1; seed <= seeds; seed++) {
             for (Map.Entry<String, EvolutionSettings> scene : scenes.entrySet()) {
                 for (OptimizerVariant variant : variants) {
@@ -42,7 +46,8 @@ public final class OptimizerStudy {
                                 settings.generations());
                     }
                     runs.add(new OptimizerRun(scene.getKey(), variant, settings,
-                            directory.resolve(scene.getKey()).resolve(variant.label()).resolve("seed-" + seed)));
+                            directory.resolve(scene.getKey()).resolve(variant.label()).resolve("seed-" + seed),
+                            kept.get(scene.getKey()).find(variant, settings)));
                 }
             }
         }
@@ -65,7 +70,7 @@ public final class OptimizerStudy {
 
     /** How many evaluations are recorded already. */
     public long recorded() {
-        return runs.stream().mapToLong(run -> run.plan().recorded()).sum();
+        return runs.stream().mapToLong(OptimizerRun::recorded).sum();
     }
 
     /** How many runs are finished. */
@@ -74,7 +79,7 @@ public final class OptimizerStudy {
     }
 
     private List<OptimizerRun> finishedRuns() {
-        return runs.stream().filter(run -> run.plan().isFinished()).toList();
+        return runs.stream().filter(OptimizerRun::isFinished).toList();
     }
 
     /**
@@ -88,7 +93,15 @@ public final class OptimizerStudy {
      */
     public boolean run(ExecutionSettings execution, Evaluator evaluator, int atOnce, RunQueue.Watcher watcher)
             throws InterruptedException {
-        return new RunQueue(runs.stream().map(OptimizerRun::plan).toList()).run(execution, evaluator, atOnce, watcher);
+        return new RunQueue(runs.stream().filter(run -> run.summary() == null).map(OptimizerRun::plan).toList())
+                .run(execution, evaluator, atOnce, watcher);
+    }
+
+    /** Keeps a line of every finished run in {@code SCENE.jsonl}, and removes its folder. */
+    public void compact() {
+        runs.replaceAll(run -> run.isFinished() ? run.summarised() : run);
+        kept.forEach((scene, summaries) -> summaries.keep(
+                finishedRuns().stream().filter(run -> run.scene().equals(scene)).toList()));
     }
 
     /**
@@ -98,6 +111,7 @@ public final class OptimizerStudy {
      * @return the page with the results
      */
     public Path report(String command) {
-        return OptimizerReport.write(finishedRuns(), runs.size(), command, directory);
+        return OptimizerReport.write(finishedRuns().stream().map(OptimizerRun::summarised).toList(), runs.size(), command,
+                directory);
     }
 }

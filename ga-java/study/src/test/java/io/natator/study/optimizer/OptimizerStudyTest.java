@@ -25,6 +25,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.atomic.AtomicInteger;
 import java.util.stream.IntStream;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -112,6 +113,54 @@ class OptimizerStudyTest {
         assertThat(Files.readString(folder.resolve("whole/README.md"))).containsPattern(
                 "\\| random \\| 8 \\| 3 \\|.*\\| " + String.format("%.4f", drifts[1]) + " \\|\n");
         assertThat(folder.resolve("whole/creature-3.png")).isNotEmptyFile();
+    }
+
+    /** What is kept of finished runs is all that the page, the table and the other runs need. */
+    @Test
+    void aStudyThatKeepsALineOfEachRunIsTheSame() throws InterruptedException, IOException {
+        OptimizerStudy whole = study("whole", EVALUATIONS);
+        run(whole, 1, Integer.MAX_VALUE);
+        whole.report("the command");
+        assertThat(run(study("lines", EVALUATIONS), 1, 250)).isFalse();
+        OptimizerStudy some = study("lines", EVALUATIONS);
+        some.compact();
+        int before = some.finished();
+        assertThat(before).isBetween(1, 11);
+        assertThat(folder.resolve("lines/creature-3.jsonl")).content().hasLineCount(before);
+
+        OptimizerStudy rest = study("lines", EVALUATIONS);
+        assertThat(rest.finished()).isEqualTo(before);
+        assertThat(rest.recorded()).isGreaterThanOrEqualTo((long) before * EVALUATIONS);
+        assertThat(run(rest, 2, Integer.MAX_VALUE)).isTrue();
+        rest.compact();
+        rest.compact();
+
+        OptimizerStudy lines = study("lines", EVALUATIONS);
+        assertThat(lines.finished()).isEqualTo(12);
+        assertThat(lines.recorded()).isEqualTo(12L * EVALUATIONS);
+        lines.report("the command");
+        for (String file : List.of("README.md", "comparison.csv")) {
+            assertThat(folder.resolve("lines").resolve(file))
+                    .hasSameTextualContentAs(folder.resolve("whole").resolve(file));
+        }
+        assertThat(folder.resolve("lines/creature-3.jsonl")).content().hasLineCount(12);
+        assertThat(folder.resolve("lines/creature-3")).doesNotExist();
+        assertThatThrownBy(() -> study("lines", EVALUATIONS + 1)).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(folder.resolve("lines/creature-3.jsonl") + ": ")
+                .hasMessageContaining("was begun with other settings");
+    }
+
+    @Test
+    void aFileThatTheUserPutIntoARunFolderStays() throws InterruptedException, IOException {
+        OptimizerStudy study = study("study", EVALUATIONS);
+        run(study, 1, Integer.MAX_VALUE);
+        Path own = Files.writeString(folder.resolve("study/creature-3/random/seed-2/notes.txt"), "mine");
+        study.compact();
+
+        assertThat(own).hasContent("mine");
+        try (Stream<Path> left = Files.walk(folder.resolve("study/creature-3"))) {
+            assertThat(left.filter(Files::isRegularFile)).containsExactly(own);
+        }
     }
 
     @Test
