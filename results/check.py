@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Checks what results/ holds: python3 results/check.py [--prune]
 
-Every file must be of a known kind, every link of a page must lead to a file, every picture must be on a page, and all of
-it must stay below 25 MB. --prune deletes files of other kinds and pictures that no page shows. Exit status 1 if anything
+Every file must be of a known kind, every link of a page must lead to a file, every picture must be on a page, all JSON
+must be whole, and all of it must stay below 25 MB. --prune deletes files of other kinds and pictures that no page shows. Exit status 1 if anything
 is wrong that --prune did not mend.
 """
+import json
 import pathlib
 import re
 import subprocess
@@ -29,6 +30,18 @@ def links(page):
     return [(page.parent / target).resolve() for target in targets if "://" not in target]
 
 
+def damage(file):
+    """What is wrong with a file of JSON, or of a JSON value a line; None if nothing is."""
+    text = file.read_text(encoding="utf-8")
+    lines = text.splitlines() if file.suffix == ".jsonl" else [text]
+    for number, line in enumerate(lines, 1):
+        try:
+            json.loads(line)
+        except ValueError as error:
+            return f"{f'line {number}: ' if len(lines) > 1 else ''}{error}"
+    return None
+
+
 def main():
     prune = sys.argv[1:] == ["--prune"]
     if sys.argv[1:] and not prune:
@@ -40,6 +53,10 @@ def main():
     superfluous += [(file, "is a picture on no page") for file in files if file.suffix == ".png" and file not in linked]
     wrong = [f"{page.relative_to(ROOT)}: links to {target}, which is not there"
              for page in pages for target in links(page) if not target.exists()]
+    for file in files:
+        fault = damage(file) if file.suffix in {".json", ".jsonl"} else None
+        if fault:
+            wrong.append(f"{file.relative_to(ROOT)}: {fault}")
     for file, why in superfluous:
         if prune:
             file.unlink()

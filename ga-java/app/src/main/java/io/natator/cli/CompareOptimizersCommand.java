@@ -1,0 +1,147 @@
+package io.natator.cli;
+
+import io.natator.cli.Section.Topic;
+import io.natator.config.Backend;
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.FitnessKind;
+import io.natator.config.InvalidInputException;
+import io.natator.run.EvolutionRun;
+import io.natator.simulator.SceneInfo;
+import io.natator.study.optimizer.OptimizerStudy;
+import io.natator.study.optimizer.OptimizerVariant;
+import java.io.PrintWriter;
+import java.nio.file.Path;
+import java.util.Arrays;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+/** {@code natator compare-optimizers}: optimizers side by side at an equal number of evaluations. */
+@Command(name = "compare-optimizers", mixinStandardHelpOptions = true,
+        description = {"Runs optimizers on creatures with several seeds, each for the same number of evaluations, and "
+            + "draws their best distance against the evaluations.",
+            "The same command continues a study that was stopped."},
+        customSynopsis = "natator compare-optimizers --output-dir DIR [OPTIONS]",
+        footer = {"", "Example:", "  natator compare-optimizers --output-dir runs/study --evaluations 600"})
+final class CompareOptimizersCommand implements Callable<Integer> {
+
+    private static final List<String> WITHOUT_OUTCOME =
+            List.of("--stop-after", "--simulator-path", "--workers", "--timeout", "--no-cache", "--compact");
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SceneOptions sceneOptions;
+
+    @Mixin
+    private ExecutionOptions executionOptions;
+
+    @Mixin
+    private CacheOptions cacheOptions;
+
+    @Mixin
+    private QueueOptions queueOptions;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--output-dir", required = true, paramLabel = "DIR", description = "Where runs and results go.")
+    private Path directory;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--compact", description = "Keep of finished runs a line in DIR/SCENE.jsonl instead of a folder: "
+            + "their single evaluations, a megabyte each, can be made again.")
+    private boolean compact;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--creatures", paramLabel = "N", split = ",", defaultValue = "1,2",
+            description = "Creatures of the thesis, 1 to 4. Default: ${DEFAULT-VALUE}.")
+    private List<Integer> creatures;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--optimizers", paramLabel = "NAME", split = ",",
+            defaultValue = "jgap-corrected,jgap-stock,cma-es,random", description = "Default: ${DEFAULT-VALUE}.")
+    private List<String> optimizers;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--seeds", paramLabel = "N", defaultValue = "10",
+            description = "Runs of each optimizer on each creature, from 1. Default: ${DEFAULT-VALUE}.")
+    private int seeds;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--evaluations", paramLabel = "N", defaultValue = "600",
+            description = "Evaluations of each run, from 1. Default: ${DEFAULT-VALUE}.")
+    private long evaluations;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--population", paramLabel = "N", defaultValue = "24",
+            description = "Chromosomes of JGAP, from 2. Default: ${DEFAULT-VALUE}.")
+    private int population;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--cma-es-population", paramLabel = "N",
+            description = "Points in a generation of CMA-ES, from 2. Default: 4 + 3 ln n with n genes.")
+    private Integer cmaEsPopulation;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
+            + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
+    private FitnessKind fitness;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        queueOptions.stopAfter();
+        ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
+        queueOptions.atOnce(execution);
+        Map<String, EvolutionSettings> scenes = scenes(execution);
+        OptimizerStudy study = new OptimizerStudy(scenes, variants(), seeds, cmaEsPopulation, directory);
+        boolean all = queueOptions.carryOut(study::run, EvolutionRun.withTimeLimit(execution, scenes.values()),
+                study.size(), study.finished(), study.evaluations(), study.recorded(), spec.commandLine().getErr());
+        if (compact) {
+            study.compact();
+        }
+        PrintWriter out = spec.commandLine().getOut();
+        if (!all) {
+            out.printf("%d of %d runs finished; the same command continues%n", study.finished(), study.size());
+        }
+        out.println(study.report(CommandText.of(spec, WITHOUT_OUTCOME)));
+        return ExitCode.OK;
+    }
+
+    private Map<String, EvolutionSettings> scenes(ExecutionSettings execution) throws InterruptedException {
+        Map<String, EvolutionSettings> scenes = new LinkedHashMap<>();
+        for (int creature : creatures) {
+            if (creature < 1 || creature > 4) {
+                throw new InvalidInputException("--creatures has " + creature + "; expected 1, 2, 3 or 4");
+            }
+            String scene = "thesis/creature-" + creature;
+            int actuators = SceneInfo.of(scene, sceneOptions.overrides(), execution.simulator()).actuators();
+            scenes.put("creature-" + creature, EvolutionSettings.of(scene, EncodingKind.usualFor(scene), actuators)
+                    .withSize(population, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations)
+                    .withFitness(fitness, false).withBackend(execution.backend())
+                    .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides()));
+        }
+        return scenes;
+    }
+
+    private List<OptimizerVariant> variants() {
+        List<String> known = Arrays.stream(OptimizerVariant.values()).map(OptimizerVariant::label).toList();
+        return optimizers.stream().map(name -> {
+            int index = known.indexOf(name.toLowerCase(Locale.ROOT));
+            if (index < 0) {
+                throw new InvalidInputException("--optimizers has " + name + "; expected some of "
+                        + String.join(",", known));
+            }
+            return OptimizerVariant.values()[index];
+        }).toList();
+    }
+}

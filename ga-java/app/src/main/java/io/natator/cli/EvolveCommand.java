@@ -1,0 +1,205 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.cli.Section.Topic;
+import io.natator.config.Backend;
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.FileErrors;
+import io.natator.config.FitnessKind;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
+import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
+import io.natator.config.Preset;
+import io.natator.simulator.SceneInfo;
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Model.OptionSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+
+/** {@code natator evolve}: evolves the gait of a creature, or continues an interrupted run. */
+@Command(name = "evolve", mixinStandardHelpOptions = true,
+        description = {"Evolves the gait of a creature.",
+            "Prints the best gait; keeps everything in a run folder."},
+        footer = {"", "Examples:",
+            "  natator evolve --creature 2 --scheme conserving --preset quick",
+            "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
+            "  natator evolve --preset thesis --dry-run"})
+final class EvolveCommand implements Callable<Integer> {
+
+    /** Options that do not change what a run computes, so that they may be given when it is continued. */
+    private static final List<String> WITH_RESUME =
+            List.of("--resume", "--stop-after", "--simulator", "--backend", "--device", "--workers", "--timeout",
+                    "--simulator-path", "--no-cache");
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SceneOptions sceneOptions;
+
+    @Mixin
+    private ExecutionOptions executionOptions;
+
+    @Mixin
+    private CacheOptions cacheOptions;
+
+    @Mixin
+    private SceneChoice choice;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
+            description = "quick (population 16, 3 generations, scheme conserving, 2 s) or thesis (150, 100, as the scene "
+                    + "has it). Other options change parts of it. Default: ${DEFAULT-VALUE}.")
+    private Preset preset;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--population", paramLabel = "N", description = "Chromosomes selected in each generation, from 2.")
+    private Integer population;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--generations", paramLabel = "N", description = "Generations after the random one, from 0.")
+    private Integer generations;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--evaluations", paramLabel = "N",
+            description = "End after so many evaluations, from 1. Default: what the generations take.")
+    private Long evaluations;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
+            description = "jgap (the thesis' genetic algorithm), cma-es or random. Default: ${DEFAULT-VALUE}.")
+    private OptimizerKind optimizer;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--seed", paramLabel = "N", defaultValue = "1",
+            description = "The same seed gives the same run. Default: ${DEFAULT-VALUE}.")
+    private long seed;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--operators", paramLabel = "SET", defaultValue = "corrected",
+            description = "Genetic operators: corrected, or stock (as JGAP ships them). Default: ${DEFAULT-VALUE}.")
+    private OperatorSet operators;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--gaussian-deviation", paramLabel = "X", defaultValue = "0.05",
+            description = "Deviation of the Gaussian mutation as a share of a gene's range. Default: ${DEFAULT-VALUE}.")
+    private double gaussianDeviation;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
+            + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
+    private FitnessKind fitness;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--vacuum-check", description = "Run every generation's new best in vacuum too; see vacuum.jsonl.")
+    private boolean vacuumCheck;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--encoding", paramLabel = "KIND",
+            description = "Genes: dense or sparse. Default: the creature's (2 is sparse, the others dense).")
+    private EncodingKind encoding;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--output-dir", paramLabel = "DIR",
+            description = "Run folder, new or empty. Default: runs/creature-N-seed-S, numbered if there is one.")
+    private Path outputDir;
+
+    @Section(Topic.OTHER)
+    @Option(names = "--dry-run", description = "Say what would be done and how long it would take; do nothing.")
+    private boolean dryRun;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued by --resume.")
+    private Double stopAfter;
+
+    @Section(Topic.OTHER)
+    @Option(names = "--resume", paramLabel = "DIR", description = "Continue the run in this folder.")
+    private Path resume;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        checkStopAfter(stopAfter);
+        if (resume != null) {
+            refuseSettings();
+            ResumeCommand.resume(resume, executionOptions, cacheOptions, stopAfter, spec);
+            return ExitCode.OK;
+        }
+        ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
+        EvolutionSettings settings = settings(execution);
+        Path directory = outputDir != null ? outputDir : freeFolder(settings.scene());
+        RunPreview preview = new RunPreview(settings, execution);
+        if (dryRun) {
+            preview.print(directory, spec.commandLine().getOut());
+            return ExitCode.OK;
+        }
+        RunFolder folder = RunFolder.create(directory, settings);
+        preview.print(folder, spec.commandLine().getOut());
+        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
+        return ExitCode.OK;
+    }
+
+    static void checkStopAfter(Double seconds) {
+        if (seconds != null) {
+            Limits.checkSeconds("--stop-after", seconds);
+        }
+    }
+
+    private void refuseSettings() {
+        for (OptionSpec option : spec.commandLine().getParseResult().matchedOptions()) {
+            if (!WITH_RESUME.contains(option.longestName())) {
+                throw new ParameterException(spec.commandLine(), option.longestName()
+                        + " cannot be given with --resume: the run keeps its settings");
+            }
+        }
+    }
+
+    private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
+        String sceneName = choice.scene(spec);
+        int actuators = SceneInfo.of(sceneName, sceneOptions.overrides(), execution.simulator()).actuators();
+        EncodingKind kind = encoding != null ? encoding : EncodingKind.usualFor(sceneName);
+        try {
+            kind.forActuators(actuators);
+        } catch (IllegalArgumentException e) {
+            throw new InvalidInputException("scene " + sceneName + ": " + e.getMessage(), e);
+        }
+        return EvolutionSettings.of(sceneName, kind, actuators)
+                .withSize(population != null ? population : preset.population(), generations())
+                .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)
+                .withFitness(fitness, vacuumCheck).withBackend(execution.backend())
+                .withScene(sceneOptions.scheme() != null ? sceneOptions.scheme() : preset.scheme(),
+                        sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
+                        sceneOptions.overrides());
+    }
+
+    /** With a number of evaluations alone, that is what ends the run. */
+    private int generations() {
+        return generations != null ? generations
+                : evaluations != null ? EvolutionSettings.NO_LIMIT : preset.generations();
+    }
+
+    /** runs/creature-1-seed-7, or with -2, -3 … if that is taken. */
+    private Path freeFolder(String sceneName) {
+        String name = Path.of(sceneName).getFileName().toString().replaceFirst("\\.json$", "") + "-seed-" + seed;
+        Path folder = Path.of("runs", name);
+        try {
+            for (int number = 2; RunFolder.isOccupied(folder); number++) {
+                folder = Path.of("runs", name + "-" + number);
+            }
+        } catch (IOException e) {
+            throw new InvalidInputException("output folder " + folder + " cannot be read: "
+                    + FileErrors.reason(folder, e), e);
+        }
+        return folder;
+    }
+}

@@ -1,0 +1,124 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.cli.Section.Topic;
+import io.natator.config.InvalidInputException;
+import io.natator.config.MergePatch;
+import io.natator.config.Scheme;
+import io.natator.export.Export;
+import io.natator.export.ExportFormat;
+import io.natator.stream.StreamField;
+import io.natator.stream.StreamOptions;
+import io.natator.verdict.Reproduction;
+import java.nio.file.Path;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeSet;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator export}: a swim in the formats of other programs. */
+@Command(name = "export", mixinStandardHelpOptions = true,
+        description = {"Simulates a swim and writes it, frame by frame, for another program.",
+            "vtp: ParaView; ply: Blender, a file for each frame; usd: USD; csv: one table; npz: numpy. The folder "
+                + "appears when it is whole; metadata.json in it says what was simulated."},
+        customSynopsis = "natator export --format FORMAT [OPTIONS] RUN|SCENE",
+        footer = {"", "Examples:",
+            "  natator export --format vtp runs/creature-1-seed-1",
+            "  natator export --format usd --gait gait.json --duration 2 thesis/creature-2"})
+final class ExportCommand implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SceneOptions sceneOptions;
+
+    @Parameters(paramLabel = "RUN|SCENE", description = "A run folder of evolve (its best gait), or a scene: a name as "
+            + "thesis/creature-1, or a file.")
+    private String source;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--format", required = true, paramLabel = "FORMAT", description = "vtp, ply, usd, csv or npz.")
+    private ExportFormat format;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--gait", paramLabel = "FILE",
+            description = "A JSON file with a gait, or a run's best.json. A scene without one is at rest.")
+    private Path gait;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--generation", paramLabel = "N",
+            description = "Of a run: the best gait of the generations up to N instead of all.")
+    private Integer generation;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--output-dir", paramLabel = "DIR",
+            description = "Default: RUN/export-FORMAT, or the scene's name and the format.")
+    private Path outputDir;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--force", description = "Replace an earlier export in the output folder.")
+    private boolean force;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--every", paramLabel = "N", defaultValue = "1",
+            description = "Only every Nth frame, of 60 in a second for the thesis scenes. Default: ${DEFAULT-VALUE}.")
+    private int every;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--fields", paramLabel = "FIELD", split = ",", defaultValue = "position,velocity,density",
+            description = "What to write of each particle: position (always), velocity, density. "
+                    + "Default: ${DEFAULT-VALUE}.")
+    private List<StreamField> fields;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--no-water", description = "Only the body.")
+    private boolean noWater;
+
+    @Section(Topic.COMPUTING)
+    @Option(names = "--precision", paramLabel = "PRECISION",
+            description = "What the simulator computes in: float (default) or double. Files hold floats.")
+    private String precision;
+
+    @Mixin
+    private SimulatorOption simulatorOption;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        if (every < 1) {
+            throw new InvalidInputException("--every is " + every + "; expected a whole number from 1");
+        }
+        Path simulator = simulatorOption.path();
+        SwimSource swimmer = SwimSource.of(source, generation, gait);
+        JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
+        Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme();
+        TreeSet<StreamField> wanted = new TreeSet<>(fields);
+        wanted.add(StreamField.POSITION);
+        StreamOptions options = StreamOptions
+                .recording(swimmer.scene(), overrides, swimmer.gaitJson(),
+                        swimmer.seconds(sceneOptions.duration(), overrides, simulator))
+                .with(scheme, precision).withFields(List.copyOf(wanted)).withEvery(every);
+        Path folder = outputDir != null ? outputDir : swimmer.run() != null
+                ? swimmer.run().resolve("export-" + format.text()) : Path.of(swimmer.name() + "-" + format.text());
+        Map<Long, Double> distances = new HashMap<>();
+        Export.Written written = new Export(format, folder, force, !noWater)
+                .write(simulator, options, swimmer.described(), distances::put);
+        Reproduction stored = swimmer.reproduction(simulator, sceneOptions.overrides(), sceneOptions.scheme(), precision);
+        Double today = stored == null ? null : distances.get(stored.lastFrame());
+        String difference = today == null ? null : stored.difference(today, 0);
+        if (difference != null) {
+            spec.commandLine().getErr().println(difference);
+        }
+        spec.commandLine().getOut().printf("%s: %d frames of %d particles of water and %d others%n", folder,
+                written.frames(), written.water(), written.solids());
+        return ExitCode.OK;
+    }
+}

@@ -1,0 +1,154 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
+import io.natator.config.InvalidInputException;
+import io.natator.config.MergePatch;
+import io.natator.config.Numbers;
+import io.natator.encoding.Gait;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.replay.Replay;
+import io.natator.replay.ReplayHtml;
+import io.natator.replay.ReplayRecorder;
+import io.natator.simulator.SimulationResult;
+import io.natator.stream.StreamFrame;
+import io.natator.stream.StreamOptions;
+import io.natator.verdict.Reproduction;
+import io.natator.verdict.Verdict;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Locale;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator page}: swims to be looked at anywhere. */
+@Command(name = "page", mixinStandardHelpOptions = true,
+        description = {"Simulates the best swimmers and writes one HTML file that replays them, water and all.",
+            "It opens from disk in any browser of today, and loads nothing from anywhere."},
+        footer = {"", "Examples:",
+            "  natator page runs/creature-1-seed-1 --output swim.html",
+            "  natator page runs/one runs/two --best 3 --no-water"})
+final class PageCommand implements Callable<Integer> {
+
+    private static final double MEGABYTE = 1e6;
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SceneOptions sceneOptions;
+
+    @Parameters(paramLabel = "RUN|SCENE", arity = "1..*", description = "Run folders of evolve, or scenes: names as "
+            + "thesis/creature-1, or files.")
+    private List<String> sources;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--gait", paramLabel = "FILE",
+            description = "A JSON file with a gait, or a run's best.json, for all of them. A scene without one is at rest.")
+    private Path gait;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--best", paramLabel = "N", defaultValue = "1",
+            description = "So many different gaits of each run, the best first. Default: ${DEFAULT-VALUE}.")
+    private int best;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--output", paramLabel = "FILE", defaultValue = "swim.html",
+            description = "Default: ${DEFAULT-VALUE}.")
+    private Path output;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--title", paramLabel = "TEXT", description = "Of the page. Default: what swims.")
+    private String title;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--max-size", paramLabel = "MB", defaultValue = "10",
+            description = "Leave frames out until the file is no larger. Default: ${DEFAULT-VALUE}.")
+    private double maxSize;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--no-water", description = "Only the body.")
+    private boolean noWater;
+
+    @Mixin
+    private SimulatorOption simulatorOption;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        if (best < 1 || best > 1 && gait != null) {
+            throw new InvalidInputException("--best is " + best + "; expected a whole number from 1, and 1 with --gait");
+        }
+        if (!(maxSize > 0) || Double.isInfinite(maxSize)) {
+            throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes above 0");
+        }
+        ReplayHtml.check(output);
+        Path simulator = simulatorOption.path();
+        List<Replay> swims = new ArrayList<>();
+        for (String source : sources) {
+            for (SwimSource swimmer : swimmers(source)) {
+                swims.add(recorded(swimmer, simulator));
+            }
+        }
+        String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
+        ReplayHtml.Written written = new ReplayHtml(heading, swims, !noWater).write(output,
+                (long) (maxSize * MEGABYTE));
+        String precision = written.largestError() > 0
+                ? String.format(Locale.ROOT, "water to %.0e of a length unit", written.largestError()) : "no water";
+        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %.1f MB, %.0f frames a second%s, %s%n", output,
+                written.bytes() / MEGABYTE, written.framesPerSecond(),
+                written.isReduced() ? " (fewer than simulated, to stay under --max-size)" : "", precision);
+        return ExitCode.OK;
+    }
+
+    /** The best of a run, and with {@code --best} those after it. */
+    private List<SwimSource> swimmers(String source) {
+        SwimSource first = SwimSource.of(source, null, gait);
+        if (first.run() == null || best == 1) {
+            return List.of(first);
+        }
+        List<Gait> gaits = StoredRun.in(first.run()).evaluations().stream()
+                .filter(one -> one.result().status() == SimulationResult.Status.OK)
+                .sorted(Comparator.comparingDouble((EvaluationRecord one) -> one.result().score()).reversed())
+                .map(EvaluationRecord::gait).distinct().limit(best).toList();
+        if (gaits.size() < best) {
+            throw new InvalidInputException("--best is " + best + "; " + source + " knows " + gaits.size() + " gaits");
+        }
+        return gaits.stream().map(one -> new SwimSource(first.run(), null, first.scene(), first.overrides(), one,
+                first.scheme(), first.duration(), one.equals(first.gait()) ? first.best() : null)).toList();
+    }
+
+    private Replay recorded(SwimSource swimmer, Path simulator) throws InterruptedException {
+        JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
+        StreamOptions options = StreamOptions.recording(swimmer.scene(), overrides, swimmer.gaitJson(),
+                swimmer.seconds(sceneOptions.duration(), overrides, simulator))
+                .with(sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme(), null);
+        Replay swim = new ReplayRecorder(simulator).record(swimmer.name(), options);
+        StreamFrame last = swim.frames().get(swim.frames().size() - 1);
+        Reproduction stored = swimmer.reproduction(simulator, sceneOptions.overrides(), sceneOptions.scheme());
+        if (stored != null) {
+            warn(stored, swim.frames());
+        }
+        String name = swimmer.run() == null ? swimmer.name() : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
+        return new Replay(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
+                + " s", swim.scene(), swim.json(), swim.frames(),
+                stored == null ? null : Verdict.of(swimmer.best()).text());
+    }
+
+    private void warn(Reproduction stored, List<StreamFrame> frames) throws InterruptedException {
+        for (StreamFrame frame : frames) {
+            String difference = frame.frame() == stored.lastFrame() ? stored.difference(frame.distance(), 0) : null;
+            if (difference != null) {
+                spec.commandLine().getErr().println(difference);
+            }
+        }
+    }
+}

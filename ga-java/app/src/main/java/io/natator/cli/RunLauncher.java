@@ -1,0 +1,71 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.SimulatorMode;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionStoppedException;
+import io.natator.report.FitnessPlot;
+import io.natator.run.EvolutionRun;
+import io.natator.simulator.Evaluator;
+import java.io.PrintWriter;
+import java.util.ArrayList;
+import java.util.List;
+
+/** Runs the evolution of a folder for the command line: progress, an early stop, the report. */
+final class RunLauncher {
+
+    private final PrintWriter out;
+    private final PrintWriter err;
+
+    RunLauncher(PrintWriter out, PrintWriter err) {
+        this.out = out;
+        this.err = err;
+    }
+
+    /**
+     * Runs to the end, or as long as there is time.
+     *
+     * @param folder    closed afterwards
+     * @param stopAfter seconds, or null
+     */
+    void run(RunFolder folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
+        try (folder) {
+            ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
+            String how = "continue by: " + ProgramName.asCalled() + " resume " + folder.directory();
+            try (Evaluator evaluator = EvolutionRun.open(limited);
+                    ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
+                            () -> say("interrupted; " + how))) {
+                evolve(folder, limited, evaluator, shutdown, how);
+            }
+        }
+    }
+
+    private void evolve(RunFolder folder, ExecutionSettings execution, Evaluator evaluator, ShutdownHandler shutdown,
+            String how)
+            throws InterruptedException {
+        EvolutionRun.Outcome outcome;
+        try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().size(), err,
+                System.console() != null ? System.err : null)) {
+            List<EvolutionListener> listeners = new ArrayList<>(List.of(progress));
+            if (execution.mode() == SimulatorMode.BATCH) {
+                listeners.add(shutdown.beforeLateGenerations());
+            }
+            outcome = new EvolutionRun(folder).run(execution, evaluator, listeners.toArray(EvolutionListener[]::new));
+        } catch (EvolutionStoppedException | InterruptedException e) {
+            if (shutdown.isTimeUp()) {
+                say("time is up; " + how);
+            }
+            return;
+        }
+        FitnessPlot.draw(folder, outcome.state().history());
+        new RunReport(out).print(folder.settings(), outcome.state(), outcome.best(), folder.directory());
+        out.println("  run folder  " + folder.directory());
+        out.flush();
+    }
+
+    private void say(String line) {
+        err.println(line);
+        err.flush();
+    }
+}

@@ -1,0 +1,81 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.SimulatorMode;
+import io.natator.encoding.Encoding;
+import io.natator.encoding.GeneRange;
+import io.natator.run.EvolutionRun;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.SceneInfo;
+import java.io.PrintWriter;
+import java.nio.file.Path;
+import java.util.Locale;
+
+/** What {@code evolve} would do and how long that would take, judged by a few short evaluations. */
+final class RunPreview {
+
+    private final EvolutionSettings settings;
+    private final ExecutionSettings execution;
+
+    RunPreview(EvolutionSettings settings, ExecutionSettings execution) {
+        this.settings = settings;
+        this.execution = execution;
+    }
+
+    /**
+     * Measures and prints.
+     *
+     * @param folder where the run would go
+     */
+    void print(Path folder, PrintWriter out) throws InterruptedException {
+        SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
+        ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, settings);
+        double duration = settings.duration() != null ? settings.duration() : scene.duration();
+        Encoding encoding = settings.encoding().forActuators(settings.actuators());
+        ProgressEstimate estimate = new ProgressEstimate(settings, System::nanoTime);
+        estimate.generationStarted(0, settings.population());
+        out.println(ShowCommand.settings(settings));
+        out.printf(Locale.ROOT, "  scene       %d particles, %d actuators, %.2f s%n", scene.particles(),
+                scene.actuators(), duration);
+        out.printf("  genes       %s%n", String.join(", ", encoding.genes().stream().map(GeneRange::name).toList()));
+        out.printf("  evaluations %s%n", estimate.total());
+        out.printf(Locale.ROOT, "  simulator   %s, %s, time limit %s each%n",
+                execution.mode().name().toLowerCase(Locale.ROOT), execution.mode() == SimulatorMode.BATCH
+                        ? "a generation at once" : execution.workers() + " at once",
+                ProgressEstimate.readable(limited.timeout().toSeconds()));
+        out.printf("  run folder  %s%n", folder);
+        printTime(limited, duration, estimate.expected(), out);
+        out.flush();
+    }
+
+    /**
+     * The same before a run that is to begin whatever comes of it: what fails here will say why when it fails there.
+     *
+     * @param folder closed if this is interrupted
+     */
+    void print(RunFolder folder, PrintWriter out) throws InterruptedException {
+        try {
+            print(folder.directory(), out);
+        } catch (InvalidInputException | IllegalStateException e) {
+            out.println("  time        not known: " + e.getMessage());
+            out.flush();
+        } catch (InterruptedException e) {
+            folder.close();
+            throw e;
+        }
+    }
+
+    private void printTime(ExecutionSettings limited, double duration, long evaluations, PrintWriter out)
+            throws InterruptedException {
+        int together = execution.trials(settings.population());
+        try (Evaluator evaluator = Evaluator.open(limited.withCache(null))) {
+            double whole = new EvaluationTime(settings, evaluator).of(together, duration);
+            out.printf(Locale.ROOT, "  time        at most %s: %d evaluations take %.2f s, if none ends early%n",
+                    ProgressEstimate.readable(Math.round(Math.ceil((double) evaluations / together) * whole)),
+                    together, whole);
+        }
+    }
+}

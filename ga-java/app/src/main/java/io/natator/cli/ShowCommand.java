@@ -1,0 +1,114 @@
+package io.natator.cli;
+
+import io.natator.checkpoint.EvaluationStatistics;
+import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.VacuumRecord;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.FitnessKind;
+import io.natator.config.OptimizerKind;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.GenerationSummary;
+import io.natator.simulator.SimulationResult;
+import java.io.PrintWriter;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Locale;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator show}: what is in a run folder. */
+@Command(name = "show", mixinStandardHelpOptions = true,
+        description = "Shows a run: settings, how far it is, its best gait, what it saved and what failed.")
+final class ShowCommand implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
+
+    @Parameters(paramLabel = "RUN", description = "Run folder.")
+    private Path folder;
+
+    @Override
+    public Integer call() {
+        StoredRun run = StoredRun.in(folder);
+        PrintWriter out = spec.commandLine().getOut();
+        out.println(settings(run.settings()));
+        out.println(progress(run));
+        if (run.state() != null) {
+            new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
+            printSavings(run, out);
+        }
+        printVacuum(run.vacuum(), out);
+        printFailures(run.evaluations(), out);
+        out.flush();
+        return ExitCode.OK;
+    }
+
+    /** On one line, what makes a run another one. */
+    static String settings(EvolutionSettings settings) {
+        StringBuilder text = new StringBuilder(settings.scene());
+        text.append(", ").append(OptimizerName.of(settings));
+        text.append(", population ").append(settings.population());
+        if (settings.generations() != EvolutionSettings.NO_LIMIT) {
+            text.append(", ").append(settings.generations()).append(" generations");
+        }
+        if (settings.evaluations() != null) {
+            text.append(", ").append(settings.evaluations()).append(" evaluations");
+        }
+        text.append(", seed ").append(settings.seed());
+        text.append(", ").append(settings.encoding().name().toLowerCase(Locale.ROOT)).append(" genes");
+        if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
+            text.append(", Gaussian deviation ").append(settings.gaussianDeviation());
+        }
+        text.append(settings.fitness() == FitnessKind.NET ? ", net fitness" : "");
+        text.append(", backend ").append(settings.backend().argument());
+        text.append(settings.scheme() == null ? "" : ", scheme " + settings.scheme().name().toLowerCase(Locale.ROOT));
+        text.append(settings.duration() == null ? "" : ", " + settings.duration() + " s");
+        text.append(settings.overrides() == null ? "" : ", overrides " + settings.overrides());
+        return text.toString();
+    }
+
+    private static String progress(StoredRun run) {
+        if (run.state() == null) {
+            return "generation 0 under way: " + run.evaluations().size() + " evaluations";
+        }
+        GenerationSummary last = run.state().history().get(run.state().generation());
+        long more = run.evaluations().size() - run.state().evaluations();
+        return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
+                RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
+                        : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
+                                + " resume " + run.directory());
+    }
+
+    private static void printSavings(StoredRun run, PrintWriter out) {
+        EvaluationStatistics statistics = run.statistics();
+        if (statistics != null) {
+            out.println("not simulated");
+            out.printf(Locale.ROOT, "  early stop  %.1f %% of the time: %d of %d evaluations ended early, as if %.0f "
+                    + "had not been made%n", 100 * statistics.shareOfEarlyStops(), statistics.stoppedEarly(),
+                    statistics.evaluations(), statistics.shareOfEarlyStops() * statistics.evaluations());
+            out.printf("  unchanged   %d chromosomes, evaluated in an earlier generation%n", statistics.unchanged());
+            out.printf("  cache       %d evaluations, made by an earlier run%n", statistics.fromCache());
+        }
+    }
+
+    private static void printVacuum(List<VacuumRecord> records, PrintWriter out) {
+        for (VacuumRecord record : records) {
+            out.printf(Locale.ROOT, "generation %d, evaluation %d: %s in %.2f s, in vacuum %s%n",
+                    record.generation(), record.evaluation(), RunReport.number(record.distance()), record.simulated(),
+                    record.drift() == null ? "no result" : RunReport.number(record.drift()));
+        }
+    }
+
+    private static void printFailures(List<EvaluationRecord> evaluations, PrintWriter out) {
+        List<SimulationResult> failed = evaluations.stream().map(EvaluationRecord::result)
+                .filter(result -> result.status() == SimulationResult.Status.FAILED).toList();
+        if (!failed.isEmpty()) {
+            out.printf("%d of %d evaluations failed, the last, %d: %s%n", failed.size(), evaluations.size(),
+                    failed.get(failed.size() - 1).id(), failed.get(failed.size() - 1).error());
+        }
+    }
+}

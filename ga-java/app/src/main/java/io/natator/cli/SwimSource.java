@@ -1,0 +1,137 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.Backend;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.config.Scheme;
+import io.natator.encoding.Gait;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.simulator.SceneInfo;
+import io.natator.verdict.Reproduction;
+import java.nio.file.Path;
+import java.util.Arrays;
+import java.util.Objects;
+
+/**
+ * Who swims where: a run's best gait in its scene, or a scene with or without a gait.
+ *
+ * @param run        its folder, or null
+ * @param generation up to which it is the best, or null for all
+ * @param scene      name or path
+ * @param overrides  JSON Merge Patch on the scene, or null
+ * @param gait       or null for a body at rest
+ * @param scheme     or null for the scene's own
+ * @param duration   of an evaluation in seconds, or null for the scene's own
+ * @param best       what the run has stored of the gait, if it is the best of all; else null
+ */
+record SwimSource(Path run, Integer generation, String scene, JsonNode overrides, Gait gait, Scheme scheme,
+        Double duration, BestGait best) {
+
+    /**
+     * Whom the user named.
+     *
+     * @param source     a run folder, else a scene
+     * @param generation of a run, or null
+     * @param gait       a file, or null for a run's best
+     * @throws InvalidInputException if the run has no such gait
+     */
+    static SwimSource of(String source, Integer generation, Path gait) {
+        Gait given = gait == null ? null : GaitFile.read(gait);
+        if (generation != null && given != null) {
+            throw new InvalidInputException("--generation and --gait: expected one of them");
+        }
+        Path folder = Path.of(source);
+        if (StoredRun.exists(folder)) {
+            StoredRun run = StoredRun.in(folder);
+            EvolutionSettings settings = run.settings();
+            return new SwimSource(folder, generation, SceneOptions.scene(settings.scene()), settings.overrides(),
+                    given != null ? given : best(run, generation), settings.scheme(), settings.duration(),
+                    given == null && generation == null ? run.best() : null);
+        }
+        if (generation != null) {
+            throw new InvalidInputException("--generation: " + source + " is not a run folder");
+        }
+        return new SwimSource(null, null, SceneOptions.scene(source), null, given, null, null, null);
+    }
+
+    private static Gait best(StoredRun run, Integer generation) {
+        if (generation == null) {
+            if (run.best() == null) {
+                throw new InvalidInputException(run.directory()
+                        + " has no best gait yet; finish it by natator resume, or give one by --gait");
+            }
+            return run.best().gait();
+        }
+        int last = run.state() == null ? -1 : run.state().generation();
+        if (generation < 0 || generation > last) {
+            throw new InvalidInputException("--generation is " + generation + "; expected one that " + run.directory()
+                    + " has finished, 0 to " + last);
+        }
+        EvaluationRecord found = run.bestUntil(generation);
+        if (found == null) {
+            throw new InvalidInputException(run.directory() + " no longer knows the gaits of generation " + generation
+                    + ", only the best of all; leave out --generation");
+        }
+        return found.gait();
+    }
+
+    /**
+     * How long to simulate.
+     *
+     * @param given     by the user, s, or null
+     * @param overrides on the scene, or null
+     * @throws InvalidInputException if that is no time, or the simulator does not know the scene
+     */
+    double seconds(Double given, JsonNode overrides, Path simulator) throws InterruptedException {
+        Double known = given != null ? given : duration;
+        double seconds = known != null ? known : SceneInfo.of(scene, overrides, simulator).duration();
+        if (!(seconds > 0) || Double.isInfinite(seconds)) {
+            throw new InvalidInputException("--duration is " + seconds + "; expected a number of seconds above 0");
+        }
+        return seconds;
+    }
+
+    /**
+     * Whether a program of today repeats what is stored.
+     *
+     * @param changes to the scene, the scheme or the precision by the user: null for none
+     * @return null if nothing that can be compared is stored
+     */
+    Reproduction reproduction(Path simulator, Object... changes) {
+        boolean same = best != null && Arrays.stream(changes).allMatch(Objects::isNull);
+        return same ? new Reproduction(run, best, simulator, Backend.CPU, 0) : null;
+    }
+
+    /** Its gait as JSON, or null. */
+    JsonNode gaitJson() {
+        try {
+            return gait == null ? null : Json.parse(Json.line(gait), JsonNode.class);
+        } catch (JsonProcessingException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+
+    /** What metadata say of it. */
+    ObjectNode described() {
+        ObjectNode text = JsonNodeFactory.instance.objectNode();
+        if (run != null) {
+            text.put("run", run.toAbsolutePath().normalize().getFileName().toString());
+        }
+        if (generation != null) {
+            text.put("generation", generation);
+        }
+        return text;
+    }
+
+    /** A name for files: the scene's last part. */
+    String name() {
+        return Path.of(scene).getFileName().toString().replaceFirst("\\.json$", "");
+    }
+}

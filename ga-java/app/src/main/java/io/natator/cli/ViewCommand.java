@@ -1,0 +1,154 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.MergePatch;
+import io.natator.config.Scheme;
+import io.natator.encoding.Gait;
+import io.natator.simulator.SceneInfo;
+import io.natator.study.thesis.ThesisData;
+import io.natator.view.InitialScene;
+import io.natator.view.ViewServer;
+import io.natator.view.ViewSettings;
+import java.io.PrintWriter;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.Callable;
+import java.util.concurrent.CountDownLatch;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+/** {@code natator view}: shows a scene live in the browser, until it is told to end. */
+@Command(name = "view", mixinStandardHelpOptions = true,
+        description = {"Shows a scene live in the browser, and any run's best gaits.",
+            "Ends with Ctrl-C. Only this machine can reach it unless --host is given."},
+        footer = {"", "Examples:",
+            "  natator view --creature 2",
+            "  natator view --run runs/one --run runs/two"})
+final class ViewCommand implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SceneChoice choice;
+
+    @Mixin
+    private SceneChanges sceneOptions;
+
+    @Mixin
+    private SimulatorOption simulator;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--gait", paramLabel = "FILE", description = "A JSON file with a gait, or a run's best.json. "
+            + "Default: the best gait of the first run in the scene, else what the thesis published for the creature.")
+    private Path gait;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--run", paramLabel = "DIR", description = "A run folder to be looked at; may be repeated. "
+            + "Without a scene, its scene is shown.")
+    private List<Path> runs = List.of();
+
+    @Section(Topic.PAGE)
+    @Option(names = "--port", paramLabel = "N", defaultValue = "" + ViewServer.DEFAULT_PORT,
+            description = "Where to listen; 0 for any port that is free. Default: ${DEFAULT-VALUE}.")
+    private int port;
+
+    @Section(Topic.PAGE)
+    @Option(names = "--host", paramLabel = "HOST", defaultValue = ViewSettings.LOOPBACK,
+            description = "Name or address to listen at; 0.0.0.0 for all of this machine's. Who can reach it can start "
+                    + "simulations. Default: ${DEFAULT-VALUE}.")
+    private String host;
+
+    @Section(Topic.PAGE)
+    @Option(names = "--no-browser", description = "Only print the address.")
+    private boolean noBrowser;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        if (port < 0 || port > 65535) {
+            throw new InvalidInputException("--port is " + port + "; expected a whole number from 0 to 65535");
+        }
+        Path program = simulator.path();
+        String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
+        Path shown = shownRun(scene);
+        ViewSettings settings = new ViewSettings(program, host, port, start(scene, shown, program),
+                ThesisData.load()::gaitIn, runs);
+        CountDownLatch told = new CountDownLatch(1);
+        PrintWriter out = spec.commandLine().getOut();
+        BackgroundCheck check = null;
+        ShutdownHandler shutdown = new ShutdownHandler(told::countDown, null, () -> { });
+        try (ViewServer server = new ViewServer(settings)) {
+            if (server.isOpenToOthers()) {
+                PrintWriter err = spec.commandLine().getErr();
+                err.println("warning: --host " + host + ": whoever can reach this address can watch, and start up to "
+                        + ViewServer.MOST_SIMULATIONS + " simulations on this machine; nobody is asked who they are");
+                err.flush();
+            }
+            out.println(server.address());
+            out.flush();
+            if (!noBrowser) {
+                Browser.open(server.address());
+            }
+            if (shown != null && isRepeated()) {
+                check = new BackgroundCheck(shown, program, spec.commandLine().getErr());
+            }
+            told.await();
+        } finally {
+            if (check != null) {
+                check.close();
+            }
+            shutdown.close();
+        }
+        return ExitCode.OK;
+    }
+
+    /** The first run of the scene that was chosen, or the first one if none was; null without any. */
+    private Path shownRun(String scene) {
+        for (Path folder : runs) {
+            if (scene == null || scene.equals(SceneOptions.scene(StoredRun.settings(folder).scene()))) {
+                return folder;
+            }
+        }
+        return null;
+    }
+
+    /**
+     * A run's best gait in its scene; without a run, or beside runs of other scenes, the scene that was chosen.
+     *
+     * @param scene that was chosen; null if the runs tell it
+     * @param run   of it, or null
+     */
+    private InitialScene start(String scene, Path run, Path program) throws InterruptedException {
+        Gait given = gait == null ? null : GaitFile.read(gait);
+        if (run != null) {
+            return start(StoredRun.settings(run), given, StoredRun.best(run), program);
+        }
+        ObjectNode overrides = InitialScene.patch(sceneOptions.overrides(), sceneOptions.scheme());
+        SceneInfo.of(scene, overrides, program);
+        return new InitialScene(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
+    }
+
+    /** Whether a run's best gait swims in just the scene in which it was found. */
+    private boolean isRepeated() {
+        return gait == null && sceneOptions.scheme() == null && sceneOptions.overrides() == null;
+    }
+
+    private InitialScene start(EvolutionSettings run, Gait given, BestGait best, Path program)
+            throws InterruptedException {
+        Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.scheme();
+        ObjectNode overrides = InitialScene.patch(MergePatch.both(run.overrides(), sceneOptions.overrides()), scheme);
+        if (sceneOptions.overrides() != null) {
+            SceneInfo.of(run.scene(), overrides, program);
+        }
+        return new InitialScene(run.scene(), overrides, given != null || best == null ? given : best.gait());
+    }
+}

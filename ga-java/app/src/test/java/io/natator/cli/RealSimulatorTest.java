@@ -1,0 +1,128 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.EvaluationStatistics;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import picocli.CommandLine;
+
+/** The whole way from the command line through the real simulator and back. */
+class RealSimulatorTest {
+
+    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+
+    @TempDir
+    private Path folder;
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    @BeforeEach
+    void simulatorIsBuilt() {
+        assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
+    }
+
+    private int natator(String... arguments) {
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
+        List<String> all = new ArrayList<>(List.of(arguments));
+        all.addAll(1, List.of("--simulator-path", SIMULATOR.toString()));
+        return command.execute(all.toArray(String[]::new));
+    }
+
+    @Test
+    void aTinyEvolution() throws IOException {
+        Path run = folder.resolve("run");
+
+        assertThat(natator("evolve", "--population", "6", "--generations", "2", "--duration", "0.1", "--output-dir",
+                run.toString())).as(err.toString()).isZero();
+
+        List<String> rows = Files.readAllLines(run.resolve("generations.csv"));
+        assertThat(rows).hasSize(4);
+        JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class);
+        assertThat(best.get("result").get("simulated").asDouble()).isBetween(0.09, 0.11);
+        assertThat(best.get("result").get("hash").asText()).matches("[0-9a-f]{16}");
+        assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
+        assertThat(Files.readString(run.resolve("evaluations.jsonl")).lines().filter(line -> line.contains("\"ok\"")))
+                .as("evaluations that went well").hasSizeGreaterThan(6);
+
+        out.getBuffer().setLength(0);
+        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--scheme", "conserving", "--duration",
+                "0.1", "--gait", run.resolve("best.json").toString())).isZero();
+        JsonNode again = Json.parse(out.toString(), JsonNode.class);
+        assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
+        assertThat(again.get("distance")).isEqualTo(best.get("distance"));
+    }
+
+    /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
+    @Test
+    void everyModeGivesTheSameBits() throws IOException {
+        List<String> logs = new ArrayList<>();
+        for (String mode : List.of("process", "resident", "batch")) {
+            Path run = folder.resolve(mode);
+            assertThat(natator("evolve", "--population", "6", "--generations", "1", "--duration", "0.1", "--workers",
+                    "2", "--no-cache", "--simulator", mode, "--output-dir", run.toString())).as(err.toString()).isZero();
+            logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
+        }
+
+        assertThat(logs.get(0)).contains("\"hash\":");
+        assertThat(logs.get(1)).isEqualTo(logs.get(0));
+        assertThat(logs.get(2)).isEqualTo(logs.get(0));
+    }
+
+    /** The definition of the scene, as the real simulator gives it, is a part of the key. */
+    @Test
+    void aSecondRunTakesItsResultsFromTheCache() throws IOException {
+        for (String name : List.of("first", "second", "without")) {
+            List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1",
+                    "--duration", "0.05", "--output-dir", folder.resolve(name).toString()));
+            if (name.equals("without")) {
+                arguments.add("--no-cache");
+            }
+            assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        }
+
+        for (String file : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
+            assertThat(folder.resolve("second").resolve(file))
+                    .hasSameBinaryContentAs(folder.resolve("without").resolve(file));
+        }
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("second"));
+        assertThat(statistics.fromCache()).isEqualTo(statistics.evaluations()).isPositive();
+        assertThat(StoredRun.statistics(folder.resolve("without")).fromCache()).isZero();
+    }
+
+    @ParameterizedTest
+    @CsvSource({"1, 2", "2, 8", "3, 5", "4, 3"})
+    void everyCreatureHasItsActuators(int creature, int actuators) throws IOException {
+        Path run = folder.resolve("run");
+
+        assertThat(natator("evolve", "--creature", "" + creature, "--population", "2", "--generations", "0",
+                "--duration", "0.02", "--output-dir", run.toString())).as(err.toString()).isZero();
+        assertThat(Json.parse(Files.readString(run.resolve("config.json")), JsonNode.class).get("actuators").asInt())
+                .isEqualTo(actuators);
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "thesis/creature-9|{}|thesis/creature-9",
+        "thesis/creature-1|{\"no such setting\":1}|no such setting"})
+    void whatTheSimulatorRefusesIsOneLineAndStatus2(String scene, String overrides, String named) {
+        assertThat(natator("evaluate", "--scene", scene, "--overrides", overrides, "--gait", "1", "0.5", "0.5", "0.5"))
+                .isEqualTo(2);
+
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).contains(named);
+    }
+}

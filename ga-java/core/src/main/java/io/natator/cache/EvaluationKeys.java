@@ -1,0 +1,58 @@
+package io.natator.cache;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.Json;
+import io.natator.simulator.ProgramInfo;
+import io.natator.simulator.SceneInfo;
+import io.natator.simulator.Sha256;
+import io.natator.simulator.SimulationRequest;
+import java.nio.file.Path;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+import java.util.concurrent.ConcurrentHashMap;
+
+/** Puts on one line all that determines the result of a request: program, backend, scene, and the request itself. */
+final class EvaluationKeys {
+
+    private final Path simulator;
+    private final Map<String, Object> program = new TreeMap<>();
+    /** Digests of scenes by name and overrides, as long as this exists. */
+    private final Map<List<Object>, String> scenes = new ConcurrentHashMap<>();
+
+    EvaluationKeys(ExecutionSettings execution) throws InterruptedException {
+        simulator = execution.simulator();
+        ProgramInfo info = ProgramInfo.of(simulator);
+        program.put("program", Sha256.of(simulator));
+        program.put("instructionSet", info.instructionSet());
+        program.put("backend", execution.backend());
+        if (execution.backend() != Backend.CPU) {
+            program.put("device", info.devices().stream()
+                    .filter(device -> device.startsWith(execution.device() + ":")).findFirst().orElse("none"));
+        }
+    }
+
+    /** The key of a request, in which its id has no part. */
+    String of(SimulationRequest request) throws InterruptedException {
+        Map<String, Object> key = new TreeMap<>(program);
+        key.put("scene", digest(request.scene(), request.overrides()));
+        key.put("gait", request.gait());
+        key.put("duration", request.duration());
+        key.put("scheme", request.scheme());
+        key.put("perturbation", request.perturbation());
+        return Json.line(key);
+    }
+
+    private String digest(String scene, JsonNode overrides) throws InterruptedException {
+        List<Object> name = Arrays.asList(scene, overrides);
+        String digest = scenes.get(name);
+        if (digest == null) {
+            digest = Sha256.of(SceneInfo.definition(scene, overrides, simulator));
+            scenes.put(name, digest);
+        }
+        return digest;
+    }
+}

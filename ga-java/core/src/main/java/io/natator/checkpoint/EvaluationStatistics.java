@@ -1,0 +1,23 @@
+package io.natator.checkpoint;
+
+import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
+
+/**
+ * What a run did not have to simulate; {@code savings.json}.
+ *
+ * @param evaluations      results of new chromosomes
+ * @param unchanged        chromosomes that went on, or came out of breeding, as they were and were not evaluated again
+ * @param fromCache        of the evaluations, those whose result an earlier evaluation had left in the cache
+ * @param stoppedEarly     of the evaluations, those that ended before their time
+ * @param simulatedSeconds time simulated in all evaluations, those from the cache included
+ * @param wholeSeconds     the same, had none ended early
+ */
+@JsonIgnoreProperties(ignoreUnknown = true)
+public record EvaluationStatistics(long evaluations, long unchanged, long fromCache, long stoppedEarly,
+        double simulatedSeconds, double wholeSeconds) {
+
+    /** Share of the simulated time that early stops saved; 0 without evaluations. */
+    public double shareOfEarlyStops() {
+        return wholeSeconds > 0 ? 1 - simulatedSeconds / wholeSeconds : 0;
+    }
+}

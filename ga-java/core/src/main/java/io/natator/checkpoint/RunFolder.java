@@ -1,0 +1,247 @@
+package io.natator.checkpoint;
+
+import io.natator.config.Backend;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.FileErrors;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.encoding.Encoding;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionState;
+import io.natator.file.AtomicFile;
+import io.natator.file.JsonLines;
+import io.natator.simulator.SimulationResult;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
+
+/**
+ * The folder of one run. Everything that an evolution needs to continue is in it at every moment: {@code config.json}
+ * from the start, {@code checkpoint.json} after each generation, {@code evaluations.jsonl} after each simulation.
+ * {@code generations.csv} and {@code best.json} follow from the checkpoint. All of these are the same for the same
+ * settings and simulator; {@code environment.json} and {@code timings.csv} say where and how fast it ran.
+ */
+public final class RunFolder implements EvolutionListener, AutoCloseable {
+
+    static final String CONFIG = "config.json";
+    static final String CHECKPOINT = "checkpoint.json";
+    static final String BEST = "best.json";
+    static final String SAVINGS = "savings.json";
+    static final String VACUUM = "vacuum.jsonl";
+    static final String ENVIRONMENT = "environment.json";
+    static final String EVALUATIONS = "evaluations.jsonl";
+    private static final String GENERATIONS = "generations.csv";
+    private static final String TIMINGS = "timings.csv";
+    private static final String PLOTS = "plots";
+    /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
+    private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
+            ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CONFIG, ".");
+
+    private final Path directory;
+    private EvolutionSettings settings;
+    private final Encoding encoding;
+    private final EvolutionState checkpoint;
+    private final JsonLines<EvaluationRecord> log;
+    private final GenerationTimes timings;
+
+    private RunFolder(Path directory, EvolutionSettings settings) {
+        this.directory = directory;
+        this.settings = settings;
+        this.encoding = settings.encoding().forActuators(settings.actuators());
+        this.log = JsonLines.locked(directory.resolve(EVALUATIONS), EvaluationRecord.class);
+        try {
+            this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
+                    ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
+        } catch (InvalidInputException e) {
+            log.close();
+            throw e;
+        }
+        this.timings = new GenerationTimes(directory.resolve(TIMINGS));
+    }
+
+    /**
+     * Makes the folder of a new run.
+     *
+     * @throws InvalidInputException if there is something in it already, or it cannot be made
+     */
+    public static RunFolder create(Path directory, EvolutionSettings settings) {
+        try {
+            Files.createDirectories(directory);
+            if (isOccupied(directory)) {
+                throw new InvalidInputException("output folder " + directory + " is not empty; choose another by "
+                        + "--output-dir, or continue the run in it by --resume " + directory);
+            }
+        } catch (IOException e) {
+            throw new InvalidInputException("output folder " + directory + " cannot be made: "
+                    + FileErrors.reason(directory, e), e);
+        }
+        try {
+            AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+        } catch (UncheckedIOException e) {
+            throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
+        }
+        return new RunFolder(directory, settings);
+    }
+
+    /** Removes what a run wrote, and its folder unless there is something else in it. Can be done again after a kill. */
+    public static void delete(Path directory) {
+        try {
+            for (String name : FILES) {
+                Path file = directory.resolve(name).normalize();
+                if (!Files.isDirectory(file) || !isOccupied(file)) {
+                    Files.deleteIfExists(file);
+                }
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot remove " + AtomicFile.reason(directory, e), e);
+        }
+    }
+
+    /** Whether there is anything at this path but an empty folder. */
+    public static boolean isOccupied(Path directory) throws IOException {
+        if (!Files.isDirectory(directory)) {
+            return Files.exists(directory);
+        }
+        try (Stream<Path> files = Files.list(directory)) {
+            return files.findAny().isPresent();
+        }
+    }
+
+    /**
+     * Opens the folder of an earlier run to continue it.
+     *
+     * @throws InvalidInputException if it is not one, is damaged, or is in use
+     */
+    public static RunFolder open(Path directory) {
+        RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
+        int recorded = folder.log.rows().size();
+        if (folder.checkpoint != null && recorded < folder.checkpoint.evaluations()) {
+            folder.close();
+            throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + recorded
+                    + " whole lines; expected at least the " + folder.checkpoint.evaluations() + " of " + CHECKPOINT);
+        }
+        folder.dropFailures();
+        return folder;
+    }
+
+    /**
+     * A generation that was stopped since most of it failed is not to fail again by its record once the cause is gone:
+     * it is simulated anew from its first failure.
+     */
+    private void dropFailures() {
+        List<EvaluationRecord> all = log.rows();
+        int first = checkpoint == null ? 0 : (int) checkpoint.evaluations();
+        int failed = 0;
+        int firstFailed = -1;
+        for (int i = first; i < all.size(); i++) {
+            if (all.get(i).result().status() == SimulationResult.Status.FAILED) {
+                failed++;
+                firstFailed = firstFailed < 0 ? i : firstFailed;
+            }
+        }
+        if (2 * failed > all.size() - first) {
+            log.dropFrom(firstFailed);
+        }
+    }
+
+    /** Where it is. */
+    public Path directory() {
+        return directory;
+    }
+
+    /** The settings of the run. */
+    public EvolutionSettings settings() {
+        return settings;
+    }
+
+    /** From here on the run computes on another backend. */
+    public void changeBackend(Backend backend) {
+        settings = settings.withBackend(backend);
+        AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+    }
+
+    /** The state after the last generation that was finished when the folder was opened; null if there was none. */
+    public EvolutionState checkpoint() {
+        return checkpoint;
+    }
+
+    /** Simulations that were recorded when the folder was opened, in the order of their ids. */
+    public List<EvaluationRecord> recorded() {
+        return log.rows();
+    }
+
+    /** Writes where and how the run is carried out. */
+    public void write(Environment environment) {
+        AtomicFile.write(directory.resolve(ENVIRONMENT), Json.document(environment));
+    }
+
+    /** Writes what the run did not have to simulate. */
+    public void write(EvaluationStatistics statistics) {
+        AtomicFile.write(directory.resolve(SAVINGS), Json.document(statistics));
+    }
+
+    /** Writes the best gaits that were run in vacuum, in the order in which they were found. */
+    public void write(List<VacuumRecord> records) {
+        AtomicFile.write(directory.resolve(VACUUM),
+                records.stream().map(Json::line).collect(Collectors.joining("\n", "", "\n")));
+    }
+
+    @Override
+    public void generationStarted(int generation, int simulations) {
+        timings.start();
+    }
+
+    @Override
+    public void evaluated(EvaluationRecord evaluation) {
+        if (evaluation.result().id() >= log.size()) {
+            log.append(evaluation);
+        }
+    }
+
+    /** Writes the checkpoint before what follows from it: if the run is killed right after, the rest can be made from it. */
+    @Override
+    public void generationFinished(EvolutionState state) {
+        log.force();
+        AtomicFile.write(directory.resolve(CHECKPOINT), Json.document(state));
+        writeResults(state, null, null);
+        timings.append(state);
+    }
+
+    /**
+     * Writes what follows from a state.
+     *
+     * @param bodyLength of the creature in scene units, or null
+     * @param vacuum     result of the best gait in vacuum, or null
+     * @return the best gait, or null if there is none
+     */
+    public BestGait writeResults(EvolutionState state, Double bodyLength, SimulationResult vacuum) {
+        AtomicFile.write(directory.resolve(GENERATIONS), GenerationTable.csv(state.history()));
+        if (state.best() == null) {
+            return null;
+        }
+        BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()), bodyLength,
+                vacuum);
+        AtomicFile.write(directory.resolve(BEST), Json.document(best));
+        return best;
+    }
+
+    /** The folder for pictures, made if it is not there. */
+    public Path plots() {
+        Path plots = directory.resolve(PLOTS);
+        try {
+            return Files.createDirectories(plots);
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot make " + plots + ": " + e.getMessage(), e);
+        }
+    }
+
+    @Override
+    public void close() {
+        log.close();
+    }
+}

@@ -1,0 +1,162 @@
+package io.natator.checkpoint;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.EvolutionState;
+import io.natator.file.JsonLines;
+import io.natator.simulator.SimulationResult;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/**
+ * What a run folder holds, to be looked at while another process may be adding to it.
+ *
+ * @param directory   the folder
+ * @param settings    of the run
+ * @param state       after the last finished generation, or null
+ * @param best        the best gait so far, or null
+ * @param evaluations all that are recorded, in the order of their ids
+ * @param statistics     what it did not have to simulate, or null if that was not recorded
+ * @param vacuum      best gaits that were run in vacuum
+ */
+public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
+        List<EvaluationRecord> evaluations, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
+
+    private static final Logger LOG = LoggerFactory.getLogger(StoredRun.class);
+
+    /** Copies the lists. */
+    public StoredRun {
+        evaluations = List.copyOf(evaluations);
+        vacuum = List.copyOf(vacuum);
+    }
+
+    /**
+     * Reads a folder.
+     *
+     * @throws InvalidInputException if it is not that of a run, or a file in it is damaged
+     */
+    public static StoredRun in(Path directory) {
+        EvolutionSettings settings = settings(directory);
+        EvolutionState state = state(directory);
+        EvaluationStatistics statistics;
+        try {
+            statistics = statistics(directory);
+        } catch (InvalidInputException e) {
+            LOG.warn("{}; shown without it", e.getMessage());
+            statistics = null;
+        }
+        return new StoredRun(directory, settings, state, best(directory, settings, state),
+                evaluations(directory), statistics, vacuumRecords(directory));
+    }
+
+    /** The settings of the run in a folder. */
+    public static EvolutionSettings settings(Path directory) {
+        if (!exists(directory)) {
+            throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
+        }
+        return Json.read(directory.resolve(RunFolder.CONFIG), EvolutionSettings.class, "settings");
+    }
+
+    private static <T> T optional(Path directory, String name, Class<T> type) {
+        Path file = directory.resolve(name);
+        return Files.exists(file) ? Json.read(file, type, name.replace(".json", "")) : null;
+    }
+
+    /** Whether there is a run in this folder. */
+    public static boolean exists(Path directory) {
+        return Files.isRegularFile(directory.resolve(RunFolder.CONFIG));
+    }
+
+    /**
+     * Whether the run in this folder, if there is one, has come to its end and its results are written.
+     *
+     * @throws InvalidInputException if a file of it is damaged
+     */
+    public static boolean isFinished(Path directory) {
+        if (!exists(directory)) {
+            return false;
+        }
+        EvolutionState state = optional(directory, RunFolder.CHECKPOINT, EvolutionState.class);
+        if (state == null || !state.isLastOf(settings(directory))) {
+            return false;
+        }
+        BestGait best = best(directory);
+        return state.best() == null || best != null && best.vacuum() != null;
+    }
+
+    /** The evaluations that the run in a folder has recorded. */
+    public static List<EvaluationRecord> evaluations(Path directory) {
+        return JsonLines.read(directory.resolve(RunFolder.EVALUATIONS), EvaluationRecord.class);
+    }
+
+    /** The state after the last finished generation of the run in a folder, or null. */
+    public static EvolutionState state(Path directory) {
+        return optional(directory, RunFolder.CHECKPOINT, EvolutionState.class);
+    }
+
+    /** The best gait so far of the run in a folder, or null. */
+    public static BestGait best(Path directory) {
+        return best(directory, settings(directory), state(directory));
+    }
+
+    /** As written, else as it follows from the checkpoint, then without what it does in vacuum. */
+    private static BestGait best(Path directory, EvolutionSettings settings, EvolutionState state) {
+        try {
+            BestGait written = optional(directory, RunFolder.BEST, BestGait.class);
+            if (written != null) {
+                return written;
+            }
+        } catch (InvalidInputException e) {
+            LOG.warn("{}; taken from {} instead", e.getMessage(), RunFolder.CHECKPOINT);
+        }
+        return state == null || state.best() == null ? null : BestGait.of(settings.scene(), state.best(),
+                settings.encoding().forActuators(settings.actuators()).decode(state.best().genes()), null, null);
+    }
+
+    /** What the run in a folder did not have to simulate; null if that was not recorded. */
+    public static EvaluationStatistics statistics(Path directory) {
+        return optional(directory, RunFolder.SAVINGS, EvaluationStatistics.class);
+    }
+
+    /** The best gaits of the run in a folder that were run in vacuum; none if that was not asked for. */
+    public static List<VacuumRecord> vacuumRecords(Path directory) {
+        return JsonLines.read(directory.resolve(RunFolder.VACUUM), VacuumRecord.class);
+    }
+
+    /** A JSON file of its folder as it stands; null if it is not there. */
+    public JsonNode document(String name) {
+        return optional(directory, name, JsonNode.class);
+    }
+
+    /** The best evaluation of all generations up to this one, the earliest of equals; null if none is recorded. */
+    public EvaluationRecord bestUntil(int generation) {
+        EvaluationRecord found = null;
+        for (EvaluationRecord one : evaluations) {
+            if (one.generation() <= generation && one.result().status() == SimulationResult.Status.OK
+                    && (found == null || one.result().score() > found.result().score())) {
+                found = one;
+            }
+        }
+        return found;
+    }
+
+    /** Best fitness after each evaluation. */
+    public double[] bestFitness() {
+        return bestFitness(evaluations);
+    }
+
+    /** Best fitness after each of these evaluations. */
+    public static double[] bestFitness(List<EvaluationRecord> evaluations) {
+        double[] best = evaluations.stream().mapToDouble(one -> one.result().fitness()).toArray();
+        for (int i = 1; i < best.length; i++) {
+            best[i] = Math.max(best[i], best[i - 1]);
+        }
+        return best;
+    }
+}

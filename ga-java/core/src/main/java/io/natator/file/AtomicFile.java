@@ -1,0 +1,41 @@
+package io.natator.file;
+
+import java.io.FileOutputStream;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.AccessDeniedException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+
+/** Writes files that are at every moment either the old or the new one, whole. */
+public final class AtomicFile {
+
+    private AtomicFile() {
+    }
+
+    /**
+     * Replaces a file: writes beside it, forces that to the disk, and renames. An interrupt does not disturb it.
+     *
+     * @throws UncheckedIOException if that fails; the old file is then untouched
+     */
+    public static void write(Path file, String content) {
+        Path fresh = file.resolveSibling(file.getFileName() + ".new");
+        try {
+            try (FileOutputStream out = new FileOutputStream(fresh.toFile())) {
+                out.write(content.getBytes(StandardCharsets.UTF_8));
+                out.getFD().sync();
+            }
+            Files.move(fresh, file, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + reason(file, e), e);
+        }
+    }
+
+    /** The file and what is wrong with it, once each. */
+    public static String reason(Path file, IOException e) {
+        String message = e instanceof AccessDeniedException ? "permission denied" : String.valueOf(e.getMessage());
+        return message.startsWith(file.toString()) ? message : file + ": " + message;
+    }
+}

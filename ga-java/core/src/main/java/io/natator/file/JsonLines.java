@@ -1,0 +1,213 @@
+package io.natator.file;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.io.RandomAccessFile;
+import java.io.UncheckedIOException;
+import java.nio.channels.FileLock;
+import java.nio.channels.OverlappingFileLockException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Predicate;
+import java.util.stream.Collectors;
+
+/**
+ * Rows in a file, one JSON value a line, each handed to the operating system as soon as it is appended. A last line that
+ * was cut short when its writer was killed is no row; the next row takes its place. While one process writes, no other
+ * can.
+ */
+public final class JsonLines<T> implements AutoCloseable {
+
+    private final Path file;
+    private final Class<T> type;
+    private final List<T> rows = new ArrayList<>();
+    /** Where each row that was in the file begins, and where the last one ends: bytes. */
+    private final List<Long> starts = new ArrayList<>(List.of(0L));
+    /** Of the file when it was read, with what was cut short. */
+    private long length;
+    private int size;
+    /** Null until it is written. No channel: that would be closed by an interrupt of the thread that writes. */
+    private RandomAccessFile content;
+
+    private JsonLines(Path file, Class<T> type) {
+        this.file = file;
+        this.type = type;
+    }
+
+    /**
+     * Reads a file, if it is there. It is opened for writing, or made, when the first row is appended.
+     *
+     * @throws InvalidInputException if it cannot be read, or a whole line of it is no such row
+     */
+    public static <T> JsonLines<T> of(Path file, Class<T> type) {
+        JsonLines<T> lines = new JsonLines<>(file, type);
+        try {
+            lines.parse(Files.exists(file) ? Files.readAllBytes(file) : new byte[0]);
+        } catch (IOException e) {
+            throw new InvalidInputException("cannot read " + AtomicFile.reason(file, e), e);
+        }
+        return lines;
+    }
+
+    /**
+     * Opens a file for writing at once, or makes it.
+     *
+     * @throws InvalidInputException if another process writes it, or a whole line of it is no such row
+     */
+    public static <T> JsonLines<T> locked(Path file, Class<T> type) {
+        JsonLines<T> lines = new JsonLines<>(file, type);
+        try {
+            lines.open();
+            byte[] bytes = new byte[(int) lines.content.length()];
+            lines.content.readFully(bytes);
+            lines.parse(bytes);
+            lines.dropFrom(lines.size);
+        } catch (IOException e) {
+            lines.close();
+            throw new UncheckedIOException("cannot open " + AtomicFile.reason(file, e), e);
+        } catch (InvalidInputException e) {
+            lines.close();
+            throw e;
+        }
+        return lines;
+    }
+
+    /**
+     * The rows of a file, which another process may be writing; none if it is not there.
+     *
+     * @throws InvalidInputException if it cannot be read, or a whole line of it is no such row
+     */
+    public static <T> List<T> read(Path file, Class<T> type) {
+        return of(file, type).rows;
+    }
+
+    private void parse(byte[] bytes) {
+        int start = 0;
+        for (int i = 0; i < bytes.length; i++) {
+            if (bytes[i] == '\n') {
+                rows.add(parse(new String(bytes, start, i - start, StandardCharsets.UTF_8)));
+                start = i + 1;
+                starts.add((long) start);
+            }
+        }
+        length = bytes.length;
+        size = rows.size();
+    }
+
+    private T parse(String line) {
+        try {
+            return Json.parse(line, type);
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException(file + ", line " + (rows.size() + 1) + ": " + Json.reason(e), e);
+        }
+    }
+
+    private void open() throws IOException {
+        RandomAccessFile opened = new RandomAccessFile(file.toFile(), "rw");
+        FileLock lock;
+        try {
+            lock = opened.getChannel().tryLock();
+        } catch (OverlappingFileLockException e) {
+            lock = null;
+        }
+        if (lock == null) {
+            opened.close();
+            throw new InvalidInputException(file + " is in use by another run");
+        }
+        content = opened;
+    }
+
+    /** Opens for writing what was only read so far. */
+    private void reopen() throws IOException {
+        Files.createDirectories(file.toAbsolutePath().getParent());
+        open();
+        if (content.length() != length) {
+            content.close();
+            content = null;
+            throw new InvalidInputException(file + " was changed by another run meanwhile");
+        }
+        dropFrom(size);
+    }
+
+    /** The rows that were in the file when it was opened. */
+    public List<T> rows() {
+        return rows;
+    }
+
+    /** How many rows are in the file now. */
+    public int size() {
+        return size;
+    }
+
+    /**
+     * Leaves out of the file, and of {@link #rows}, all but these. It is at every moment the old or the new file. Only
+     * for one that is not opened for writing yet.
+     *
+     * @return how many were left out
+     */
+    public int keep(Predicate<T> wanted) {
+        if (content != null) {
+            throw new IllegalStateException(file + " is being written");
+        }
+        int before = rows.size();
+        List<T> kept = rows.stream().filter(wanted).toList();
+        if (kept.size() < before) {
+            String text = kept.stream().map(row -> Json.line(row) + "\n").collect(Collectors.joining());
+            AtomicFile.write(file, text);
+            starts.subList(1, starts.size()).clear();
+            rows.clear();
+            parse(text.getBytes(StandardCharsets.UTF_8));
+        }
+        return before - rows.size();
+    }
+
+    /** Forgets a row that was in the file when it was opened for writing, and all after it. */
+    public void dropFrom(int first) {
+        try {
+            content.setLength(starts.get(first));
+            content.seek(starts.get(first));
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + AtomicFile.reason(file, e), e);
+        }
+        rows.subList(first, rows.size()).clear();
+        size = first;
+    }
+
+    /** Forces all that was appended to the disk, so that after a power cut nothing is there that relies on what is not. */
+    public void force() {
+        try {
+            content.getFD().sync();
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + AtomicFile.reason(file, e), e);
+        }
+    }
+
+    /** Appends a row. */
+    public void append(T row) {
+        try {
+            if (content == null) {
+                reopen();
+            }
+            content.write((Json.line(row) + "\n").getBytes(StandardCharsets.UTF_8));
+            size++;
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + AtomicFile.reason(file, e), e);
+        }
+    }
+
+    @Override
+    public void close() {
+        try {
+            if (content != null) {
+                content.close();
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot close " + AtomicFile.reason(file, e), e);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+package io.natator.run;
+
+import io.natator.cache.CachedEvaluator;
+import io.natator.cache.EvaluationCache;
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.Environment;
+import io.natator.checkpoint.RunFolder;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.FitnessKind;
+import io.natator.config.InvalidInputException;
+import io.natator.evolution.Evolution;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionState;
+import io.natator.evolution.Individual;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.NetEvaluator;
+import io.natator.simulator.SceneInfo;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.TimeLimit;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Collection;
+import java.util.List;
+import java.util.function.LongSupplier;
+
+/** Carries out the evolution of a run folder from wherever it stands to its end. */
+public final class EvolutionRun {
+
+    private final RunFolder folder;
+    private final EvolutionSettings settings;
+
+    /**
+     * What came of a run.
+     *
+     * @param state after the last generation
+     * @param best  the best gait with what it does in vacuum, or null if there is none
+     */
+    public record Outcome(EvolutionState state, BestGait best) {
+    }
+
+    /** A run whose folder stays open. */
+    public EvolutionRun(RunFolder folder) {
+        this.folder = folder;
+        this.settings = folder.settings();
+    }
+
+    /**
+     * The execution with a time limit that suits the scene, if it has none.
+     *
+     * @throws io.natator.config.InvalidInputException if the simulator does not know the scene
+     * @throws InterruptedException                    if the calling thread is interrupted
+     */
+    public static ExecutionSettings withTimeLimit(ExecutionSettings execution, EvolutionSettings settings)
+            throws InterruptedException {
+        return execution.timeout() != null ? execution : execution.withTimeout(TimeLimit.of(
+                SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator()), settings.duration()));
+    }
+
+    /** The same with the longest of the limits that suit several settings. */
+    public static ExecutionSettings withTimeLimit(ExecutionSettings execution, Collection<EvolutionSettings> all)
+            throws InterruptedException {
+        Duration longest = Duration.ZERO;
+        for (EvolutionSettings settings : all) {
+            Duration limit = withTimeLimit(execution, settings).timeout();
+            longest = longest.compareTo(limit) < 0 ? limit : longest;
+        }
+        return execution.withTimeout(longest);
+    }
+
+    /**
+     * The evaluator that the settings ask for, with their cache. Several runs can share it.
+     *
+     * @param execution with a time limit
+     * @throws io.natator.config.InvalidInputException if the simulator cannot be run
+     * @throws InterruptedException                    if the calling thread is interrupted
+     */
+    public static Evaluator open(ExecutionSettings execution) throws InterruptedException {
+        Evaluator evaluator = Evaluator.open(execution);
+        if (execution.cache() == null) {
+            return evaluator;
+        }
+        try {
+            return new CachedEvaluator(evaluator, new EvaluationCache(execution.cache()), execution);
+        } catch (InvalidInputException | InterruptedException e) {
+            evaluator.close();
+            throw e;
+        }
+    }
+
+    /**
+     * Evolves, and writes everything into the folder: after each evaluation, each generation, and at the end.
+     *
+     * @param execution how the evaluator works, for the record
+     * @param evaluator carries out the evaluations; stays open
+     * @param listeners told of the evolution's course
+     * @throws io.natator.evolution.EvolutionStoppedException if the evaluator is closed, or the calling thread
+     *                                                        interrupted; the run can be continued
+     * @throws io.natator.evolution.EvolutionFailedException  if most simulations of a generation fail
+     */
+    public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
+            throws InterruptedException {
+        folder.write(Environment.present(execution));
+        if (evaluator instanceof CachedEvaluator shared) {
+            CachedEvaluator own = shared.counting();
+            return run(execution, own, own::found, List.of(listeners));
+        }
+        return run(execution, evaluator, () -> 0, List.of(listeners));
+    }
+
+    private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found,
+            List<EvolutionListener> listeners) throws InterruptedException {
+        SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
+        double duration = settings.duration() != null ? settings.duration() : scene.duration();
+        List<EvolutionListener> all = new ArrayList<>(List.of(folder, new EvaluationCounter(folder, duration, found)));
+        if (settings.vacuumCheck()) {
+            all.add(new VacuumCheck(folder, evaluator));
+        }
+        all.addAll(listeners);
+        Evaluator rewarding = settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
+        EvolutionState state = new Evolution(settings, rewarding, all, folder.recorded()).run(folder.checkpoint());
+        BestGait best = folder.writeResults(state, scene.bodyLength(), inVacuum(state.best(), evaluator));
+        return new Outcome(state, best);
+    }
+
+    /** What the best gait does without water in the time that it swam: a gait that advances there is no swimming. */
+    private SimulationResult inVacuum(Individual best, Evaluator evaluator) throws InterruptedException {
+        return best == null ? null : VacuumCheck.drift(best, settings, best.result().simulated(), evaluator);
+    }
+}

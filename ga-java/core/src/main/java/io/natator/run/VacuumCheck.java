@@ -1,0 +1,66 @@
+package io.natator.run;
+
+import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.VacuumRecord;
+import io.natator.config.EvolutionSettings;
+import io.natator.encoding.Gait;
+import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.EvolutionState;
+import io.natator.evolution.EvolutionStoppedException;
+import io.natator.evolution.Individual;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.RequestRejectedException;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.VacuumRequests;
+import java.util.ArrayList;
+import java.util.List;
+
+/** Runs the best gait after each generation that found a better one in vacuum too, for as long as it swam. */
+final class VacuumCheck implements EvolutionListener {
+
+    private final RunFolder folder;
+    private final Evaluator evaluator;
+    private final List<VacuumRecord> records;
+
+    /** A check that knows what an interrupted run has checked. */
+    VacuumCheck(RunFolder folder, Evaluator evaluator) {
+        this.folder = folder;
+        this.evaluator = evaluator;
+        this.records = new ArrayList<>(StoredRun.vacuumRecords(folder.directory()));
+        if (folder.checkpoint() != null) {
+            // A run that was killed between its checkpoint and the check that belongs to it.
+            generationFinished(folder.checkpoint());
+        }
+    }
+
+    @Override
+    public void generationFinished(EvolutionState state) {
+        Individual best = state.best();
+        if (best == null || records.stream().anyMatch(known -> known.evaluation() == best.result().id())) {
+            return;
+        }
+        try {
+            SimulationResult vacuum = drift(best, folder.settings(), best.result().simulated(), evaluator);
+            records.add(new VacuumRecord(state.generation(), best.result().id(), best.result().distance(),
+                    best.result().simulated(), vacuum.distance()));
+            folder.write(records);
+        } catch (InterruptedException e) {
+            throw new EvolutionStoppedException("stopped in the vacuum check after generation " + state.generation());
+        }
+    }
+
+    /** What an individual does without water. */
+    static SimulationResult drift(Individual individual, EvolutionSettings settings, Double duration,
+            Evaluator evaluator) throws InterruptedException {
+        Gait gait = settings.encoding().forActuators(settings.actuators()).decode(individual.genes());
+        SimulationRequest request = new SimulationRequest(individual.result().id(), settings.scene(), gait, null,
+                settings.scheme(), settings.overrides());
+        try {
+            return evaluator.evaluate(VacuumRequests.of(request, duration));
+        } catch (RequestRejectedException e) {
+            return SimulationResult.failed(request.id(), e.getMessage());
+        }
+    }
+}

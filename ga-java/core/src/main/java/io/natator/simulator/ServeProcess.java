@@ -1,0 +1,151 @@
+package io.natator.simulator;
+
+import io.natator.config.ExecutionSettings;
+import java.io.BufferedInputStream;
+import java.io.ByteArrayOutputStream;
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.OutputStream;
+import java.nio.charset.StandardCharsets;
+import java.util.List;
+import java.util.concurrent.ArrayBlockingQueue;
+import java.util.concurrent.BlockingQueue;
+import java.util.concurrent.LinkedBlockingQueue;
+import java.util.concurrent.TimeUnit;
+
+/**
+ * A running {@code natator-sim serve}: requests in, answers out, one a line. To be used by one thread at a time. Nothing
+ * that the program does can block that thread for longer than it is ready to wait: the pipes are served by threads of
+ * their own.
+ */
+final class ServeProcess implements AutoCloseable {
+
+    /** A result is some 400 bytes. */
+    static final int MAX_LINE_BYTES = 1 << 20;
+    private static final int EXIT_BAD_INPUT = 2;
+    private static final int EXIT_NO_DEVICE = 4;
+    /** Answers that wait to be taken; a program that writes more than it was asked for blocks itself. */
+    private static final int QUEUED_LINES = 4096;
+    private static final byte[] CLOSE = new byte[0];
+    private static final long GRACE_MILLISECONDS = 5000;
+
+    private final ProcessGroup group;
+    private final Process process;
+    private final BlockingQueue<Line> answers = new ArrayBlockingQueue<>(QUEUED_LINES);
+    private final BlockingQueue<byte[]> requests = new LinkedBlockingQueue<>();
+    private final ErrorTail errors;
+    private final List<Thread> threads;
+    private boolean answered;
+
+    /** A line of output; or, with a fault, that no more will come and why. */
+    private record Line(String text, String fault) {
+    }
+
+    /**
+     * Starts the program.
+     *
+     * @param group to which its process belongs
+     * @throws SimulatorFailure     if it does not start
+     * @throws InterruptedException if the group was stopped
+     */
+    ServeProcess(ProcessGroup group, ExecutionSettings settings) throws SimulatorFailure, InterruptedException {
+        this.group = group;
+        this.process = group.start(List.of(settings.simulator().toString(), "serve", "--backend",
+                settings.backend().argument(), "--device", "" + settings.device()));
+        this.errors = new ErrorTail(process.getErrorStream());
+        this.threads = List.of(new Thread(this::write, "serve-input"), new Thread(this::read, "serve-output"),
+                new Thread(errors, "serve-errors"));
+        for (Thread thread : threads) {
+            thread.setDaemon(true);
+            thread.start();
+        }
+    }
+
+    /** Whether it runs and has said nothing that it was not asked. */
+    boolean isReady() {
+        return process.isAlive() && answers.isEmpty();
+    }
+
+    /** Sends requests, one a line. */
+    void send(String lines) {
+        requests.add(lines.getBytes(StandardCharsets.UTF_8));
+    }
+
+    /**
+     * The next answer.
+     *
+     * @throws SimulatorFailure         if none comes in time, or none will come any more
+     * @throws RequestRejectedException if the program cannot work at all, as without the GPU that it was asked to use
+     * @throws InterruptedException     if the calling thread is interrupted
+     */
+    SimulationResult receive(long nanoseconds) throws SimulatorFailure, InterruptedException {
+        Line line = answers.poll(nanoseconds, TimeUnit.NANOSECONDS);
+        if (line == null) {
+            throw new SimulatorFailure("no answer within " + Math.round(nanoseconds / 1e6) / 1e3 + " s");
+        }
+        if (line.fault != null) {
+            throw new SimulatorFailure(line.fault + end());
+        }
+        SimulationResult result = ResultReader.read(line.text);
+        answered = true;
+        return result;
+    }
+
+    /** How the program ended, or that it runs on though its output is at an end. */
+    private String end() throws InterruptedException {
+        if (!process.waitFor(GRACE_MILLISECONDS, TimeUnit.MILLISECONDS)) {
+            return ", but the program runs on";
+        }
+        String said = errors.text();
+        int status = process.exitValue();
+        if (!answered && (status == EXIT_BAD_INPUT || status == EXIT_NO_DEVICE) && !said.isEmpty()) {
+            throw new RequestRejectedException(said, status == EXIT_BAD_INPUT);
+        }
+        return "; exit status " + status + (said.isEmpty() ? "" : ", errors " + ResultReader.shown(said));
+    }
+
+    private void write() {
+        try (OutputStream stdin = process.getOutputStream()) {
+            for (byte[] bytes = requests.take(); bytes.length > 0; bytes = requests.take()) {
+                stdin.write(bytes);
+                stdin.flush();
+            }
+        } catch (IOException e) {
+            // The program has closed its input or has ended: what it answers, or does not, tells.
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
+    private void read() {
+        try (InputStream stdout = new BufferedInputStream(process.getInputStream())) {
+            ByteArrayOutputStream line = new ByteArrayOutputStream();
+            for (int next = stdout.read(); next >= 0; next = stdout.read()) {
+                if (next == '\n') {
+                    answers.put(new Line(line.toString(StandardCharsets.UTF_8), null));
+                    line.reset();
+                } else if (line.size() == MAX_LINE_BYTES) {
+                    answers.put(new Line(null, "more than " + MAX_LINE_BYTES + " bytes in one line"));
+                    ProcessGroup.kill(process);
+                    return;
+                } else {
+                    line.write(next);
+                }
+            }
+            answers.put(new Line(null, line.size() == 0 ? "output ended"
+                    : "output ended within a line: " + ResultReader.shown(line.toString(StandardCharsets.UTF_8))));
+        } catch (IOException e) {
+            answers.offer(new Line(null, "output not readable: " + e.getMessage()));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
+    /** Kills the program with all its descendants. */
+    @Override
+    public void close() {
+        group.end(process);
+        requests.add(CLOSE);
+        threads.forEach(Thread::interrupt);
+    }
+}

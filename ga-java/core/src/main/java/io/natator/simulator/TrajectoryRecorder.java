@@ -1,0 +1,71 @@
+package io.natator.simulator;
+
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+
+/** Runs a request once on the processor, with the paths of all body particles, and all particles at one moment. */
+public final class TrajectoryRecorder {
+
+    /** Exit status of a run that became unstable. */
+    private static final int UNSTABLE = 3;
+
+    private final ExecutionSettings execution;
+
+    /** A recorder that uses the execution's program and time limit. */
+    public TrajectoryRecorder(ExecutionSettings execution) {
+        this.execution = execution;
+    }
+
+    /**
+     * Runs {@code natator-sim run}.
+     *
+     * @param trajectory where the paths go, or null
+     * @param snapshot   where all particles go, or null
+     * @param at         the moment of the snapshot, in seconds
+     * @return whether the run stayed stable; if not, the paths end before that
+     * @throws InvalidInputException if the program refuses the request, or fails
+     * @throws InterruptedException  if the calling thread is interrupted
+     */
+    public boolean record(SimulationRequest request, Path trajectory, Path snapshot, double at)
+            throws InterruptedException {
+        List<String> arguments = new ArrayList<>(List.of("run", request.scene()));
+        add(arguments, "--gait", request.gait() == null ? null : Json.line(request.gait()));
+        add(arguments, "--duration", request.duration());
+        add(arguments, "--scheme", request.scheme() == null ? null : request.scheme().name().toLowerCase(Locale.ROOT));
+        add(arguments, "--overrides", request.overrides());
+        if (request.perturbation() != null) {
+            add(arguments, "--perturbation", request.perturbation().amplitude());
+            add(arguments, "--perturbation-seed", request.perturbation().seed());
+        }
+        if (trajectory != null) {
+            add(arguments, "--trajectory", trajectory);
+            arguments.add("--particles");
+        }
+        if (snapshot != null) {
+            add(arguments, "--snapshot", snapshot);
+            add(arguments, "--at", at);
+        }
+        try (NativeProgram program = new NativeProgram(execution.simulator(), execution.timeout())) {
+            NativeProgram.Output output = program.call(arguments, "");
+            if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
+                throw new InvalidInputException("scene " + request.scene() + ": " + (output.errorText().isEmpty()
+                        ? "simulator ended with exit status " + output.exitStatus() : output.errorText()));
+            }
+            return output.exitStatus() == 0;
+        } catch (SimulatorFailure e) {
+            throw new InvalidInputException("scene " + request.scene() + " cannot be recorded: " + e.getMessage(), e);
+        }
+    }
+
+    private static void add(List<String> arguments, String option, Object value) {
+        if (value != null) {
+            arguments.add(option);
+            arguments.add(value.toString());
+        }
+    }
+}

@@ -1,0 +1,207 @@
+package io.natator.evolution;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.assertj.core.api.Assertions.within;
+
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.Simulator;
+import io.natator.simulator.WorkerPool;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+import java.util.function.Function;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.EnumSource;
+
+class EvolutionTest {
+
+    private static EvolutionSettings settings(OperatorSet operators, int population, int generations, long seed) {
+        return EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5).withSize(population, generations)
+                .withSeed(seed).withOptimizer(OptimizerKind.JGAP, operators, 0.05);
+    }
+
+    private static EvolutionState run(EvolutionSettings settings, Simulator simulator, int workers,
+            EvolutionListener... listeners) {
+        try (WorkerPool pool = new WorkerPool(simulator, workers)) {
+            return new Evolution(settings, pool, List.of(listeners), List.of()).run(null);
+        }
+    }
+
+    @ParameterizedTest
+    @EnumSource(OperatorSet.class)
+    void improvesAndNeverLosesItsBest(OperatorSet operators) {
+        EvolutionState end = run(settings(operators, 40, 25, 3), new ToySimulator(), 2);
+
+        double before = Double.NEGATIVE_INFINITY;
+        for (GenerationSummary generation : end.history()) {
+            assertThat(generation.best()).isGreaterThanOrEqualTo(before);
+            before = generation.best();
+        }
+        assertThat(end.history()).hasSize(26);
+        assertThat(before).isGreaterThan(end.history().get(0).best() + 0.1);
+        assertThat(end.best().result().distance()).isEqualTo(before);
+        assertThat(ToySimulator.distance(EncodingKind.DENSE.forActuators(5).decode(end.best().genes())))
+                .isEqualTo(before);
+    }
+
+    @ParameterizedTest
+    @EnumSource(OperatorSet.class)
+    void sameSeedSameRunWhateverTheWorkers(OperatorSet operators) {
+        EvolutionState one = run(settings(operators, 30, 6, 42), new ToySimulator(), 1);
+        EvolutionState four = run(settings(operators, 30, 6, 42), new ToySimulator(), 4);
+        EvolutionState other = run(settings(operators, 30, 6, 43), new ToySimulator(), 4);
+
+        assertThat(four).isEqualTo(one);
+        assertThat(other.population()).isNotEqualTo(one.population());
+    }
+
+    @ParameterizedTest
+    @EnumSource(OperatorSet.class)
+    void continuesFromAnyGenerationAsIfNeverInterrupted(OperatorSet operators) {
+        List<EvolutionState> states = new ArrayList<>();
+        List<EvaluationRecord> recorded = new ArrayList<>();
+        EvolutionSettings settings = settings(operators, 20, 6, 8);
+        EvolutionState whole = run(settings, new ToySimulator(), 2, new EvolutionListener() {
+            @Override
+            public void evaluated(EvaluationRecord evaluation) {
+                recorded.add(evaluation);
+            }
+
+            @Override
+            public void generationFinished(EvolutionState state) {
+                states.add(state);
+            }
+        });
+
+        assertThat(states).hasSize(7);
+        for (EvolutionState state : states) {
+            try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
+                assertThat(new Evolution(settings, pool, List.of(), recorded).run(state)).isEqualTo(whole);
+            }
+        }
+    }
+
+    @Test
+    void thesisSizeTakesTheExpectedNumberOfEvaluations() {
+        ToySimulator simulator = new ToySimulator();
+        EvolutionState end = run(settings(OperatorSet.CORRECTED, 150, 3, 1), simulator, 2);
+
+        assertThat(end.history().get(0).evaluations()).isEqualTo(150);
+        assertThat(simulator.calls()).isEqualTo((int) end.evaluations());
+        for (GenerationSummary generation : end.history().subList(1, 4)) {
+            // 150 by Gaussian mutation, up to 104 by crossover, about 150·(1 − 0.96^10) = 50 by mutation.
+            assertThat(generation.evaluations()).isBetween(250, 310);
+            assertThat(generation.population()).isBetween(150 + 290, 150 + 320);
+        }
+    }
+
+    @Test
+    void simulatesNoGenomeTwiceWhileItLives() {
+        List<EvaluationRecord> evaluations = new ArrayList<>();
+        Set<List<Double>> previous = new HashSet<>();
+        List<EvaluationRecord> repeated = new ArrayList<>();
+        run(settings(OperatorSet.CORRECTED, 30, 10, 5), new ToySimulator(), 2, new EvolutionListener() {
+            @Override
+            public void evaluated(EvaluationRecord evaluation) {
+                evaluations.add(evaluation);
+                if (previous.contains(evaluation.genes())) {
+                    repeated.add(evaluation);
+                }
+            }
+
+            @Override
+            public void generationFinished(EvolutionState state) {
+                previous.clear();
+                state.population().forEach(individual -> previous.add(individual.genes()));
+            }
+        });
+
+        assertThat(repeated).isEmpty();
+        assertThat(evaluations).extracting(one -> one.result().id()).isSorted().doesNotHaveDuplicates();
+    }
+
+    @Test
+    void theSelectedGoOnUnchangedAndAge() {
+        List<EvolutionState> states = new ArrayList<>();
+        run(settings(OperatorSet.CORRECTED, 50, 1, 5), new ToySimulator(), 2, new EvolutionListener() {
+            @Override
+            public void generationFinished(EvolutionState state) {
+                states.add(state);
+            }
+        });
+
+        List<Individual> first = states.get(0).population();
+        List<Individual> second = states.get(1).population();
+        assertThat(first).hasSize(50).extracting(Individual::age).containsOnly(1);
+        List<List<Double>> firstGenes = first.stream().map(Individual::genes).toList();
+        assertThat(second.subList(0, 50)).extracting(Individual::age).containsOnly(2);
+        assertThat(second.subList(0, 50)).allSatisfy(one -> assertThat(firstGenes).contains(one.genes()));
+        assertThat(second.subList(50, second.size())).extracting(Individual::age).containsOnly(0);
+        List<Double> tenBest = first.stream().map(one -> one.result().fitness()).sorted(Comparator.reverseOrder())
+                .limit(10).toList();
+        assertThat(second.subList(0, 10)).extracting(one -> one.result().fitness()).isEqualTo(tenBest);
+        assertThat(tenBest.get(0)).isPositive();
+    }
+
+    /** Backward swimmers have fitness 0 for JGAP, and their distance in the record. */
+    @Test
+    void negativeDistancesAreKeptInTheRecord() {
+        EvolutionState end = run(settings(OperatorSet.CORRECTED, 10, 2, 5), constant(-0.25), 2);
+
+        assertThat(end.best().result().distance()).isEqualTo(-0.25);
+        assertThat(end.history()).extracting(GenerationSummary::mean)
+                .allSatisfy(mean -> assertThat(mean).isCloseTo(-0.25, within(1e-12)));
+    }
+
+    @Test
+    void oneFailureCostsOneEvaluation() {
+        Simulator flaky = answering(request -> request.id() % 4 == 1
+                ? SimulationResult.failed(request.id(), "crashed") : ok(request.id(), 0.1));
+        EvolutionState end = run(settings(OperatorSet.CORRECTED, 16, 2, 5), flaky, 3);
+
+        assertThat(end.history().get(0).failed()).isEqualTo(4);
+        assertThat(end.history().get(0).worst()).isZero();
+        assertThat(end.best().result().distance()).isEqualTo(0.1);
+    }
+
+    @Test
+    void stopsWhenMostEvaluationsFail() {
+        Simulator broken = answering(request -> SimulationResult.failed(request.id(), "exit status 1"));
+
+        assertThatThrownBy(() -> run(settings(OperatorSet.CORRECTED, 10, 2, 5), broken, 2))
+                .isInstanceOf(EvolutionFailedException.class)
+                .hasMessage("generation 0: 10 of 10 simulations failed, the first: exit status 1");
+    }
+
+    private static Simulator constant(double distance) {
+        return answering(request -> ok(request.id(), distance));
+    }
+
+    private static SimulationResult ok(long id, double distance) {
+        return new SimulationResult(id, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex", "float",
+                null, null, null);
+    }
+
+    private static Simulator answering(Function<SimulationRequest, SimulationResult> answer) {
+        return new Simulator() {
+            @Override
+            public SimulationResult evaluate(SimulationRequest request) {
+                return answer.apply(request);
+            }
+
+            @Override
+            public void close() {
+                // Nothing is held.
+            }
+        };
+    }
+}

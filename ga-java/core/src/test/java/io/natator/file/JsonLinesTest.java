@@ -1,0 +1,126 @@
+package io.natator.file;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import io.natator.config.InvalidInputException;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardOpenOption;
+import java.util.Arrays;
+import java.util.List;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+class JsonLinesTest {
+
+    @TempDir
+    private Path folder;
+    private Path file;
+
+    record Row(int number, String text) {
+    }
+
+    @BeforeEach
+    void name() {
+        file = folder.resolve("below/rows.jsonl");
+    }
+
+    private JsonLines<Row> lines() {
+        return JsonLines.of(file, Row.class);
+    }
+
+    private void write(Row... rows) {
+        try (JsonLines<Row> lines = lines()) {
+            List.of(rows).forEach(lines::append);
+        }
+    }
+
+    @Test
+    void nothingIsMadeBeforeTheFirstRow() {
+        try (JsonLines<Row> lines = lines()) {
+            assertThat(lines.rows()).isEmpty();
+            assertThat(file.getParent()).doesNotExist();
+            lines.append(new Row(1, "ö\n"));
+            assertThat(JsonLines.read(file, Row.class)).as("at once").containsExactly(new Row(1, "ö\n"));
+        }
+        write(new Row(2, ""));
+        assertThat(JsonLines.read(file, Row.class)).containsExactly(new Row(1, "ö\n"), new Row(2, ""));
+    }
+
+    /** Every byte at which a writer can have been killed. */
+    @Test
+    void theNextRowTakesThePlaceOfOneThatWasCutShort() throws IOException {
+        write(new Row(1, "ö"), new Row(2, "ö"));
+        byte[] whole = Files.readAllBytes(file);
+        int first = whole.length / 2;
+        for (boolean locked : new boolean[] {false, true}) {
+            for (int end = first; end < whole.length; end++) {
+                Files.write(file, Arrays.copyOf(whole, end));
+                try (JsonLines<Row> lines = locked ? JsonLines.locked(file, Row.class) : lines()) {
+                    assertThat(lines.rows()).hasSize(1);
+                    lines.append(new Row(2, "ö"));
+                }
+                assertThat(Files.readAllBytes(file)).as("cut to %d bytes", end).isEqualTo(whole);
+            }
+        }
+    }
+
+    @Test
+    void aDamagedLineIsNamed() throws IOException {
+        write(new Row(1, "a"));
+        Files.writeString(file, "{}\n", StandardOpenOption.APPEND);
+        String before = Files.readString(file);
+
+        assertThatThrownBy(this::lines).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(file + ", line 2: ");
+        assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(file + ", line 2: ");
+        assertThat(file).hasContent(before);
+    }
+
+    @Test
+    void onlyOneWrites() {
+        write(new Row(1, "a"));
+        try (JsonLines<Row> early = lines(); JsonLines<Row> late = lines()) {
+            early.append(new Row(2, "b"));
+
+            assertThatThrownBy(() -> late.append(new Row(3, "c"))).isInstanceOf(InvalidInputException.class)
+                    .hasMessage(file + " is in use by another run");
+            assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class)
+                    .hasMessage(file + " is in use by another run");
+        }
+        try (JsonLines<Row> late = lines()) {
+            write(new Row(4, "d"));
+
+            assertThatThrownBy(() -> late.append(new Row(5, "e"))).isInstanceOf(InvalidInputException.class)
+                    .hasMessage(file + " was changed by another run meanwhile");
+        }
+        assertThat(JsonLines.read(file, Row.class)).extracting(Row::number).containsExactly(1, 2, 4);
+    }
+
+    @Test
+    void rowsThatAreNotKeptLeaveTheFile() {
+        write(new Row(1, "öö"), new Row(2, "b"), new Row(3, "c"));
+        try (JsonLines<Row> lines = lines()) {
+            assertThat(lines.keep(row -> row.number() != 2)).isEqualTo(1);
+            lines.append(new Row(4, "d"));
+            assertThatThrownBy(() -> lines.keep(row -> false)).isInstanceOf(IllegalStateException.class);
+        }
+        assertThat(JsonLines.read(file, Row.class)).extracting(Row::number).containsExactly(1, 3, 4);
+    }
+
+    @Test
+    void rowsAreDroppedFromTheEnd() {
+        write(new Row(1, "öö"), new Row(2, "b"), new Row(3, "c"));
+        try (JsonLines<Row> lines = JsonLines.locked(file, Row.class)) {
+            lines.dropFrom(1);
+            assertThat(lines.size()).isEqualTo(1);
+            lines.append(new Row(4, "d"));
+            assertThat(lines.size()).isEqualTo(2);
+        }
+        assertThat(JsonLines.read(file, Row.class)).extracting(Row::number).containsExactly(1, 4);
+    }
+}

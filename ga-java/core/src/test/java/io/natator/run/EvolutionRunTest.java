@@ -1,0 +1,180 @@
+package io.natator.run;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.cache.CachedEvaluator;
+import io.natator.cache.EvaluationCache;
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.EvaluationStatistics;
+import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
+import io.natator.checkpoint.VacuumRecord;
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.FitnessKind;
+import io.natator.config.Json;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.EvolutionState;
+import io.natator.evolution.ToySimulator;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.FakeSimulator;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.WorkerPool;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+class EvolutionRunTest {
+
+    private static final EvolutionSettings SETTINGS =
+            EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5).withSize(12, 5).withSeed(3);
+
+    @TempDir
+    private Path folder;
+    private ExecutionSettings execution;
+
+    @BeforeEach
+    void fake() {
+        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+    }
+
+    /** Runs in a folder of this name; gives the number of simulations. */
+    private int run(String name, EvolutionSettings settings, ExecutionSettings how) throws InterruptedException {
+        ToySimulator simulator = new ToySimulator();
+        try (RunFolder run = RunFolder.create(folder.resolve(name), settings);
+                Evaluator inner = new WorkerPool(simulator, 2);
+                Evaluator evaluator = how.cache() == null ? inner
+                        : new CachedEvaluator(inner, new EvaluationCache(how.cache()), how)) {
+            new EvolutionRun(run).run(how, evaluator);
+        }
+        return simulator.calls();
+    }
+
+    private void assertSame(String one, String other) {
+        for (String file : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
+            assertThat(folder.resolve(one).resolve(file)).hasSameBinaryContentAs(folder.resolve(other).resolve(file));
+        }
+    }
+
+    @Test
+    void theCacheSavesEvaluationsAndChangesNoByte() throws InterruptedException {
+        ExecutionSettings cached = execution.withCache(folder.resolve("cache"));
+
+        int without = run("without", SETTINGS, execution);
+        int first = run("first", SETTINGS, cached);
+        int second = run("second", SETTINGS, cached);
+        int longer = run("longer", SETTINGS.withSize(12, 6), cached);
+
+        assertThat(first).isEqualTo(without);
+        assertThat(second).isZero();
+        assertThat(longer).isBetween(1, without / 4);
+        assertSame("first", "without");
+        assertSame("second", "without");
+        assertThat(StoredRun.statistics(folder.resolve("without")).fromCache()).isZero();
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("second"));
+        assertThat(statistics.fromCache()).isEqualTo(statistics.evaluations()).isEqualTo(without - 1);
+    }
+
+    @Test
+    void damagedEntriesAreSimulatedAnew() throws InterruptedException, IOException {
+        ExecutionSettings cached = execution.withCache(folder.resolve("cache"));
+        int all = run("first", SETTINGS, cached);
+        int damaged = 0;
+        try (var files = Files.walk(folder.resolve("cache"))) {
+            for (Path file : files.filter(Files::isRegularFile).limit(7).toList()) {
+                Files.writeString(file, damaged++ % 2 == 0 ? "" : Files.readString(file).replace("ok", "no"));
+            }
+        }
+
+        assertThat(run("second", SETTINGS, cached)).isEqualTo(7).isLessThan(all);
+        assertSame("second", "first");
+    }
+
+    /** Counted in another way: from the generations of the final state. */
+    @Test
+    void savingsAddUp() throws InterruptedException, IOException {
+        run("run", SETTINGS, execution);
+
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("run"));
+        EvolutionState end;
+        try (RunFolder run = RunFolder.open(folder.resolve("run"))) {
+            end = run.checkpoint();
+        }
+        assertThat(statistics.evaluations()).isEqualTo(end.evaluations());
+        assertThat(statistics.unchanged() + statistics.evaluations())
+                .isEqualTo(end.history().stream().mapToLong(one -> one.population()).sum());
+        assertThat(statistics.unchanged()).isGreaterThanOrEqualTo(5 * 12);
+        assertThat(statistics.wholeSeconds()).isEqualTo(4.0 * end.evaluations());
+        assertThat(statistics.stoppedEarly()).isZero();
+        assertThat(statistics.shareOfEarlyStops()).isZero();
+    }
+
+    private List<EvaluationRecord> evaluations(String name) {
+        return StoredRun.evaluations(folder.resolve(name));
+    }
+
+    /** The toy swims best at f = 1.2, where it drifts 0.2 in vacuum: no more than what remains is to count. */
+    @Test
+    void netFitnessTakesAwayWhatIsNoSwimming() throws InterruptedException {
+        EvolutionSettings plain = SETTINGS.withSize(40, 15);
+        run("plain", plain, execution);
+        run("net", plain.withFitness(FitnessKind.NET, false), execution);
+
+        for (EvaluationRecord evaluation : evaluations("net")) {
+            SimulationResult result = evaluation.result();
+            double drift = evaluation.gait().frequency() - 1.0;
+            if (result.distance() > 0) {
+                assertThat(result.vacuumDrift()).isEqualTo(drift);
+                assertThat(result.fitness()).isEqualTo(Math.max(result.distance() - Math.max(drift, 0), 0));
+            } else {
+                assertThat(result.vacuumDrift()).isNull();
+                assertThat(result.fitness()).isZero();
+            }
+        }
+        BestGait cheating = Json.read(folder.resolve("plain/best.json"), BestGait.class, "best");
+        BestGait honest = Json.read(folder.resolve("net/best.json"), BestGait.class, "best");
+        assertThat(cheating.gait().frequency()).isBetween(1.1, 1.3);
+        assertThat(honest.gait().frequency()).isBetween(0.85, 1.05);
+        assertThat(cheating.vacuum().distance()).isPositive();
+    }
+
+    @Test
+    void vacuumChecksAreRecordedOncePerNewBest() throws InterruptedException, IOException {
+        run("run", SETTINGS.withSize(20, 10).withFitness(FitnessKind.DISTANCE, true), execution);
+        run("without", SETTINGS, execution);
+
+        List<VacuumRecord> records = StoredRun.vacuumRecords(folder.resolve("run"));
+        List<EvaluationRecord> evaluations = evaluations("run");
+        double best = Double.NEGATIVE_INFINITY;
+        List<Long> newBests = new ArrayList<>();
+        for (int generation = 0; generation <= 10; generation++) {
+            int number = generation;
+            EvaluationRecord candidate = evaluations.stream().filter(one -> one.generation() == number)
+                    .max(Comparator.comparingDouble(one -> one.result().distance())).orElseThrow();
+            if (candidate.result().distance() > best) {
+                best = candidate.result().distance();
+                newBests.add(candidate.result().id());
+            }
+        }
+        assertThat(records).extracting(VacuumRecord::evaluation).isEqualTo(newBests).hasSizeGreaterThan(1);
+        assertThat(records).allSatisfy(record -> assertThat(record.drift())
+                .isEqualTo(evaluations.get((int) record.evaluation()).gait().frequency() - 1.0));
+        assertThat(StoredRun.vacuumRecords(folder.resolve("without"))).isEmpty();
+
+        String before = Files.readString(folder.resolve("run/vacuum.jsonl"));
+        Files.delete(folder.resolve("run/vacuum.jsonl"));
+        try (RunFolder again = RunFolder.open(folder.resolve("run"));
+                Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
+            new EvolutionRun(again).run(execution, evaluator);
+        }
+        assertThat(before).endsWith(Files.readString(folder.resolve("run/vacuum.jsonl")));
+    }
+}

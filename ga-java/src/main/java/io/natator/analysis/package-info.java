@@ -1,2 +1,0 @@
-/** Figures that sum up a generation. */
-package io.natator.analysis;

@@ -1,2 +1,0 @@
-/** One HTML file that replays swims without this program. */
-package io.natator.share;

@@ -1,0 +1,176 @@
+package io.natator.report;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.Backend;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Numbers;
+import io.natator.encoding.Gait;
+import io.natator.flow.FlowField;
+import io.natator.kinematics.Attitude;
+import io.natator.kinematics.FishMode;
+import io.natator.kinematics.ModeFit;
+import io.natator.kinematics.Swimming;
+import io.natator.simulator.SceneInfo;
+import io.natator.simulator.SimulationRequest;
+import io.natator.verdict.Reproduction;
+import io.natator.verdict.Verdict;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.Collectors;
+
+/** What came of a run: its best gait recorded once more, with the thesis' pictures and numbers. */
+public final class GaitReport {
+
+    private final StoredRun run;
+    private static final double ROUNDING = 1e-5;
+
+    private final Path folder;
+    private String difference;
+
+    /**
+     * A report on a run.
+     *
+     * @param folder where {@code README.md}, {@code report.html} and the pictures go
+     * @throws InvalidInputException if the run has no best gait yet
+     */
+    public GaitReport(StoredRun run, Path folder) {
+        if (run.best() == null) {
+            throw new InvalidInputException(run.directory() + " has no best gait yet; finish it by natator resume");
+        }
+        this.run = run;
+        this.folder = folder;
+    }
+
+    /**
+     * Records the best gait on the processor, draws and writes.
+     *
+     * @param execution with a time limit
+     * @return the Markdown page
+     * @throws IOException          if a file cannot be written
+     * @throws InterruptedException if the calling thread is interrupted
+     */
+    public Path write(ExecutionSettings execution) throws IOException, InterruptedException {
+        EvolutionSettings settings = run.settings();
+        SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
+        double duration = settings.duration() != null ? settings.duration() : scene.duration();
+        SimulationRequest request = new SimulationRequest(0, settings.scene(), run.best().gait(), settings.duration(),
+                settings.scheme(), runningOn(settings.overrides()));
+        Recording recording = RecordingFactory.of(request, duration / 2, execution);
+        ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
+        progress(page);
+        Verdict verdict = Verdict.of(run.best());
+        page.text("**" + verdict.text() + "** (one run, not a mean)."
+                + (verdict.advice() == null ? "" : " To go on: " + verdict.advice() + "."));
+        difference = difference(recording, execution);
+        if (difference != null) {
+            page.text(difference + ".");
+        }
+        pictures(page, recording);
+        numbers(page, recording);
+        return page.write("README.md");
+    }
+
+    /** Once written: what today's program did otherwise than the run has stored, on one line; null if nothing. */
+    public String difference() {
+        return difference;
+    }
+
+    private String difference(Recording recording, ExecutionSettings execution) throws InterruptedException {
+        Reproduction stored = new Reproduction(run.directory(), run.best(), execution.simulator(), Backend.CPU, 0);
+        double[][] centres = recording.centres();
+        int last = (int) stored.lastFrame();
+        return last < 0 || last >= centres.length ? null
+                : stored.difference(centres[last][0] - centres[0][0], ROUNDING);
+    }
+
+    /** The same scene without early stops. */
+    private static ObjectNode runningOn(JsonNode overrides) {
+        ObjectNode patch = overrides instanceof ObjectNode object ? object.deepCopy()
+                : JsonNodeFactory.instance.objectNode();
+        patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
+        return patch;
+    }
+
+    /** Whoever reads of a run that is not finished is told so first. */
+    private void progress(ReportDocument page) {
+        if (!run.state().isLastOf(run.settings())) {
+            page.text("**This run is not finished.** Done are generation " + run.state().generation()
+                    + (run.settings().generations() == EvolutionSettings.NO_LIMIT ? ""
+                            : " of " + run.settings().generations())
+                    + " and " + run.state().evaluations() + " evaluations; this is the best gait so far. It goes on by `natator "
+                    + "resume " + run.directory() + "`.");
+        }
+    }
+
+    private void pictures(ReportDocument page, Recording recording) throws IOException {
+        Files.createDirectories(folder);
+        FitnessPlot.draw(run.settings().scene() + ", seed " + run.settings().seed(), run.state().history(), folder);
+        page.picture(folder.resolve("fitness.png"), "fitness over generations");
+        MotionPlots plots = new MotionPlots(run.settings().scene(), recording, folder);
+        page.picture(plots.position("position"), "position over time");
+        page.picture(plots.rotation("rotation"), "rotation over time");
+        page.picture(plots.spines("spines"), "spine in four phases with its envelope");
+        page.picture(plots.envelopes("envelopes"), "envelope against real fish");
+        page.picture(plots.scaled("scaled", nearest(recording).mode()), "scaled against the nearest real fish");
+        for (FlowField field : recording.flow()) {
+            String name = "flow-" + field.view().name().toLowerCase(Locale.ROOT);
+            page.picture(FlowPlot.draw(run.settings().scene(), field, folder.resolve(name)),
+                    "velocity and vorticity of the fluid " + field.view().label());
+        }
+    }
+
+    private ModeFit nearest(Recording recording) {
+        return fits(recording).stream().min(Comparator.comparingDouble(ModeFit::error)).orElseThrow();
+    }
+
+    private List<ModeFit> fits(Recording recording) {
+        return ModeFit.all(new Swimming(recording.unrolled()), run.best().gait().frequency());
+    }
+
+    private void numbers(ReportDocument page, Recording recording) {
+        BestGait best = run.best();
+        Gait gait = best.gait();
+        double length = recording.spine().restLength();
+        Attitude end = recording.attitude().get(recording.attitude().size() - 1);
+        List<List<String>> rows = new ArrayList<>();
+        rows.add(List.of("generations, evaluations", run.state().generation() + ", " + run.state().evaluations()));
+        rows.add(List.of("frequency (1/s)", number(gait.frequency())));
+        rows.add(List.of("amplitudes", numbers(gait.amplitude())));
+        rows.add(List.of("phases", numbers(gait.phase())));
+        rows.add(List.of("speed in fluid (units/s)", number(best.speed())));
+        rows.add(List.of("speed in fluid (body lengths/s)", number(best.speed() / length)));
+        if (best.vacuum() != null) {
+            rows.add(List.of("speed in vacuum (units/s)", number(best.vacuum().speed())));
+        }
+        for (ModeFit fit : fits(recording)) {
+            rows.add(List.of("e against " + fit.mode().label() + " fish (α, β)", String.format(Locale.ROOT,
+                    "%.4f (%.2f, %.2f s)", fit.error(), fit.alpha(), fit.beta())));
+        }
+        rows.add(List.of("turned at the end, θ ρ ω (degrees)", String.format(Locale.ROOT, "%.1f %.1f %.1f",
+                Math.toDegrees(end.roll()), Math.toDegrees(end.yaw()), Math.toDegrees(end.pitch()))));
+        page.heading(2, "Numbers").table(List.of("", "value"), rows);
+        page.text("e is how far the motion is from the fish's: 0 is the same motion, 1/3 is none; α scales the simulated spine; the body's roll is "
+                + "taken out. Nearest: **"
+                + nearest(recording).mode().label() + "** (of " + FishMode.values().length + ").");
+        page.heading(2, "Command").code("java -jar ga-java/target/natator.jar report " + run.directory());
+    }
+
+    private static String number(double value) {
+        return Numbers.fixed(value, 4);
+    }
+
+    private static String numbers(List<Double> values) {
+        return values.stream().map(GaitReport::number).collect(Collectors.joining(" "));
+    }
+}

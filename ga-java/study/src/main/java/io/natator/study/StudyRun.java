@@ -1,0 +1,20 @@
+package io.natator.study;
+
+import io.natator.simulator.Perturbation;
+import io.natator.simulator.SimulationRequest;
+
+/**
+ * One evaluation of a study.
+ *
+ * @param seed of the random shift that makes equal runs differ, as they do in Flex by themselves
+ */
+record StudyRun(Variant variant, Interval interval, int seed) {
+
+    /** Largest shift of a starting coordinate, in scene units: invisible, but enough to part the runs in a second. */
+    private static final double SHIFT = 1e-6;
+
+    SimulationRequest request(long id) {
+        return new SimulationRequest(id, variant.scene(), variant.gait(), interval.duration(), null,
+                variant.overrides(), new Perturbation(SHIFT, seed));
+    }
+}

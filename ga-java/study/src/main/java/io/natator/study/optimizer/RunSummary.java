@@ -1,0 +1,73 @@
+package io.natator.study.optimizer;
+
+import com.fasterxml.jackson.annotation.JsonProperty;
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
+import io.natator.evolution.GenerationSummary;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+
+/**
+ * What is kept of a finished run when its folder is not; a line of {@code SCENE.jsonl}.
+ *
+ * @param optimizer    label of the variant
+ * @param settings     all that determines the run
+ * @param environment  where it was carried out, as {@code environment.json}
+ * @param statistics   what it did not have to simulate, as {@code savings.json}; null if that was not recorded
+ * @param best         its best gait, or null if there is none
+ * @param generations  figures of each
+ * @param improvements where the best fitness so far rose; null where only the generations are known
+ */
+record RunSummary(@JsonProperty(required = true) String optimizer,
+        @JsonProperty(required = true) EvolutionSettings settings, JsonNode environment, JsonNode statistics,
+        BestGait best, @JsonProperty(required = true) List<GenerationSummary> generations,
+        List<Improvement> improvements) {
+
+    /**
+     * An evaluation that was better than all before it.
+     *
+     * @param evaluation its number, from 0
+     * @param fitness    what it was judged by
+     */
+    record Improvement(@JsonProperty(required = true) int evaluation, @JsonProperty(required = true) double fitness) {
+    }
+
+    /** Of the finished run in a folder. */
+    static RunSummary of(String optimizer, Path directory) {
+        StoredRun run = StoredRun.in(directory);
+        List<Improvement> improvements = new ArrayList<>();
+        double[] best = run.bestFitness();
+        for (int i = 0; i < best.length; i++) {
+            if (i == 0 || best[i] > best[i - 1]) {
+                improvements.add(new Improvement(i, best[i]));
+            }
+        }
+        return new RunSummary(optimizer, run.settings(), run.document("environment.json"),
+                run.document("savings.json"), run.best(), run.state().history(), improvements);
+    }
+
+    /** How many evaluations it took. */
+    int evaluations() {
+        return generations.stream().mapToInt(GenerationSummary::evaluations).sum();
+    }
+
+    /** Best fitness after each evaluation. */
+    double[] curve() {
+        double[] curve = new double[evaluations()];
+        for (int i = 0; i < improvements.size(); i++) {
+            int end = i + 1 < improvements.size() ? improvements.get(i + 1).evaluation() : curve.length;
+            Arrays.fill(curve, improvements.get(i).evaluation(), end, improvements.get(i).fitness());
+        }
+        return curve;
+    }
+
+    /** What the best gait does in vacuum, in scene units; NaN if that is not known. */
+    double vacuumDistance() {
+        return best == null || best.vacuum() == null || best.vacuum().distance() == null ? Double.NaN
+                : best.vacuum().distance();
+    }
+}

@@ -1,0 +1,108 @@
+package io.natator.study.thesis;
+
+import io.natator.config.ExecutionSettings;
+import io.natator.config.Json;
+import io.natator.kinematics.BodyPath;
+import io.natator.simulator.Sha256;
+import io.natator.simulator.SimulationRequest;
+import io.natator.study.KeyedLog;
+import io.natator.simulator.TrajectoryRecorder;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Objects;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.Future;
+import java.util.stream.IntStream;
+
+/** The recorded runs of the study, {@code motions.jsonl}: what was recorded and measured once stays. */
+final class KinematicsLog implements AutoCloseable {
+
+    private final KeyedLog<SwimKinematics> rows;
+    private final int runs;
+
+    /**
+     * Those of a study.
+     *
+     * @param runs of every experiment, at least 1
+     */
+    KinematicsLog(Path directory, int runs) {
+        this.runs = runs;
+        this.rows = new KeyedLog<>(directory.resolve("motions.jsonl"), SwimKinematics.class,
+                row -> key(row.request()));
+    }
+
+    private static String key(SimulationRequest request) {
+        return Json.line(request.withId(0));
+    }
+
+    /** The runs of these experiments that are not recorded yet, each once. */
+    List<SimulationRequest> missing(List<Experiment> experiments) {
+        return experiments.stream().flatMap(one -> IntStream.rangeClosed(1, runs).mapToObj(one::run))
+                .filter(request -> rows.find(key(request)) == null).distinct().toList();
+    }
+
+    /** What came of the runs that are recorded. */
+    List<SwimKinematics> of(Experiment experiment) {
+        return IntStream.rangeClosed(1, runs).mapToObj(seed -> rows.find(key(experiment.run(seed))))
+                .filter(Objects::nonNull).toList();
+    }
+
+    /**
+     * Records and measures what is missing, as many at once as the execution has workers.
+     *
+     * @param done called after each
+     * @throws InterruptedException if the calling thread is interrupted; what is finished is kept
+     */
+    void record(List<Experiment> experiments, ExecutionSettings execution, Runnable done)
+            throws InterruptedException {
+        String program = Sha256.of(execution.simulator());
+        ExecutorService workers = Executors.newFixedThreadPool(execution.workers());
+        try {
+            List<Future<SwimKinematics>> recorded = new ArrayList<>();
+            for (SimulationRequest request : missing(experiments)) {
+                recorded.add(workers.submit(() -> record(program, request, execution)));
+            }
+            for (Future<SwimKinematics> motion : recorded) {
+                rows.add(motion.get());
+                done.run();
+            }
+        } catch (ExecutionException e) {
+            if (e.getCause() instanceof RuntimeException cause) {
+                throw cause;
+            }
+            throw new IllegalStateException(e.getCause());
+        } finally {
+            workers.shutdownNow();
+        }
+    }
+
+    private static SwimKinematics record(String program, SimulationRequest request, ExecutionSettings execution)
+            throws InterruptedException {
+        try {
+            Path file = Files.createTempFile("natator-", ".csv");
+            try {
+                new TrajectoryRecorder(execution).record(request, file, null, 0);
+                return SwimKinematics.of(program, request, BodyPath.read(file));
+            } finally {
+                Files.deleteIfExists(file);
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot record a run: " + e.getMessage(), e);
+        }
+    }
+
+    int size() {
+        return rows.rows().size();
+    }
+
+    @Override
+    public void close() {
+        rows.close();
+    }
+}

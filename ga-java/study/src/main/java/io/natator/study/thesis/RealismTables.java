@@ -1,0 +1,120 @@
+package io.natator.study.thesis;
+
+import io.natator.config.Scheme;
+import io.natator.kinematics.FishMode;
+import io.natator.kinematics.ModeFit;
+import io.natator.report.ReportDocument;
+import io.natator.study.Sample;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Locale;
+import java.util.function.Function;
+
+/** Table 3.2: which fish a creature swims like; and how the bodies lie and turn. */
+final class RealismTables {
+
+    private final StudyResults results;
+
+    RealismTables(StudyResults results) {
+        this.results = results;
+    }
+
+    void add(ReportDocument page) {
+        page.heading(3, "Table 3.2: e against real fish");
+        page.text("0 is the same motion, 1/3 is none. α scales the simulated spine: as printed in the thesis it scales the "
+                + "real one, which cannot give its values. Sideways is z, as in the thesis; mean ± standard deviation over "
+                + "recorded runs. Flex 1.2.0: the same measure on one recorded run.");
+        page.table(List.of("creature", "from", "anguilliform", "carangiform", "thunniform", "least"),
+                errors(SwimKinematics::fits, true));
+        page.heading(3, "The same with the body's roll taken out");
+        page.text("A body that tips over bends in a plane that the thesis' measure does not look at. Here sideways is the "
+                + "body's own side.");
+        page.table(List.of("creature", "from", "anguilliform", "carangiform", "thunniform", "least"),
+                errors(SwimKinematics::fitsOfBody, false));
+        page.heading(3, "How the bodies lie");
+        page.text("At the end of the recorded runs; the swing is the largest amplitude at the end of the measured spine. "
+                + "A real eel's is 0.1 body lengths.");
+        page.table(List.of("creature", "from", "roll θ (degrees)", "largest yaw ρ (degrees)", "height y at start → end",
+                "swing (body lengths)"), attitudes());
+    }
+
+    /** A row's name and its recorded runs. */
+    private record Subject(String creature, String from, List<SwimKinematics> motions) {
+    }
+
+    private List<Subject> subjects() {
+        List<Subject> subjects = new ArrayList<>();
+        for (ThesisData.PublishedGait gait : results.data().gaits()) {
+            for (Scheme scheme : ExperimentCatalogue.SCHEMES) {
+                String name = gait.creature() + (gait.published() != null ? "" : ", " + gait.about());
+                subjects.add(new Subject(name, "thesis' gait, " + TableFormat.name(scheme),
+                        results.motions(gait, scheme)));
+            }
+            subjects.add(new Subject(gait.creature() + (gait.published() != null ? "" : ", " + gait.about()),
+                    "thesis' gait, flex, inverse mass linear", results.motionsOfInverseMass(gait)));
+        }
+        for (EvolvedRun run : results.evolved()) {
+            subjects.add(new Subject("" + run.creature(), "evolved, " + TableFormat.name(run.scheme()) + ", seed "
+                    + run.seed(),
+                    results.motions(run)));
+        }
+        return subjects.stream().filter(subject -> !subject.motions().isEmpty()).toList();
+    }
+
+    private List<List<String>> errors(Function<SwimKinematics, List<ModeFit>> fits, boolean withPublished) {
+        List<List<String>> rows = new ArrayList<>();
+        if (withPublished) {
+            for (ThesisData.PublishedGait gait : results.data().gaits()) {
+                if (gait.published() != null) {
+                    rows.add(row("" + gait.creature(), "published", gait.published().errors()));
+                }
+                gait.flex().stream().filter(one -> one.errors() != null).forEach(one -> rows.add(row(gait.creature()
+                        + (gait.published() != null ? "" : ", " + gait.about()), "thesis' gait, Flex 1.2.0"
+                        + (one.setting().equals(ExperimentCatalogue.INVERSE_MASS) ? ", inverse mass linear" : ""),
+                        one.errors())));
+            }
+        }
+        for (Subject subject : subjects()) {
+            List<String> row = new ArrayList<>(List.of(subject.creature(), subject.from()));
+            Arrays.stream(FishMode.values())
+                    .forEach(mode -> row.add(TableFormat.speed(StudyResults.error(subject.motions(), mode, fits))));
+            row.add(StudyResults.nearest(subject.motions(), fits).label());
+            rows.add(row);
+        }
+        return rows;
+    }
+
+    private static List<String> row(String creature, String from, List<Double> errors) {
+        List<String> row = new ArrayList<>(List.of(creature, from));
+        errors.forEach(error -> row.add(TableFormat.number(error)));
+        int least = 0;
+        for (int i = 1; i < errors.size(); i++) {
+            least = errors.get(i) < errors.get(least) ? i : least;
+        }
+        row.add(FishMode.values()[least].label());
+        return row;
+    }
+
+    private List<List<String>> attitudes() {
+        return subjects().stream().map(subject -> {
+            List<SwimKinematics> motions = subject.motions();
+            return List.of(subject.creature(), subject.from(),
+                    degrees(motions.stream().map(motion -> Math.toDegrees(motion.end().roll())).toList()),
+                    degrees(motions.stream().map(motion -> Math.toDegrees(motion.largestYaw())).toList()),
+                    TableFormat.shortNumber(mean(motions, 0)) + " → " + TableFormat.shortNumber(mean(motions, 1)),
+                    TableFormat.shortNumber(
+                            motions.stream().mapToDouble(SwimKinematics::tailSwing).average().orElse(Double.NaN)));
+        }).toList();
+    }
+
+    private static double mean(List<SwimKinematics> motions, int which) {
+        return motions.stream().mapToDouble(motion -> motion.heights().get(which)).average().orElse(Double.NaN);
+    }
+
+    private static String degrees(List<Double> values) {
+        Sample sample = Sample.of(values);
+        return sample.hasSpread() ? String.format(Locale.ROOT, "%.0f ± %.0f", sample.mean(),
+                sample.standardDeviation()) : String.format(Locale.ROOT, "%.0f", sample.mean());
+    }
+}

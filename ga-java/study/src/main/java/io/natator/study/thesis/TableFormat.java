@@ -1,0 +1,50 @@
+package io.natator.study.thesis;
+
+import io.natator.config.Scheme;
+import io.natator.study.Sample;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.Collectors;
+
+/** Numbers as the tables show them. */
+final class TableFormat {
+
+    static final String NOTHING = "–";
+
+    private TableFormat() {
+    }
+
+    /** Mean ± standard deviation, or the one value that there is. */
+    static String speed(Sample sample) {
+        return sample.count() == 0 ? NOTHING : sample.hasSpread()
+                ? number(sample.mean()) + " ± " + number(sample.standardDeviation())
+                : number(sample.mean());
+    }
+
+    static String number(double value) {
+        return rounded("%.4f", value);
+    }
+
+    static String shortNumber(double value) {
+        return rounded("%.2f", value);
+    }
+
+    /** Without the sign of a negative number that is rounded to 0. */
+    private static String rounded(String format, double value) {
+        return Double.isFinite(value) ? String.format(Locale.ROOT, format, value).replaceFirst("^-(0\\.0+)$", "$1")
+                : NOTHING;
+    }
+
+    static String list(List<Double> values) {
+        return values.stream().map(value -> String.format(Locale.ROOT, "%.3f", value)).collect(Collectors.joining(" "));
+    }
+
+    static String name(Scheme scheme) {
+        return scheme.name().toLowerCase(Locale.ROOT);
+    }
+
+    /** A parameter's value: whole where it is, and no limit where it is as good as none. */
+    static String value(double value) {
+        return value >= 1e20 ? "none" : value == Math.rint(value) ? "" + (long) value : "" + value;
+    }
+}

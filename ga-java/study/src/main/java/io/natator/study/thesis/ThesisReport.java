@@ -1,0 +1,127 @@
+package io.natator.study.thesis;
+
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.Json;
+import io.natator.report.Recording;
+import io.natator.report.ReportDocument;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/** The report: {@code README.md} and {@code report.html}. All that it says of numbers follows from them. */
+final class ThesisReport {
+
+    private static final Logger LOG = LoggerFactory.getLogger(ThesisReport.class);
+    private static final String COMMENTARY = "commentary.md";
+
+    private final Path directory;
+    private final StudyResults results;
+    private final int asked;
+    private final Map<String, Recording> recordings;
+    private final String command;
+
+    /**
+     * A report.
+     *
+     * @param directory where it goes
+     * @param asked     how many evolutions were asked for
+     * @param command   what the study was made by
+     */
+    ThesisReport(Path directory, StudyResults results, int asked, Map<String, Recording> recordings, String command) {
+        this.directory = directory;
+        this.results = results;
+        this.asked = asked;
+        this.recordings = recordings;
+        this.command = command;
+    }
+
+    Path write() {
+        ReportDocument page = new ReportDocument(directory, "The thesis, redone");
+        page.text("P. Fajdiga's master's thesis (University of Ljubljana, 2019) evolved swimming creatures in NVIDIA Flex. "
+                + "This is the same work with Natator: what was asked, what came out, and where it disagrees. Generated; "
+                + "do not edit.");
+        page.list(scale());
+        new ClaimsSection(results).add(page);
+        addPictures(page);
+        page.heading(2, "Tables");
+        new SpeedTables(results).add(page);
+        new RealismTables(results).add(page);
+        new ExperimentTables(results).add(page);
+        new DifferencesSection(results).add(page);
+        addCommentary(page);
+        addCommands(page);
+        try {
+            return page.write("README.md");
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write the report: " + e.getMessage(), e);
+        }
+    }
+
+    private List<String> scale() {
+        List<String> items = new ArrayList<>();
+        List<EvolutionSettings> settings = results.evolved().stream()
+                .map(run -> StoredRun.settings(run.plan().directory())).toList();
+        items.add(results.evolved().size() + " of " + asked + " evolutions are finished" + (settings.isEmpty() ? "."
+                : ": " + each(settings.stream().map(EvolutionSettings::population)) + " chromosomes, "
+                + each(settings.stream().map(EvolutionSettings::generations)) + " generations, operators "
+                + each(settings.stream().map(one -> Json.line(one.operators()).replace("\"", ""))) + ", on "
+                + each(settings.stream().map(one -> one.backend().argument())) + "."));
+        items.add(results.measurements().size() + " evaluations measured, by the native program of SHA-256 "
+                + each(results.measurements().programs().stream()) + ".");
+        items.add(results.motions().size() + " runs recorded with all their particles.");
+        return items;
+    }
+
+    /** Each value once. */
+    private static String each(Stream<?> values) {
+        return values.distinct().map(String::valueOf).collect(Collectors.joining(", "));
+    }
+
+    private void addPictures(ReportDocument page) {
+        try {
+            new ThesisFigures(directory, results, recordings).add(page);
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot draw: " + e.getMessage(), e);
+        } catch (LinkageError e) {
+            // A Java without its graphics libraries (or fonts) still has the tables.
+            LOG.warn("pictures not drawn: {}", e.toString());
+        }
+    }
+
+    /** What a person wrote, marked as such. */
+    private void addCommentary(ReportDocument page) {
+        Path file = directory.resolve(COMMENTARY);
+        if (!Files.exists(file)) {
+            return;
+        }
+        page.heading(3, "Commentary");
+        page.text("Written by hand, from `" + COMMENTARY + "`; everything else on this page is computed.");
+        try {
+            for (String paragraph : Files.readString(file).strip().split("\n\\s*\n")) {
+                page.text(paragraph.strip());
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot read " + file + ": " + e.getMessage(), e);
+        }
+    }
+
+    private void addCommands(ReportDocument page) {
+        page.heading(2, "Commands");
+        page.code(command);
+        page.text("which continues where it was stopped; `--phase evolve`, `measure` and `report` do a part of it. Every "
+                + "speed is the mean of rows of `measurements.jsonl` that hold the whole request and result; every e that "
+                + "of rows of `motions.jsonl`; costs are in `costs.jsonl`. Evolved gaits are in `best.json` of the run "
+                + "folders, with settings and every generation's figures. Pictures are drawn from `recordings/`. Sources "
+                + "of the published and of Flex' numbers:");
+        page.list(results.data().about());
+    }
+}

@@ -1,0 +1,118 @@
+package io.natator.replay;
+
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.Base64;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+import java.util.stream.Collectors;
+
+/** One HTML file that replays swims: scripts, styles and data are all in it, and it makes no request. */
+public final class ReplayHtml {
+
+    private static final int[] EVERY = {1, 2, 3, 4, 5, 6, 8, 10, 12};
+    private static final double MEGABYTE = 1e6;
+    /** Where something is put into the page; in one go, so that what is put there stays as it is. */
+    private static final Pattern PART = Pattern.compile("\\{\\{(title|style|modules|swims)}}");
+
+    private final String title;
+    private final List<Replay> swims;
+    private final boolean water;
+
+    /**
+     * What was written.
+     *
+     * @param bytes           of the file
+     * @param framesPerSecond of simulated time that are in it; less than were recorded if all would have been too much
+     * @param isReduced       whether they are
+     * @param largestError    of a coordinate of any water particle, in length units; 0 without water
+     */
+    public record Written(long bytes, double framesPerSecond, boolean isReduced, double largestError) {
+    }
+
+    /**
+     * A page.
+     *
+     * @param title of the page
+     * @param swims at least one
+     * @param water whether the water is shown too
+     */
+    public ReplayHtml(String title, List<Replay> swims, boolean water) {
+        this.title = title;
+        this.swims = List.copyOf(swims);
+        this.water = water;
+    }
+
+    /**
+     * Writes the page with as many frames as fit.
+     *
+     * @param maxBytes what the file may have
+     * @throws InvalidInputException if too few frames would fit to be watched, or no file can be of that name
+     * @throws UncheckedIOException  if the file cannot be written
+     */
+    public Written write(Path file, long maxBytes) {
+        OutputFile output = OutputFile.of(file);
+        byte[] html = null;
+        for (int every : EVERY) {
+            html = html(every).getBytes(StandardCharsets.UTF_8);
+            if (html.length <= maxBytes) {
+                output.write(html);
+                return new Written(html.length, framesPerSecond(every), every > 1, largestError());
+            }
+        }
+        int last = EVERY[EVERY.length - 1];
+        throw new InvalidInputException(String.format(Locale.ROOT, "the page has %.1f MB even with %.0f frames a second; "
+                + "expected at most %.1f MB: a larger --max-size, fewer swims, a shorter --duration, or --no-water",
+                html.length / MEGABYTE, framesPerSecond(last), maxBytes / MEGABYTE));
+    }
+
+    private double framesPerSecond(int every) {
+        return swims.stream().mapToDouble(swim -> 1 / (every * swim.scene().timeStep())).min().orElseThrow();
+    }
+
+    private double largestError() {
+        double largest = 0;
+        for (Replay swim : swims) {
+            for (double error : new SwimCode(swim, water).largestErrors()[0]) {
+                largest = Math.max(largest, water && swim.scene().fluidCount() > 0 ? error : 0);
+            }
+        }
+        return largest;
+    }
+
+    private String html(int every) {
+        String swimText = swims.stream().map(swim -> "<script type=\"text/plain\" class=\"swim\" data-title=\""
+                + escaped(swim.title()) + "\">" + base64(new SwimCode(swim, water).compressed(every)) + "</script>")
+                .collect(Collectors.joining("\n"));
+        String modules = base64(Zlib.compressed(
+                Json.line(PageModules.of("natator/replay.js")).getBytes(StandardCharsets.UTF_8)));
+        Map<String, String> parts = Map.of("title", escaped(title), "style",
+                PageModules.resource("natator/theme.css") + PageModules.resource("natator/style.css"), "modules", modules,
+                "swims", swimText);
+        return PART.matcher(PageModules.resource("natator/replay.html"))
+                .replaceAll(part -> Matcher.quoteReplacement(parts.get(part.group(1))));
+    }
+
+    /**
+     * Whether {@link #write} can make this file, before there is anything to write.
+     *
+     * @throws InvalidInputException if it cannot
+     */
+    public static void check(Path file) {
+        OutputFile.of(file);
+    }
+
+    private static String base64(byte[] content) {
+        return Base64.getEncoder().encodeToString(content);
+    }
+
+    private static String escaped(String text) {
+        return text.replace("&", "&amp;").replace("<", "&lt;").replace("\"", "&quot;");
+    }
+}

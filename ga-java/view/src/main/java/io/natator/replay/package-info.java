@@ -1,0 +1,2 @@
+/** One HTML file that replays swims without this program. */
+package io.natator.replay;

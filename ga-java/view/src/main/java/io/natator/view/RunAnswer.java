@@ -1,0 +1,95 @@
+package io.natator.view;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.OptimizerKind;
+import io.natator.encoding.Gait;
+import io.natator.evolution.GenerationSummary;
+import io.natator.simulator.SimulationResult;
+import io.natator.verdict.Verdict;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+/**
+ * What the page is told of a run folder. Fitness as the run has it; distances in scene units.
+ *
+ * @param id          its place on the command line, from 0
+ * @param name        of the folder
+ * @param scene       name or path
+ * @param overrides   JSON Merge Patch that makes it the scene that the run swam in
+ * @param optimizer   what searched
+ * @param seed        of all random choices
+ * @param generations those that are finished
+ * @param bests       the best gait of each generation that the folder still knows it of
+ * @param verdict     on the best gait of all, or null if there is none yet
+ */
+record RunAnswer(int id, String name, String scene, ObjectNode overrides, OptimizerKind optimizer, long seed,
+        List<Generation> generations, List<Best> bests, Verdict verdict) {
+
+    /**
+     * A generation.
+     *
+     * @param generation  0 is the random one
+     * @param evaluations newly simulated
+     * @param best        greatest distance
+     * @param mean        mean distance
+     * @param bestEver    greatest distance up to here
+     */
+    record Generation(int generation, int evaluations, double best, double mean, double bestEver) {
+    }
+
+    /** The best gait of a generation and its distance. */
+    record Best(int generation, double fitness, Gait gait) {
+    }
+
+    /**
+     * Reads a run folder as it is now; a run may be under way in it.
+     *
+     * @throws io.natator.config.InvalidInputException if a file in it is damaged
+     */
+    static RunAnswer of(int id, StoredRun run) {
+        EvolutionSettings settings = run.settings();
+        List<Generation> generations = generations(run);
+        return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
+                settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()));
+    }
+
+    /** What the page calls a run: its folder, without where that is. */
+    static String name(Path directory) {
+        return directory.toAbsolutePath().normalize().getFileName().toString();
+    }
+
+    /** A run's changes to its scene and its scheme as one patch, or null if there is neither. */
+    static ObjectNode overrides(EvolutionSettings settings) {
+        return InitialScene.patch(settings.overrides(), settings.scheme());
+    }
+
+    private static List<Generation> generations(StoredRun run) {
+        List<Generation> generations = new ArrayList<>();
+        double bestEver = Double.NEGATIVE_INFINITY;
+        for (GenerationSummary one : run.state() == null ? List.<GenerationSummary>of() : run.state().history()) {
+            bestEver = Math.max(bestEver, one.best());
+            generations.add(new Generation(one.generation(), one.evaluations(), one.best(), one.mean(), bestEver));
+        }
+        return generations;
+    }
+
+    /**
+     * The best of a generation may be older than it; it is found by its distance, which has all its digits. A folder that
+     * was made compact knows only the best of all.
+     */
+    private static List<Best> bests(StoredRun run, List<Generation> generations) {
+        Map<Double, Gait> gaits = new HashMap<>();
+        if (run.best() != null) {
+            gaits.put(run.best().result().score(), run.best().gait());
+        }
+        run.evaluations().stream().filter(one -> one.result().status() == SimulationResult.Status.OK)
+                .forEach(one -> gaits.putIfAbsent(one.result().score(), one.gait()));
+        return generations.stream().filter(one -> gaits.containsKey(one.best()))
+                .map(one -> new Best(one.generation(), one.best(), gaits.get(one.best()))).toList();
+    }
+}

@@ -1,0 +1,56 @@
+package io.natator.view;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.stream.StreamException;
+import io.natator.stream.StreamOptions;
+import io.natator.stream.StreamProcess;
+import io.natator.stream.StreamScene;
+
+/**
+ * What a simulator was told to do: all that another one must be told that takes its place. Not for several threads at
+ * once.
+ */
+final class SessionState {
+
+    /** As it was when the scene began. */
+    private StreamOptions options;
+    private boolean paused;
+    private JsonNode rate;
+
+    /** The course of a simulator that is started with a command. */
+    SessionState(ClientCommand start) {
+        paused = start.option("paused");
+        options = StreamOptions.live(start.scene(), start.object("overrides"), start.object("gait"), paused);
+    }
+
+    /** What to start a simulator with. */
+    StreamOptions options() {
+        return StreamOptions.live(options.scene(), options.overrides(), options.gait(), paused)
+                .with(null, options.precision());
+    }
+
+    /** Notes a command that goes to the simulator. */
+    void follow(ClientCommand command) {
+        switch (command.what()) {
+            case "run" -> paused = false;
+            case "pause", "step" -> paused = true;
+            case "rate" -> rate = command.content();
+            default -> {
+                // What changes the scene is told by the simulator, if it accepts it.
+            }
+        }
+    }
+
+    /** Notes what runs now. */
+    void follow(StreamScene scene) {
+        options = StreamOptions.live(scene.scene(), scene.overrides(), scene.gait(), paused)
+                .with(null, scene.precision());
+    }
+
+    /** Tells a fresh simulator what is not in its options. Credit is the page's to grant anew. */
+    void takeUp(StreamProcess process) throws StreamException {
+        if (rate != null) {
+            process.send(rate);
+        }
+    }
+}

@@ -1,0 +1,307 @@
+package io.natator.view;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.stream.StreamException;
+import io.natator.stream.StreamMessage;
+import io.natator.stream.StreamProcess;
+import java.io.IOException;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayDeque;
+import java.util.Deque;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Set;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.Executor;
+import java.util.concurrent.locks.ReentrantLock;
+import java.util.function.Consumer;
+import org.eclipse.jetty.websocket.api.Callback;
+import org.eclipse.jetty.websocket.api.Session;
+import org.eclipse.jetty.websocket.api.StatusCode;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/**
+ * One socket and its simulator. Commands go up as they come, messages go down one by one: the next one is read from the
+ * simulator when the last one is sent. So nothing is queued here, and a page that takes nothing holds up its simulator.
+ * A simulator that dies is replaced, unless that has happened too often.
+ */
+final class StreamSession implements AutoCloseable {
+
+    private static final Logger LOG = LoggerFactory.getLogger(StreamSession.class);
+    private static final int MOST_RESTARTS = 3;
+    private static final long WITHIN_NANOSECONDS = 60_000_000_000L;
+    private static final long ANALYSIS_NANOSECONDS = 1_000_000_000L;
+
+    private final Session socket;
+    private final Path simulator;
+    private final Set<String> files;
+    private final Executor analysts;
+    private final ReentrantLock sending = new ReentrantLock();
+    private final LiveKinematics motion = new LiveKinematics();
+    private final Deque<Long> deaths = new ArrayDeque<>();
+    private SessionState course;
+    private StreamProcess process;
+    private boolean closed;
+    private CompletableFuture<LiveKinematics.Analysis> analysis;
+    private long analysed = System.nanoTime();
+
+    /** The socket cannot be written to any more. */
+    private static final class SocketGoneException extends Exception {
+        private static final long serialVersionUID = 1L;
+
+        SocketGoneException(Throwable cause) {
+            super(cause);
+        }
+    }
+
+    /**
+     * A session that waits for the command that starts its simulator.
+     *
+     * @param files    that commands may name; see {@link ClientCommand#check}
+     * @param analysts who measures motion, aside from the messages
+     */
+    StreamSession(Session socket, Path simulator, Set<String> files, Executor analysts) {
+        this.socket = socket;
+        this.simulator = simulator;
+        this.files = files;
+        this.analysts = analysts;
+    }
+
+    /** Takes a command. Waits while an answer of the server's own cannot be sent. */
+    void receive(String text) {
+        JsonNode id = null;
+        try {
+            ClientCommand command = ClientCommand.read(text);
+            id = command.id();
+            command.check(files);
+            pass(command);
+        } catch (InvalidInputException e) {
+            refuse(id, e.getMessage());
+        } catch (RuntimeException | StackOverflowError e) {
+            // One bad command is not to cost the page its simulation.
+            LOG.error("command: {}", e, e);
+            refuse(id, "internal error");
+        } catch (StreamException e) {
+            socket.close(StatusCode.POLICY_VIOLATION, shortened(e.getMessage()), Callback.NOOP);
+        }
+    }
+
+    private void refuse(JsonNode id, String error) {
+        Map<String, Object> answer = new LinkedHashMap<>();
+        answer.put("id", id);
+        answer.put("error", error);
+        sendUnlessGone("ANSW", answer);
+    }
+
+    private synchronized void pass(ClientCommand command) throws StreamException {
+        if (command.what().equals(ClientCommand.START)) {
+            if (course != null) {
+                throw new InvalidInputException("start: a simulation runs already; expected scene");
+            }
+            begin(command);
+        } else if (course == null) {
+            throw new InvalidInputException(command.what() + ": no simulation runs; expected start");
+        } else {
+            course.follow(command);
+            process.send(command.content());
+        }
+    }
+
+    private void begin(ClientCommand start) throws StreamException {
+        boolean started = false;
+        course = new SessionState(start);
+        try {
+            started = startProcess();
+        } finally {
+            course = started ? course : null;
+        }
+        if (started) {
+            Thread pump = new Thread(this::pump, "view-stream");
+            pump.setDaemon(true);
+            pump.start();
+        }
+    }
+
+    /** Starts a simulator on the course, unless the session is closed. */
+    private synchronized boolean startProcess() throws StreamException {
+        if (closed) {
+            return false;
+        }
+        try {
+            process = new StreamProcess(simulator, course.options());
+        } catch (InterruptedException e) {
+            return false;
+        }
+        course.takeUp(process);
+        return true;
+    }
+
+    /** Takes the simulator's messages to the page for as long as there is one. */
+    private void pump() {
+        try {
+            boolean restarted = true;
+            while (restarted) {
+                String reason = untilDeath();
+                restarted = reason != null && restart(reason);
+            }
+        } catch (SocketGoneException e) {
+            close();
+        }
+    }
+
+    /** Why the simulator has ended; null if it was to. */
+    private String untilDeath() throws SocketGoneException {
+        StreamProcess running;
+        synchronized (this) {
+            running = process;
+        }
+        try (running) {
+            for (StreamMessage message = running.next(); message != null; message = running.next()) {
+                forward(message);
+            }
+            return isClosed() ? null : "simulator ended";
+        } catch (InvalidInputException e) {
+            forget();
+            lost(e.getMessage(), false);
+            return null;
+        } catch (IOException e) {
+            return isClosed() ? null : e.getMessage();
+        }
+    }
+
+    /** Replaces the simulator, then tells the page: what it sends after that is for the new one. */
+    private boolean restart(String reason) throws SocketGoneException {
+        String why = reason;
+        boolean again = false;
+        try {
+            again = isRestartDue() && startProcess();
+        } catch (InvalidInputException | StreamException e) {
+            why += "; " + e.getMessage();
+        }
+        if (!again) {
+            forget();
+        }
+        lost(why, again);
+        return again;
+    }
+
+    private boolean isRestartDue() {
+        long now = System.nanoTime();
+        deaths.add(now);
+        while (now - deaths.getFirst() > WITHIN_NANOSECONDS) {
+            deaths.removeFirst();
+        }
+        return deaths.size() <= MOST_RESTARTS;
+    }
+
+    /** From here on the page may start another simulation. */
+    private synchronized void forget() {
+        course = null;
+        deaths.clear();
+    }
+
+    private void forward(StreamMessage message) throws SocketGoneException {
+        if (message instanceof StreamMessage.Scene scene) {
+            synchronized (this) {
+                course.follow(scene.scene());
+            }
+            motion.begin(scene.scene());
+            analysis = null;
+            send("SCEN", scene.json());
+        } else if (message instanceof StreamMessage.Frame frame) {
+            motion.add(frame.decode());
+            send(done -> socket.sendBinary(frame.body(), done));
+            analyse();
+        } else if (message instanceof StreamMessage.Answer answer) {
+            send("ANSW", answer.json());
+        } else if (message instanceof StreamMessage.Stop stop) {
+            send("STOP", stop.json());
+        }
+    }
+
+    /** Sends an analysis that is ready, and asks for the next one when it is time. */
+    private void analyse() throws SocketGoneException {
+        if (analysis != null && analysis.isDone()) {
+            if (!analysis.isCompletedExceptionally()) {
+                send("ANALYSIS", Json.line(analysis.join()));
+            }
+            analysis = null;
+        }
+        if (analysis == null && System.nanoTime() - analysed >= ANALYSIS_NANOSECONDS) {
+            LiveKinematics.Beats beats = motion.lastBeats();
+            if (beats != null) {
+                analysed = System.nanoTime();
+                analysis = CompletableFuture.supplyAsync(beats::analyse, analysts);
+            }
+        }
+    }
+
+    private void lost(String reason, boolean restarted) throws SocketGoneException {
+        Map<String, Object> body = new LinkedHashMap<>();
+        body.put("reason", reason);
+        body.put("restarted", restarted);
+        send("LOST", Json.line(body));
+    }
+
+    private void sendUnlessGone(String type, Object body) {
+        try {
+            send(type, Json.line(body));
+        } catch (SocketGoneException e) {
+            close();
+        }
+    }
+
+    private void send(String type, String json) throws SocketGoneException {
+        String text = "{\"type\":\"" + type + "\",\"body\":" + json + "}";
+        send(done -> socket.sendText(text, done));
+    }
+
+    /** Sends and waits until it is sent; one message at a time. */
+    private void send(Consumer<Callback> message) throws SocketGoneException {
+        Callback.Completable sent = new Callback.Completable();
+        sending.lock();
+        try {
+            message.accept(sent);
+            sent.get();
+        } catch (ExecutionException e) {
+            throw new SocketGoneException(e.getCause());
+        } catch (InterruptedException e) {
+            throw new SocketGoneException(e);
+        } finally {
+            sending.unlock();
+        }
+    }
+
+    /** The reason of a close frame has at most 123 bytes. */
+    static String shortened(String reason) {
+        return reason.length() > 100 ? reason.substring(0, 100) : reason;
+    }
+
+    private synchronized boolean isClosed() {
+        return closed;
+    }
+
+    /** Process id of the simulator, for those who watch it; −1 without one. */
+    synchronized long pid() {
+        return course == null ? -1 : process.pid();
+    }
+
+    /** How long its page may take nothing; zero for any time. */
+    Duration mostSilence() {
+        return socket.getIdleTimeout();
+    }
+
+    /** Ends the simulator. The socket is the caller's. */
+    @Override
+    public synchronized void close() {
+        closed = true;
+        if (process != null) {
+            process.close();
+        }
+    }
+}

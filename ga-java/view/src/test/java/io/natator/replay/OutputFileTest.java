@@ -1,0 +1,69 @@
+package io.natator.replay;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import io.natator.config.InvalidInputException;
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+class OutputFileTest {
+
+    private static final byte[] CONTENT = "new".getBytes(StandardCharsets.UTF_8);
+
+    @TempDir
+    private Path folder;
+
+    @Test
+    void aFileIsReplaced() throws IOException {
+        Path file = Files.writeString(folder.resolve("page.html"), "old");
+
+        OutputFile.of(file).write(CONTENT);
+
+        assertThat(file).hasContent("new");
+        assertThat(folder.toFile().list()).containsExactly("page.html");
+    }
+
+    @Test
+    void ofALinkTheTargetIsWritten() throws IOException {
+        Path file = folder.resolve("page.html");
+        Path near = Files.createSymbolicLink(folder.resolve("near"), Path.of("page.html"));
+        Path far = Files.createSymbolicLink(folder.resolve("far"), near);
+
+        OutputFile.of(far).write(CONTENT);
+        assertThat(file).hasContent("new");
+
+        OutputFile.of(near).write("again".getBytes(StandardCharsets.UTF_8));
+        assertThat(file).hasContent("again");
+        assertThat(near).isSymbolicLink();
+        assertThat(far).isSymbolicLink();
+    }
+
+    @Test
+    void aLinkToItselfIsRefused() throws IOException {
+        Path link = Files.createSymbolicLink(folder.resolve("link"), Path.of("link"));
+
+        assertThatThrownBy(() -> OutputFile.of(link)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("leads to itself");
+    }
+
+    @Test
+    void whatIsNoFileIsLeftAlone() throws IOException, InterruptedException {
+        Path pipe = folder.resolve("pipe");
+        assertThat(new ProcessBuilder("mkfifo", pipe.toString()).start().waitFor()).isZero();
+        Path link = Files.createSymbolicLink(folder.resolve("link"), Path.of("/dev/null"));
+
+        for (Path file : new Path[] {pipe, link, Path.of("/dev/full")}) {
+            assertThatThrownBy(() -> OutputFile.of(file)).isInstanceOf(InvalidInputException.class)
+                    .hasMessage("output file is " + file + ", which is a device or a pipe; expected the name of a file, new "
+                            + "or to be replaced");
+        }
+        assertThatThrownBy(() -> OutputFile.of(folder)).hasMessageContaining("which is a folder");
+        assertThatThrownBy(() -> OutputFile.of(folder.resolve("no/page.html")))
+                .hasMessageContaining("expected a folder that exists, unlike " + folder.resolve("no"));
+    }
+}

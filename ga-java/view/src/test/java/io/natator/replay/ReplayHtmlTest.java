@@ -1,0 +1,207 @@
+package io.natator.replay;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.stream.StreamBytes;
+import io.natator.stream.StreamFrame;
+import io.natator.stream.StreamScene;
+import java.io.ByteArrayInputStream;
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.nio.ByteOrder;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.Base64;
+import java.util.List;
+import java.util.Random;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+import java.util.zip.InflaterInputStream;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+/** The file that replays swims: what is in it, how exact and how large it is. */
+class ReplayHtmlTest {
+
+    private static final int OTHERS = 4;
+    private static final Pattern SWIM = Pattern.compile("<script type=\"text/plain\" class=\"swim\"[^>]*>([^<]*)</script>");
+    private static final Pattern MODULES = Pattern.compile("<script type=\"text/plain\" id=\"modules\">([^<]*)</script>");
+
+    @TempDir
+    private Path folder;
+
+    /** Water that hops about at random, which nothing compresses, and a body. */
+    private static Replay swim(String title, int water, int frames) {
+        ObjectNode json = StreamBytes.scene();
+        int particles = water + OTHERS;
+        json.put("particles", particles).putArray("fluid").add(0).add(water);
+        ArrayNode mass = json.putArray("mass");
+        for (int i = 0; i < particles; i++) {
+            mass.add(1);
+        }
+        for (String key : List.of("body", "slices", "clusters", "muscles")) {
+            json.putArray(key);
+        }
+        for (int i = 0; i < OTHERS; i++) {
+            json.withArray("body").add(water + i);
+        }
+        Random random = new Random(1);
+        List<StreamFrame> all = new ArrayList<>();
+        for (int frame = 0; frame < frames; frame++) {
+            float[] position = new float[3 * particles];
+            float[] density = new float[particles];
+            for (int i = 0; i < position.length; i++) {
+                position[i] = 4 * random.nextFloat();
+            }
+            for (int i = 0; i < water; i++) {
+                density[i] = random.nextFloat();
+            }
+            all.add(new StreamFrame(1, frame, 0, true, false, 0.0125 * frame, 0, 0.1 * frame, new float[] {1, 2, 3}, 4, 5, 6, 7,
+                    new float[] {0.5f}, position, new float[0], density));
+        }
+        try {
+            return new Replay(title, Json.parse(json.toString(), StreamScene.class), json.toString(), all);
+        } catch (JsonProcessingException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+
+    private static byte[] inflated(String base64) throws IOException {
+        return new InflaterInputStream(new ByteArrayInputStream(Base64.getDecoder().decode(base64))).readAllBytes();
+    }
+
+    private static List<String> found(Pattern pattern, String text) {
+        Matcher matcher = pattern.matcher(text);
+        List<String> all = new ArrayList<>();
+        while (matcher.find()) {
+            all.add(matcher.group(1));
+        }
+        return all;
+    }
+
+    /** What the user calls a page is text, also if it looks like a place of ours. */
+    @Test
+    void aTitleStaysAsItIs() throws IOException {
+        Path file = folder.resolve("page.html");
+        new ReplayHtml("{{swims}} $1 \\ {{modules}}", List.of(swim("{{style}}", 10, 4)), true).write(file, 10_000_000);
+
+        String html = Files.readString(file);
+        assertThat(html).contains("<title>{{swims}} $1 \\ {{modules}}</title>", "data-title=\"{{style}}\"");
+        assertThat(SWIM.matcher(html).results()).hasSize(1);
+        assertThat(MODULES.matcher(html).results()).hasSize(1);
+    }
+
+    @Test
+    void placesComeBackWithinTheStatedError() throws IOException {
+        Replay swim = swim("swim", 20, 5);
+        SwimCode code = new SwimCode(swim, true);
+        byte[] bytes = new InflaterInputStream(new ByteArrayInputStream(code.compressed(1))).readAllBytes();
+        int length = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).getInt();
+        JsonNode head = Json.parse(new String(bytes, 4, length, StandardCharsets.UTF_8), JsonNode.class);
+        int at = 4 + length + Float.BYTES * (SwimCode.SCALARS + 1) * 5;
+
+        for (int which = 0; which < 2; which++) {
+            JsonNode table = head.get("tables").get(which);
+            int numbers = 3 * table.get("numbers").asInt();
+            int size = table.get("bytes").asInt();
+            int[][] rows = TimeCode.decode(Arrays.copyOfRange(bytes, at, at + 5 * numbers * size), 5, numbers, size,
+                    table.get("steady").asBoolean() ? TimeCode.Expectation.STEADY : TimeCode.Expectation.SAME);
+            at += 5 * numbers * size;
+            for (int time = 0; time < 5; time++) {
+                for (int i = 0; i < numbers; i++) {
+                    int axis = i / (numbers / 3);
+                    int particle = (which == 0 ? 0 : 20) + i % (numbers / 3);
+                    JsonNode column = table.get("columns").get(axis);
+                    double value = column.get("low").asDouble() + rows[time][i] * column.get("step").asDouble();
+                    assertThat(Math.abs(value - swim.frames().get(time).position()[3 * particle + axis]))
+                            .isLessThanOrEqualTo(code.largestErrors()[which][axis] * (1 + 1e-6));
+                }
+            }
+        }
+        assertThat(code.largestErrors()[0]).hasSize(3);
+        assertThat(Arrays.stream(code.largestErrors()[0]).max().orElseThrow()).isLessThan(4.0 / 65535 / 2 * 1.001);
+        assertThat(Arrays.stream(code.largestErrors()[1]).max().orElseThrow()).isLessThan(4e-6);
+    }
+
+    @Test
+    void thePageLoadsNothing() throws IOException {
+        Path file = folder.resolve("swim.html");
+
+        new ReplayHtml("Two <swims> & more", List.of(swim("\"first\"", 20, 5), swim("second", 20, 5)), true)
+                .write(file, 1_000_000);
+
+        String html = Files.readString(file);
+        assertThat(html).contains("<title>Two &lt;swims> &amp; more</title>").contains("data-title=\"&quot;first&quot;\"")
+                .contains("content=\"default-src 'none';").doesNotContain("{{");
+        assertThat(found(SWIM, html)).hasSize(2);
+        String loading = html.replaceAll("<script type=\"text/plain\"[^>]*>[^<]*</script>", "");
+        assertThat(loading).doesNotContainPattern("https?://").doesNotContainPattern("\\ssrc=").doesNotContain("@import")
+                .doesNotContain("url(").doesNotContain("fetch(");
+        assertThat(found(Pattern.compile("href=\"([^\"]*)\""), loading)).allSatisfy(link -> assertThat(link).startsWith("data:"));
+    }
+
+    @Test
+    void allThatItsModulesImportIsInIt() throws IOException {
+        Path file = folder.resolve("swim.html");
+        new ReplayHtml("page", List.of(swim("swim", 20, 5)), true).write(file, 1_000_000);
+
+        JsonNode modules = Json.parse(new String(inflated(found(MODULES, Files.readString(file)).get(0)),
+                StandardCharsets.UTF_8), JsonNode.class);
+
+        List<String> names = new ArrayList<>();
+        modules.fieldNames().forEachRemaining(names::add);
+        assertThat(names).contains("natator/replay.js", "natator/stage.js", "three", "three/three.core.min.js",
+                "three/addons/controls/OrbitControls.js").doesNotContain("natator/main.js", "natator/connection.js");
+        Pattern imports = Pattern.compile("\\bfrom\\s*[\"']([^\"']+)[\"']");
+        modules.forEach(text -> assertThat(names).containsAll(found(imports, text.asText())));
+    }
+
+    @Test
+    void framesAreLeftOutUntilThePageFits() throws IOException {
+        List<Replay> swims = List.of(swim("swim", 400, 100));
+        Path file = folder.resolve("swim.html");
+
+        ReplayHtml.Written all = new ReplayHtml("page", swims, true).write(file, 10_000_000);
+        ReplayHtml.Written some = new ReplayHtml("page", swims, true).write(file, all.bytes() - 1);
+
+        assertThat(all.framesPerSecond()).isEqualTo(80);
+        assertThat(all.isReduced()).isFalse();
+        assertThat(all.largestError()).isBetween(3.0e-5, 3.1e-5);
+        assertThat(some.framesPerSecond()).isEqualTo(40);
+        assertThat(some.isReduced()).isTrue();
+        assertThat(some.bytes()).isEqualTo(Files.size(file)).isLessThan(all.bytes());
+        assertThat(folder).isDirectoryContaining(one -> one.equals(file)).isDirectoryNotContaining("glob:**.new");
+    }
+
+    @Test
+    void whatCannotFitIsRefused() {
+        Path file = folder.resolve("swim.html");
+
+        assertThatThrownBy(() -> new ReplayHtml("page", List.of(swim("swim", 20, 5)), true).write(file, 1000))
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("expected at most 0.0 MB");
+        assertThat(file).doesNotExist();
+    }
+
+    @Test
+    void waterCanBeLeftOut() {
+        Replay swim = swim("swim", 400, 50);
+
+        ReplayHtml.Written with = new ReplayHtml("page", List.of(swim), true).write(folder.resolve("with.html"),
+                10_000_000);
+        ReplayHtml.Written without = new ReplayHtml("page", List.of(swim), false).write(folder.resolve("no.html"),
+                10_000_000);
+
+        assertThat(without.bytes()).isLessThan(with.bytes() - 50 * 400 * 6);
+        assertThat(without.largestError()).isZero();
+    }
+}

@@ -1,0 +1,162 @@
+package io.natator.view;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.microsoft.playwright.Browser.NewContextOptions;
+import com.microsoft.playwright.BrowserContext;
+import com.microsoft.playwright.ConsoleMessage;
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Page;
+import com.microsoft.playwright.assertions.PlaywrightAssertions;
+import java.awt.image.BufferedImage;
+import java.io.ByteArrayInputStream;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+import javax.imageio.ImageIO;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.TestInfo;
+import org.junit.jupiter.api.extension.RegisterExtension;
+
+/**
+ * Tests of pages in a real browser. Each has a profile of its own; at its end its picture is kept in
+ * {@code target/screenshots}, the console must have shown no error, and nothing may have been asked of another host.
+ */
+abstract class BrowserTest {
+
+    @RegisterExtension
+    static final Chromium CHROMIUM = new Chromium();
+
+    static final int WIDTH = 1280;
+    static final int HEIGHT = 800;
+    private static final Path SCREENSHOTS = Path.of("target", "screenshots");
+    /** Much is drawn by one processor that also simulates, and does other work besides: only failures wait so long. */
+    private static final double PATIENCE_MILLISECONDS = 600_000;
+
+    private final List<String> complaints = new ArrayList<>();
+    private final List<String> addresses = new ArrayList<>();
+    private BrowserContext context;
+    private String name;
+    Page page;
+
+    @BeforeEach
+    void openBrowser(TestInfo test) {
+        name = getClass().getSimpleName() + "-" + test.getTestMethod().orElseThrow().getName();
+        useBrowser(new NewContextOptions().setViewportSize(WIDTH, HEIGHT));
+    }
+
+    /** Goes on in another window, such as that of a telephone. */
+    void useBrowser(NewContextOptions options) {
+        if (context != null) {
+            context.close();
+        }
+        context = CHROMIUM.browser().newContext(options);
+        context.setDefaultTimeout(PATIENCE_MILLISECONDS);
+        context.setDefaultNavigationTimeout(PATIENCE_MILLISECONDS);
+        PlaywrightAssertions.setDefaultAssertionTimeout(PATIENCE_MILLISECONDS);
+        context.onConsoleMessage(this::note);
+        context.onWebError(error -> complaints.add(error.error()));
+        context.onRequest(request -> addresses.add(request.url()));
+        page = context.newPage();
+        page.onWebSocket(socket -> addresses.add(socket.url()));
+    }
+
+    private void note(ConsoleMessage message) {
+        if (message.type().equals("error")) {
+            complaints.add(message.text() + " at " + message.location());
+        }
+    }
+
+    @AfterEach
+    void closeBrowser() {
+        keepPicture(name);
+        context.close();
+        assertThat(complaints).as("errors in the console").isEmpty();
+        assertThat(addresses).as("asked for").isNotEmpty().allSatisfy(address -> assertThat(isOwn(URI.create(address)))
+                .as(address.substring(0, Math.min(200, address.length()))).isTrue());
+    }
+
+    /** Whether an address is of the server under test or of the page itself. */
+    abstract boolean isOwn(URI address);
+
+    /** Keeps what is seen now. */
+    void keepPicture(String fileName) {
+        page.screenshot(new Page.ScreenshotOptions().setPath(SCREENSHOTS.resolve(fileName + ".png")));
+    }
+
+    /** The element with a test id. */
+    Locator get(String testId) {
+        return page.getByTestId(testId);
+    }
+
+    /** Waits until a JavaScript expression is true. */
+    void await(String expression) {
+        page.waitForFunction("() => " + expression);
+    }
+
+    /** A number that a JavaScript expression gives. */
+    double number(String expression) {
+        return ((Number) page.evaluate("() => " + expression)).doubleValue();
+    }
+
+    /** Waits until the page has been drawn so many times more. */
+    void awaitDrawings(int count) {
+        page.evaluate("""
+                count => new Promise(done => {
+                  const next = () => count-- > 0 ? requestAnimationFrame(next) : done();
+                  next();
+                })""", count);
+    }
+
+    /** What an element looks like when it has come to rest. */
+    BufferedImage stillPicture(Locator element) {
+        BufferedImage last = picture(element);
+        long end = System.nanoTime() + (long) (PATIENCE_MILLISECONDS * 1e6);
+        while (true) {
+            awaitDrawings(20);
+            BufferedImage next = picture(element);
+            if (difference(last, next) == 0) {
+                return next;
+            }
+            assertThat(System.nanoTime()).as("the picture still changes").isLessThan(end);
+            last = next;
+        }
+    }
+
+    /** What an element looks like. */
+    static BufferedImage picture(Locator element) {
+        try {
+            return ImageIO.read(new ByteArrayInputStream(element.screenshot()));
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+    }
+
+    /** Number of different colours in a picture. */
+    static int colours(BufferedImage picture) {
+        Set<Integer> colours = new HashSet<>();
+        for (int y = 0; y < picture.getHeight(); y++) {
+            for (int x = 0; x < picture.getWidth(); x++) {
+                colours.add(picture.getRGB(x, y));
+            }
+        }
+        return colours.size();
+    }
+
+    /** Share of the pixels that differ between two pictures of the same size, 0 to 1. */
+    static double difference(BufferedImage one, BufferedImage other) {
+        int different = 0;
+        for (int y = 0; y < one.getHeight(); y++) {
+            for (int x = 0; x < one.getWidth(); x++) {
+                different += one.getRGB(x, y) == other.getRGB(x, y) ? 0 : 1;
+            }
+        }
+        return different / (double) (one.getWidth() * one.getHeight());
+    }
+}

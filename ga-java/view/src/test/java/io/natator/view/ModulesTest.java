@@ -1,0 +1,190 @@
+package io.natator.view;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+import com.microsoft.playwright.Route;
+import io.natator.replay.Replay;
+import io.natator.replay.ReplayHtml;
+import io.natator.replay.ReplayRecorder;
+import io.natator.stream.StreamFrame;
+import io.natator.stream.StreamOptions;
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+
+/** What the page's modules compute, each called by itself in a real browser. */
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
+class ModulesTest extends BrowserTest {
+
+    @TempDir
+    private Path folder;
+    private String own;
+    private static ViewServer server;
+
+    @BeforeAll
+    static void start() throws InterruptedException {
+        server = ViewFixture.server();
+    }
+
+    @AfterAll
+    static void stop() {
+        server.close();
+    }
+
+    @Override
+    boolean isOwn(URI address) {
+        return address.getScheme().matches("blob|data") || address.toString().contains(own);
+    }
+
+    /** Runs a function of JavaScript that is given the module, where nothing else runs. */
+    private Object with(String module, String function) {
+        own = server.address().getAuthority();
+        page.route("**/favicon.ico", route -> route.fulfill(new Route.FulfillOptions().setStatus(204)));
+        page.navigate(server.address().resolve("/app/theme.css").toString());
+        return page.evaluate("async () => (" + function + ")(await import('/app/" + module + "'))");
+    }
+
+    @SuppressWarnings("unchecked")
+    private static List<Number> numbers(Object list) {
+        return (List<Number>) list;
+    }
+
+    @Test
+    void aFrameIsReadByteForByte() {
+        Object read = with("protocol.js", """
+                ({decodeFrame, sceneNumber}) => {
+                  const scene = {particles: 2, actuators: 1, fields: ['position', 'velocity', 'density']};
+                  const buffer = new ArrayBuffer(72 + 4 + 4 * 14);
+                  const view = new DataView(buffer);
+                  [3, 250, 7, 3].forEach((value, i) => view.setUint32(4 * i, value, true));
+                  [1.25, 0.008, -0.5].forEach((value, i) => view.setFloat64(16 + 8 * i, value, true));
+                  for (let i = 0; i < 7; i++) view.setFloat32(40 + 4 * i, 10 + i, true);
+                  for (let i = 0; i < 15; i++) view.setFloat32(72 + 4 * i, 100 + i, true);
+                  const frame = decodeFrame(buffer, scene);
+                  let refused = '';
+                  try { decodeFrame(buffer.slice(4), scene); } catch (error) { refused = error.message; }
+                  return JSON.stringify([sceneNumber(buffer), frame.frame, frame.dropped, frame.running, frame.touching,
+                    frame.time, frame.wallTime, frame.distance, [...frame.velocity], frame.momentum, frame.angularMomentum,
+                    frame.densityMean, frame.densityMax, [...frame.activation], [...frame.position], [...frame.velocities],
+                    [...frame.density], refused]);
+                }""");
+
+        assertThat(read).isEqualTo("[3,250,7,true,true,1.25,0.008,-0.5,[10,11,12],13,14,15,16,[100],"
+                + "[101,102,103,104,105,106],[107,108,109,110,111,112],[113,114],\"frame has 128 bytes; expected 132\"]");
+    }
+
+    @Test
+    void axesEndOnRoundNumbers() {
+        Object axes = with("scaling.js", """
+                ({axis, axisText, niceStep}) => JSON.stringify([axis(0, 0.93, 3), axis(-0.2, 7, 4), axis(2, 2), niceStep(0.0021),
+                  axisText(0.25, 0.05), axisText(1e-12, 0.5), axisText(40, 20)])""");
+
+        assertThat(axes).isEqualTo("[{\"low\":0,\"high\":1,\"step\":0.5,\"marks\":[0,0.5,1]},"
+                + "{\"low\":-2,\"high\":8,\"step\":2,\"marks\":[-2,0,2,4,6,8]},"
+                + "{\"low\":2,\"high\":2.5,\"step\":0.5,\"marks\":[2,2.5]},0.005,\"0.25\",\"0.0\",\"40\"]");
+    }
+
+    /** Equal steps of value are equal steps of colour as people see it, but where a scale turns to the next of its stops. */
+    @Test
+    void coloursAreEven() {
+        List<Number> uneven = numbers(with("colours.js", """
+                ({SCALES}) => Object.values(SCALES).map(scale => {
+                  const steps = scale.slice(1).map((colour, i) => Math.hypot(...colour.map((value, k) => value - scale[i][k])));
+                  return steps.filter(step => step < 0.97 * Math.max(...steps)).length;
+                })"""));
+
+        assertThat(uneven).hasSize(2).allSatisfy(count -> assertThat(count.intValue()).isLessThanOrEqualTo(3));
+        assertThat(with("colours.js", "({SCALES}) => SCALES.sequential.every((one, i, all) => i === 0 || one[0] > all[i - 1][0])"))
+                .as("lighter and lighter").isEqualTo(true);
+    }
+
+    @Test
+    void theNearestComesFirst() {
+        Object order = with("sort.js", """
+                ({NearestFirst}) => {
+                  const position = new Float32Array([9, 9, 9,  0, 0, 5,  0, 0, 1,  0, 0, 3,  0, 0, -2]);
+                  const sorted = new NearestFirst();
+                  const left = sorted.sort(position, 1, 4, {x: 0, y: 0, z: 0}, {x: 0, y: 0, z: 1}, 0);
+                  return [...sorted.order.subarray(0, left)].join();
+                }""");
+
+        assertThat(order).as("counted from the second; the last lies behind").isEqualTo("1,2,0");
+    }
+
+    @Test
+    void detailIsGivenUpOnlyWhereThatHelps() {
+        Object shares = with("quality.js", """
+                ({Quality}) => {
+                  const after = (quality, rate, seconds, cost, from) => {
+                    for (let i = 0; i < rate * seconds; i++) quality.drawn(from + i / rate, cost);
+                    return quality.share;
+                  };
+                  const slow = new Quality();
+                  return [after(new Quality(), 60, 9, 9, 0), after(new Quality(), 30, 5, 2, 0), after(slow, 30, 2.1, 20, 0),
+                    after(slow, 60, 9, 9, 2.1)];
+                }""");
+
+        List<Number> all = numbers(shares);
+        assertThat(all.get(0).doubleValue()).as("fast enough").isEqualTo(1);
+        assertThat(all.get(1).doubleValue()).as("slow, but not by drawing").isEqualTo(1);
+        assertThat(all.get(2).doubleValue()).as("slow by drawing").isLessThan(1);
+        assertThat(all.get(3).doubleValue()).as("fast again").isGreaterThan(all.get(2).doubleValue());
+    }
+
+    @Test
+    void speedIsTakenOverABeat() {
+        List<Number> speeds = numbers(with("history.js", """
+                ({History}) => {
+                  const history = new History();
+                  const add = (time, distance) => history.add({time, distance, velocity: [3, 0, 0], momentum: 0,
+                    angularMomentum: 0, densityMean: 0.01, densityMax: 0.02}, 1.5, 2);
+                  for (let i = 0; i <= 60; i++) add(i / 60, 0.6 * (i / 60) + 0.1 * Math.sin(4 * Math.PI * i / 60));
+                  const speeds = [history.last('beatSpeed'), history.last('speed'), history.last('densityMean'), history.length];
+                  add(0, 0);
+                  return [...speeds, history.length];
+                }"""));
+
+        assertThat(speeds.get(0).doubleValue()).isCloseTo(0.4, within(1e-9));
+        assertThat(speeds.get(1).doubleValue()).isEqualTo(2);
+        assertThat(speeds.get(2).doubleValue()).isEqualTo(1);
+        assertThat(speeds.subList(3, 5)).extracting(Number::intValue).containsExactly(61, 1);
+    }
+
+    /** From the simulator through the packed file into the browser. */
+    @Test
+    void aReplayShowsThePlacesThatWereSimulated() throws InterruptedException {
+        Replay swim = new ReplayRecorder(ViewFixture.SIMULATOR)
+                .record("swim", StreamOptions.recording("thesis/creature-1", null, null, 0.25));
+        Path file = folder.resolve("swim.html");
+        ReplayHtml.Written written = new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000);
+        own = file.toString();
+        page.navigate(file.toUri().toString());
+        await("window.natator && natator.time() > 0");
+        page.getByTestId("play").click();
+
+        for (int frame : new int[] {0, 7, 15}) {
+            StreamFrame recorded = swim.frames().get(frame);
+            page.evaluate("""
+                    time => {
+                      const scrub = document.getElementById('scrub');
+                      scrub.value = time;
+                      scrub.dispatchEvent(new Event('input'));
+                    }""", recorded.time());
+            await("Math.abs(natator.time() - " + recorded.time() + ") < 1e-6");
+
+            List<Number> shown = numbers(page.evaluate("() => natator.position()"));
+
+            assertThat(shown).hasSize(3 * swim.scene().particles());
+            for (int i = 0; i < shown.size(); i++) {
+                assertThat(shown.get(i).doubleValue()).isCloseTo(recorded.position()[i], within(1.05 * written.largestError()));
+            }
+        }
+    }
+}

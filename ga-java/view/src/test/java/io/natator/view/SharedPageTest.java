@@ -1,0 +1,83 @@
+package io.natator.view;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import io.natator.config.Scheme;
+import io.natator.replay.Replay;
+import io.natator.replay.ReplayHtml;
+import io.natator.replay.ReplayRecorder;
+import io.natator.stream.StreamOptions;
+import java.awt.image.BufferedImage;
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+
+/** The file that replays a swim, opened from disk. */
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
+class SharedPageTest extends BrowserTest {
+
+    private static final double SECONDS = 1;
+
+    @TempDir
+    private static Path folder;
+    private static Path file;
+
+    @BeforeAll
+    static void write() throws IOException, InterruptedException {
+        JsonNode gait = Json.parse(ViewFixture.GAIT.replace('\'', '"'), JsonNode.class);
+        Replay swim = new ReplayRecorder(ViewFixture.SIMULATOR).record("swim", StreamOptions
+                .recording("thesis/creature-1", null, gait, SECONDS).with(Scheme.CONSERVING, null));
+        file = folder.resolve("swim.html");
+        new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000);
+    }
+
+    @Override
+    boolean isOwn(URI address) {
+        return address.equals(file.toUri()) || address.toString().matches("file://" + file + "(#.*)?")
+                || address.getScheme().matches("blob|data");
+    }
+
+    @Test
+    void theSwimIsPlayedAgain() {
+        page.navigate(file.toUri().toString());
+        assertThat(get("status")).hasAttribute("data-state", "open");
+        await("window.natator && natator.time() > 0.2");
+
+        BufferedImage picture = picture(get("picture-a"));
+        assertThat(colours(picture)).isGreaterThan(500);
+        assertThat(number("natator.position().length")).isEqualTo(number("3 * natator.scene().particles"));
+        assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");
+        await("natator.time() > 0.9");
+        await("natator.time() < 0.5");
+    }
+
+    @Test
+    void itStandsAtTheTimeThatIsChosen() {
+        page.navigate(file.toUri().toString());
+        await("window.natator && natator.time() > 0.1");
+        get("play").click();
+
+        get("scrub").fill("0.5");
+        await("Math.abs(natator.time() - 0.5) < 0.02");
+        BufferedImage still = stillPicture(get("picture-a"));
+        double distance = number("natator.distance()");
+        awaitDrawings(30);
+
+        assertThat(number("natator.time()")).isBetween(0.48, 0.52);
+        assertThat(difference(still, picture(get("picture-a")))).isZero();
+        get("scrub").fill("0");
+        await("natator.time() === 0");
+        assertThat(number("natator.distance()")).as("at the start, but for rounding").isCloseTo(0, within(1e-4));
+        assertThat(Math.abs(distance)).isGreaterThan(1e-3);
+    }
+}

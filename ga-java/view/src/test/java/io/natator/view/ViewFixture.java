@@ -1,0 +1,77 @@
+package io.natator.view;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.Natator;
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.OperatorSet;
+import io.natator.config.OptimizerKind;
+import io.natator.config.Scheme;
+import io.natator.encoding.Gait;
+import io.natator.simulator.FakeSimulator;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import java.util.function.BooleanSupplier;
+
+/** Servers with the real simulator, and its processes. */
+final class ViewFixture {
+
+    static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+    /** Without water: it starts and steps in no time. */
+    static final String SCENE = "thesis/creature-1-vacuum";
+    static final String GAIT = "{'frequency':1.5,'amplitude':[0.9,0.6],'phase':[0,0.6]}";
+    /** Gaits that the page is given to offer. */
+    static final Map<String, Gait> KNOWN = Map.of("thesis/creature-3",
+            new Gait(1.2, List.of(0.1, 0.2, 0.3, 0.4, 0.5), List.of(0.0, 0.1, 0.2, 0.3, 0.4)));
+    private static final int PATIENCE_SECONDS = 600;
+
+    private ViewFixture() {
+    }
+
+    /** A server on a free port of this machine alone, which begins with a creature in vacuum. */
+    static ViewServer server(Path... runs) throws InterruptedException {
+        return server(SCENE, runs);
+    }
+
+    /** A server that begins with a scene of creature 1. */
+    static ViewServer server(String scene, Path... runs) throws InterruptedException {
+        assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
+        return new ViewServer(new ViewSettings(SIMULATOR, ViewSettings.LOOPBACK, 0,
+                new InitialScene(scene, null, new Gait(1.5, List.of(0.9, 0.6), List.of(0.0, 0.6))), KNOWN::get,
+                List.of(runs)));
+    }
+
+    /** Evolves creature 1 for three generations of eight, with another scheme than the scene's and no real simulator. */
+    static Path evolve(Path folder) throws InterruptedException {
+        Path run = folder.resolve("my-run");
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 3)
+                .withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05)
+                .withScene(Scheme.CONSERVING, 2.0, null);
+        new Natator(new ExecutionSettings(FakeSimulator.in(folder), 2, null)).evolve(settings, run);
+        return run;
+    }
+
+    /** Simulators among the descendants of a process. */
+    static List<ProcessHandle> simulators(ProcessHandle of) {
+        return of.descendants().filter(child -> child.info().command().orElse("").endsWith("natator-sim")).toList();
+    }
+
+    /** The only simulator of this process. */
+    static ProcessHandle simulator() {
+        List<ProcessHandle> all = simulators(ProcessHandle.current());
+        assertThat(all).hasSize(1);
+        return all.get(0);
+    }
+
+    /** Waits until something holds. */
+    static void await(String what, BooleanSupplier holds) throws InterruptedException {
+        long end = System.nanoTime() + PATIENCE_SECONDS * 1_000_000_000L;
+        while (!holds.getAsBoolean()) {
+            assertThat(System.nanoTime()).as("%s within %d s", what, PATIENCE_SECONDS).isLessThan(end);
+            Thread.sleep(10);
+        }
+    }
+}
