@@ -37,8 +37,10 @@ __global__ void __launch_bounds__(threads, 1) advance(const __grid_constant__ Ba
 
 template <class Real, Scheme scheme, bool effects>
 const void* batch_kernel(bool on_chip) {
-    return on_chip ? reinterpret_cast<const void*>(&advance<Real, scheme, true, effects>)
-                   : reinterpret_cast<const void*>(&advance<Real, scheme, false, effects>);
+    if constexpr (!effects) {
+        if (on_chip) return reinterpret_cast<const void*>(&advance<Real, scheme, true, effects>);
+    }
+    return reinterpret_cast<const void*>(&advance<Real, scheme, false, effects>);
 }
 
 }  // namespace natator::cuda

@@ -25,6 +25,7 @@ const void* kernel(const ModelView<Real>& model, bool on_chip) {
 
 template <class Real>
 int resident_blocks(const ModelView<Real>& model, bool on_chip) {
+    if (on_chip && model.plan.effects()) return 0;  // no such kernel: they are rare, and take long to compile
     int device = 0, most_chip_bytes = 0, processors = 0, per_processor = 0;
     check(cudaGetDevice(&device), "current device");
     check(cudaDeviceGetAttribute(&most_chip_bytes, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "shared memory");

@@ -64,7 +64,8 @@ void launch_batch(const BatchView<Real>& batch, bool on_chip, int blocks);
 template <class Real>
 int resident_blocks(const ModelView<Real>& model, bool on_chip);
 
-/// The kernel that launch_batch starts, with the code of effects (Plan::effects) or without; instantiated in a source of
+/// The kernel that launch_batch starts, with the code of effects (Plan::effects), which is there off chip only, or
+/// without; instantiated in a source of
 /// its own for each of both schemes.
 template <class Real, Scheme scheme, bool effects>
 const void* batch_kernel(bool on_chip);
