@@ -8,6 +8,7 @@ const std::vector<WaterCase>& water_cases() {
          "amplitude",
          {"amplitude after one turnover", "numerical Reynolds number", "gain of kinetic energy"},
          run_vortex},
+        {"viscous-vortex", "amplitude", {"viscosity (length^2/s)"}, run_viscous_vortex},
         {"standing-wave", "elevation of the mode (length)", {"period (s)", "decay (1/s)"}, run_standing_wave},
         {"tilted-gravity",
          "slope of the surface (degrees)",

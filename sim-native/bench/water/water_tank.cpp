@@ -93,11 +93,21 @@ double WaterTank<Real>::depth() const {
 }
 
 template <class Real>
-void WaterTank<Real>::set_gravity(const Eigen::Vector3d& gravity) {
+void WaterTank<Real>::change(const std::function<void(SolverParameters&)>& how) {
     auto changed = std::make_shared<Model>(*model_);
-    changed->parameters.gravity = gravity;
+    how(changed->parameters);
     step_ = step_of(*changed);
     model_ = changed;
+}
+
+template <class Real>
+void WaterTank<Real>::set_gravity(const Eigen::Vector3d& gravity) {
+    change([&](SolverParameters& p) { p.gravity = gravity; });
+}
+
+template <class Real>
+void WaterTank<Real>::set_kinematic_viscosity(double viscosity) {
+    change([&](SolverParameters& p) { p.kinematicViscosity = viscosity; });
 }
 
 template <class Real>

@@ -29,6 +29,8 @@ public:
     /// Advances by one frame. False if the water is unstable; then there are no more frames.
     bool frame();
     void set_gravity(const Eigen::Vector3d& gravity);
+    /// length^2/s; means nothing to the schemes that take none.
+    void set_kinematic_viscosity(double viscosity);
 
     /// A run with what is known of the tank so far: particles, wall time of the frames, instability.
     WaterRun run() const;
@@ -37,6 +39,7 @@ private:
     using Step = std::function<std::optional<Instability>(State<Real>&)>;
 
     Step step_of(const Model& model) const;
+    void change(const std::function<void(SolverParameters&)>& how);
     void settle();
 
     WaterSetting setting_;

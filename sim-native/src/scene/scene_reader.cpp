@@ -1,3 +1,5 @@
+#include <sstream>
+
 #include "io/strict_json.h"
 #include "readers.h"
 #include "scene/scene_json.h"
@@ -75,6 +77,17 @@ void check_frames(const Scene& scene, const Place& place) {
     if (frames < 0.5) fields::refuse(place.key("duration"), scene.duration, "at least one timeStep");
 }
 
+/// The water's viscosity is explicit: nu h / s^2 must stay below a tenth, h the substep and s the rest distance.
+void check_viscosity(const Scene& scene, const Place& place) {
+    if (scene.scheme != Scheme::dfsph) return;
+    const double s = scene.solver.fluidRestDistance;
+    const double most = 0.1 * s * s * scene.solver.substeps / scene.time_step;
+    if (!(scene.solver.kinematicViscosity > most)) return;
+    std::ostringstream text;
+    text << "at most " << most << " (0.1 fluidRestDistance^2 substeps / timeStep); more substeps allow more";
+    fields::refuse(place.key("solver").key("kinematicViscosity"), scene.solver.kinematicViscosity, text.str());
+}
+
 }  // namespace
 
 Scene scene_from_json(const json& document, const std::string& name) {
@@ -102,6 +115,7 @@ Scene scene_from_json(const json& document, const std::string& name) {
         fields::read_object(document.at("stopping"), place.key("stopping"), stopping_fields(), {}, scene.stopping);
     }
     check_frames(scene, place);
+    check_viscosity(scene, place);
     return scene;
 }
 

@@ -9,5 +9,8 @@ public enum Scheme {
     FLEX,
     /** Keeps the momentum of internal forces. */
     @JsonProperty("conserving")
-    CONSERVING
+    CONSERVING,
+    /** In incompressible water: divergence-free SPH. On the CPU only. */
+    @JsonProperty("dfsph")
+    DFSPH
 }

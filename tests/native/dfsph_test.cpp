@@ -1,0 +1,156 @@
+// Scheme dfsph: what its water must do as water, and what it must keep as a solver.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "model/disorder_fluid.h"
+#include "model/fluid_block.h"
+#include "natator/model_builder.h"
+#include "natator/scene.h"
+#include "natator/solver.h"
+#include "scene/scene_json.h"
+#include "water/water_case.h"
+
+namespace natator {
+namespace {
+
+constexpr double spacing = 0.1;
+
+/// A box of water with a free surface, walls at 0 and behind the last particles.
+Model box_of_water(const Eigen::Vector3i& count) {
+    Model model;
+    model.scheme = Scheme::dfsph;
+    SolverParameters& p = model.parameters;
+    p.substeps = 2;
+    p.viscosity = p.damping = p.dynamicFriction = p.particleFriction = 0;
+    const FluidBlock block{.count = count,
+                           .spacing = spacing,
+                           .origin = Eigen::Vector3d::Constant(spacing / 2),
+                           .gradient = MassGradient::uniform,
+                           .bottom_mass = 1};
+    add_fluid(block, model);
+    disorder_fluid(model);
+    model.planes = {{{0, 1, 0}, 0},
+                    {{1, 0, 0}, 0},
+                    {{-1, 0, 0}, count.x() * spacing},
+                    {{0, 0, 1}, 0},
+                    {{0, 0, -1}, count.z() * spacing}};
+    return model;
+}
+
+template <class Real>
+void advance(Solver<Real>& solver, const Model& model, State<Real>& state, int frames) {
+    for (int frame = 0; frame < frames; ++frame)
+        ASSERT_FALSE(solver.update(state, model.time_step, model.parameters.substeps)) << "frame " << frame;
+}
+
+/// Of particles of mass 1.
+struct Momenta {
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+
+    explicit Momenta(const State<double>& state) {
+        for (std::size_t i = 0; i < state.position.size(); ++i) {
+            linear += state.velocity[i];
+            angular += state.position[i].cross(state.velocity[i]);
+        }
+    }
+};
+
+/// Pair forces are equal and opposite: a drop that turns while it falls together keeps its momentum to rounding. Its
+/// angular momentum is kept only as far as the corrected gradients lie along their pairs.
+TEST(Dfsph, ADropKeepsItsMomentum) {
+    Model model = box_of_water({8, 8, 8});
+    model.planes.clear();
+    model.parameters.gravity.setZero();
+    model.parameters.kinematicViscosity = 0.01;
+    State<double> state = initial_state<double>(model);
+    for (int i = 0; i < model.particles(); ++i) {
+        const Eigen::Vector3d arm = state.position[i] - Eigen::Vector3d::Constant(0.4);
+        state.velocity[i] = Eigen::Vector3d(0, 0, 2).cross(arm) - 0.5 * arm + Eigen::Vector3d(1, 0.5, 0);
+    }
+    const Momenta before(state);
+    Solver<double> solver(model);
+    advance(solver, model, state, 60);
+    const Momenta after(state);
+    EXPECT_LE((after.linear - before.linear).norm(), 1e-12 * before.linear.norm());
+    EXPECT_LE((after.angular - before.angular).norm(), 0.02 * before.angular.norm());
+}
+
+/// p = rho g (H - y), rho = mass per volume of the lattice, in the lower part of the water.
+TEST(Dfsph, PressureIsHydrostatic) {
+    constexpr int layers = 10;
+    const Model model = box_of_water({8, layers, 8});
+    State<float> state = initial_state<float>(model);
+    Solver<float> solver(model);
+    advance(solver, model, state, 120);
+    double measured = 0, expected = 0;
+    const double density = 1 / std::pow(spacing, 3);
+    for (int frame = 0; frame < 30; ++frame) {
+        advance(solver, model, state, 1);
+        const auto pressures = solver.pressures();
+        for (int i = 0; i < model.particles(); ++i) {
+            const double y = static_cast<double>(state.position[i].y());
+            if (y > 0.6 * layers * spacing) continue;
+            measured += static_cast<double>(pressures[i]);
+            expected += density * 10 * (layers * spacing - y);
+        }
+    }
+    EXPECT_NEAR(measured / expected, 1, 0.05);
+}
+
+bench::WaterFigure figure_of(const std::string& water_case, Scheme scheme, int resolution) {
+    bench::WaterSetting setting;
+    setting.solver = {.scheme = scheme, .precision = Precision::single_precision, .substeps = 2, .iterations = 4};
+    setting.resolution = resolution;
+    for (const bench::WaterCase& one : bench::water_cases())
+        if (one.name == water_case) return one.run(setting).figures.at(0);
+    throw std::logic_error("no such case: " + water_case);
+}
+
+TEST(Dfsph, ViscosityIsWhatItIsSetTo) {
+    const bench::WaterFigure viscosity = figure_of("viscous-vortex", Scheme::dfsph, 12);
+    EXPECT_NEAR(viscosity.value / viscosity.reference, 1, 0.1);
+}
+
+/// An ideal vortex has all of its amplitude left after a turn, a packing of grains none.
+TEST(Dfsph, AVortexOutlivesATurn) {
+    EXPECT_GE(figure_of("vortex", Scheme::dfsph, 12).value, 0.9);
+    EXPECT_LE(figure_of("vortex", Scheme::conserving, 12).value, 0.2);
+}
+
+/// As heavy as the water that it displaces, a body whose muscles rest neither sinks nor rises.
+TEST(Dfsph, ANeutralBodyHovers) {
+    const Model model = build_model(load_scene("open-water/creature-2"));
+    State<float> state = initial_state<float>(model);
+    Solver<float> solver(model);
+    const auto height = [&] {
+        double sum = 0;
+        for (const int i : model.body.particles) sum += static_cast<double>(state.position[i].y());
+        return sum / static_cast<double>(model.body.particles.size());
+    };
+    advance(solver, model, state, 30);  // until the water has closed around it
+    const double before = height();
+    advance(solver, model, state, 60);
+    EXPECT_NEAR(height(), before, 0.1);  // in this time a stone falls by 5
+}
+
+TEST(Dfsph, AnyNumberOfThreadsGivesTheSameBits) {
+    const Model model = build_model(load_scene("open-water/creature-1"));
+    const auto after = [&](int threads) {
+        State<float> state = initial_state<float>(model);
+        Execution execution;
+        execution.threads = threads;
+        Solver<float> solver(model, execution);
+        advance(solver, model, state, 3);
+        return state;
+    };
+    const State<float> one = after(1), three = after(3);
+    EXPECT_TRUE(std::equal(one.position.begin(), one.position.end(), three.position.begin()));
+    EXPECT_TRUE(std::equal(one.velocity.begin(), one.velocity.end(), three.velocity.begin()));
+}
+
+}  // namespace
+}  // namespace natator
