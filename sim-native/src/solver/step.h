@@ -3,7 +3,7 @@
 #include "natator/plan.h"
 #include "stage.h"
 
-// One substep: the order of stages for both schemes and every backend. `Stages` is what a backend does in each of them:
+// One substep: the order of stages for all schemes and every backend. `Stages` is what a backend does in each of them:
 // cpu/ on the host, cuda/update.cuh by the threads of a block, cuda/large by kernels that the host launches.
 // after(stage) is called behind each.
 #if defined(__CUDACC__)
