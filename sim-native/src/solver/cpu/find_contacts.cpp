@@ -17,8 +17,8 @@ void Substep<Real>::find_contacts() {
         const int i = ws_.particle_of[slot], cell = ws_.cell_of[i];
         const auto rows = ws_.grid.rows_around(ws_.grid.row(cell));
         SlotRuns runs;
-        int candidates = plan_.water ? 0 : add_runs(rows, cell, ws_.fluid_cell_begin, runs);
-        candidates += add_runs(rows, cell, ws_.solid_cell_begin, runs);
+        int candidates = plan_.water ? 0 : add_runs(ws_.grid, rows, cell, ws_.fluid_cell_begin, runs);
+        candidates += add_runs(ws_.grid, rows, cell, ws_.solid_cell_begin, runs);
         if (static_cast<int>(found_contacts_.size()) < candidates + lanes)
             found_contacts_.resize(2 * candidates + lanes);
         const int n = neighbour_kernels_->find(position, slot, runs, distance_squared, found_contacts_.data());

@@ -31,77 +31,37 @@ FluidView<Real> Substep<Real>::fluid_view() {
             .distance = ws_.distance.empty() ? nullptr : ws_.distance.data()};
 }
 
-/// Lists for each fluid particle the fluid particles closer than the radius plus margin at the predicted positions,
-/// in the order of their slots per run of cells, at most most_neighbours_. Pairs at distance 0 are left out.
-/// Writes the rows of these blocks to the front of `rows`; row_begin counts from there.
-template <class Real>
-void Substep<Real>::list_fluid_neighbours(int first_block, int end_block, ListRoom& room,
-                                          AlignedVector<std::int32_t>& all_rows) {
-    const Real* const position[3] = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()};
-    const Real distance_squared = constants_.search_distance * constants_.search_distance;
-    int row = -1;
-    typename CellGrid<Real>::Rows rows_around;
-    std::size_t end = 0;
-    for (int block = first_block; block < end_block; ++block) {
-        int rows = 0;
-        std::array<int, lanes> count{};
-        std::array<const std::int32_t*, lanes> list{};
-        for (int lane = 0; lane < lanes; ++lane) {
-            const int slot = block * lanes + lane;
-            if (slot >= ws_.fluid) continue;
-            const int cell = ws_.cell_of[ws_.particle_of[slot]];
-            if (ws_.grid.row(cell) != row) {
-                row = ws_.grid.row(cell);
-                rows_around = ws_.grid.rows_around(row);
-            }
-            SlotRuns runs;
-            const int candidates = add_runs(rows_around, cell, ws_.fluid_cell_begin, runs);
-            std::vector<std::int32_t>& found = room.found[lane];
-            if (static_cast<int>(found.size()) < candidates + lanes) found.resize(2 * candidates + lanes);
-            int n = neighbour_kernels_->find(position, slot, runs, distance_squared, found.data());
-            if (!plan_.uniform_fluid) {
-                const int i = ws_.particle_of[slot];
-                const auto unfelt = [&](int j) { return !collides(i, ws_.particle_of[j]); };
-                n = static_cast<int>(std::remove_if(found.begin(), found.begin() + n, unfelt) - found.begin());
-            }
-            list[lane] = found.data();
-            count[lane] = std::min(n, most_neighbours_);
-            ws_.neighbour_count[slot] = count[lane];
-            rows = std::max(rows, count[lane]);
-        }
-        const std::size_t needed = end + static_cast<std::size_t>(round_up_to_block(rows)) * lanes;
-        if (all_rows.size() < needed) all_rows.resize(needed + needed / 2);
-        neighbour_kernels_->interleave(list.data(), count.data(), rows, ws_.slots, all_rows.data() + end);
-        ws_.row_begin[block] = static_cast<int>(end / lanes);
-        end += static_cast<std::size_t>(rows) * lanes;
-    }
-    room.size = end;
-}
-
 /// More distances than fit into a processor's cache are dearer to fetch than to compute.
 constexpr std::size_t most_distances = 1 << 20;
 
-/// The first part of the blocks has its rows written in place, the others into room of their own, to be appended.
+/// Lists for each fluid particle the fluid particles closer than the radius plus margin at the predicted positions,
+/// in the order of their slots per run of cells, at most most_neighbours_. Pairs at distance 0 are left out.
 template <class Real>
 void Substep<Real>::find_fluid_neighbours() {
-    list_room_.resize(team_->most_parts());
-    for (ListRoom& room : list_room_) room.size = 0;
-    team_->for_parts(ws_.blocks(), shortest_part, [this](int part, int begin, int end) {
-        ListRoom& room = list_room_[part];
-        list_fluid_neighbours(begin, end, room, part == 0 ? ws_.neighbour : room.rows);
-    });
-    std::size_t size = 0;
-    for (const ListRoom& room : list_room_) size += room.size;
-    if (ws_.neighbour.size() < size) ws_.neighbour.resize(size + size / 2);
-    team_->for_parts(ws_.blocks(), shortest_part, [this](int part, int begin, int end) {
-        std::size_t before = 0;
-        for (int k = 0; k < part; ++k) before += list_room_[k].size;
-        if (part == 0) return;
-        const ListRoom& room = list_room_[part];
-        std::copy_n(room.rows.begin(), room.size, ws_.neighbour.begin() + static_cast<std::ptrdiff_t>(before));
-        for (int block = begin; block < end; ++block) ws_.row_begin[block] += static_cast<int>(before / lanes);
-    });
-    ws_.row_begin[ws_.blocks()] = static_cast<int>(size / lanes);
+    const auto candidates = [this](int slot, int& row, typename CellGrid<Real>::Rows& rows_around, SlotRuns& runs) {
+        if (slot >= ws_.fluid) return -1;
+        const int cell = ws_.cell_of[ws_.particle_of[slot]];
+        if (ws_.grid.row(cell) != row) {
+            row = ws_.grid.row(cell);
+            rows_around = ws_.grid.rows_around(row);
+        }
+        return add_runs(ws_.grid, rows_around, cell, ws_.fluid_cell_begin, runs);
+    };
+    const auto choose = [this](int slot, std::int32_t* found, int n) {
+        if (!plan_.uniform_fluid) {
+            const int i = ws_.particle_of[slot];
+            const auto unfelt = [&](int j) { return !collides(i, ws_.particle_of[j]); };
+            n = static_cast<int>(std::remove_if(found, found + n, unfelt) - found);
+        }
+        return std::min(n, most_neighbours_);
+    };
+    const std::size_t size = lists_.list({.position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
+                                          .blocks = ws_.blocks(),
+                                          .distance_squared = constants_.search_distance * constants_.search_distance,
+                                          .filler = ws_.slots,
+                                          .shortest_part = shortest_part,
+                                          .kernels = neighbour_kernels_},
+                                         *team_, {ws_.row_begin, ws_.neighbour, ws_.neighbour_count}, candidates, choose);
     const bool keep = size <= most_distances;
     ws_.distance.resize(keep ? std::max(size, ws_.distance.size()) : 0);
 }

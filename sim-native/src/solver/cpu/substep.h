@@ -10,7 +10,7 @@
 #include "natator/plan.h"
 #include "natator/solver.h"
 #include "physics/contact.h"
-#include "neighbour_kernels.h"
+#include "neighbour_lists.h"
 #include "plane_kernels.h"
 #include "solver/step.h"
 #include "thread_team.h"
@@ -102,22 +102,6 @@ protected:
     }
     /// Does particle i feel particle j?
     bool collides(int i, int j) const;
-    /// Adds the runs of slots, out of those that begin at `cell_begin`, with all particles near those of a cell.
-    /// Returns how many slots they hold.
-    int add_runs(const typename CellGrid<Real>::Rows& rows, int cell, const std::vector<int>& cell_begin,
-                 SlotRuns& runs) const {
-        const auto range = ws_.grid.range_around(cell);
-        int slots = 0;
-        for (int k = 0; k < rows.count; ++k) {
-            const int begin = cell_begin[rows.first_cell[k] + range.first];
-            const int end = cell_begin[rows.first_cell[k] + range.last + 1];
-            runs.begin[runs.count] = begin;  // always written and only sometimes kept: no branch to mispredict
-            runs.end[runs.count] = end;
-            runs.count += begin != end;
-            slots += end - begin;
-        }
-        return slots;
-    }
     FluidView<Real> fluid_view();  ///< of all blocks
     MotionView<Real> motion_view();
 
@@ -223,14 +207,7 @@ private:
     std::vector<Vec3<Real>> normal_, curl_;    ///< by fluid slot; empty unless an effect needs them
     std::vector<int> overlaps_;                ///< by slot; empty unless an effect needs it
 
-    /// Room for the neighbours of one block, and for the rows of a part of the blocks.
-    struct ListRoom {
-        std::array<std::vector<std::int32_t>, lanes> found;
-        AlignedVector<std::int32_t> rows;
-        std::size_t size = 0;  ///< of the rows
-    };
-    void list_fluid_neighbours(int first_block, int end_block, ListRoom& room, AlignedVector<std::int32_t>& rows);
-    std::vector<ListRoom> list_room_{1};        ///< by part of the blocks
+    NeighbourLists<Real> lists_;
     std::vector<std::int32_t> found_contacts_;  ///< room for the contacts of one particle
     std::vector<std::pair<int, int>> pairs_;    ///< room for the contacts of one substep
 };

@@ -134,64 +134,28 @@ void Water<Real>::lay_out(const State<Real>& state) {
     for (int slot = far_slot_; slot < static_cast<int>(all); ++slot) put_nothing(slot);
 }
 
-/// Sliced ELLPACK as in Workspace, of all particles with all particles and images.
+/// Of all particles with all particles and images.
 template <class Real>
 void Water<Real>::find_neighbours(ThreadTeam& team) {
-    const Real* const position[3] = {position_.x.data(), position_.y.data(), position_.z.data()};
-    const int blocks = image_begin_ / lanes;
-    list_room_.resize(team.most_parts());
-    for (ListRoom& room : list_room_) room.size = 0;
-    team.for_parts(blocks, shortest_part, [&](int part, int begin, int end) {
-        ListRoom& room = list_room_[part];
-        for (int block = begin; block < end; ++block) {
-            int rows = 0;
-            std::array<int, lanes> count{};
-            std::array<const std::int32_t*, lanes> list{};
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int slot = block * lanes + lane;
-                if (slot >= particles_) continue;
-                const int cell = cell_of_[particle_of_[slot]];
-                const auto around = grid_.rows_around(grid_.row(cell));
-                const auto range = grid_.range_around(cell);
-                SlotRuns runs;
-                int candidates = 0;
-                for (const auto* begins : {&cell_begin_, &image_cell_begin_})
-                    for (int k = 0; k < around.count; ++k) {
-                        const int first = (*begins)[around.first_cell[k] + range.first];
-                        const int last = (*begins)[around.first_cell[k] + range.last + 1];
-                        runs.begin[runs.count] = first;
-                        runs.end[runs.count] = last;
-                        runs.count += first != last;
-                        candidates += last - first;
-                    }
-                std::vector<std::int32_t>& found = room.found[lane];
-                if (static_cast<int>(found.size()) < candidates + lanes) found.resize(2 * candidates + lanes);
-                count[lane] = neighbour_kernels_->find(position, slot, runs, radius_ * radius_, found.data());
-                list[lane] = found.data();
-                neighbour_count_[slot] = count[lane];
-                rows = std::max(rows, count[lane]);
-            }
-            const std::size_t needed = room.size + static_cast<std::size_t>(round_up_to_block(rows)) * lanes;
-            if (room.rows.size() < needed) room.rows.resize(needed + needed / 2);
-            neighbour_kernels_->interleave(list.data(), count.data(), rows, far_slot_, room.rows.data() + room.size);
-            row_begin_[block] = static_cast<int>(room.size / lanes);
-            room.size += static_cast<std::size_t>(rows) * lanes;
+    const auto candidates = [this](int slot, int& row, typename CellGrid<Real>::Rows& rows_around, SlotRuns& runs) {
+        if (slot >= particles_) return -1;
+        const int cell = cell_of_[particle_of_[slot]];
+        if (grid_.row(cell) != row) {
+            row = grid_.row(cell);
+            rows_around = grid_.rows_around(row);
         }
-    });
-    std::size_t size = 0;
-    for (const ListRoom& room : list_room_) size += room.size;
-    if (neighbour_.size() < size) {
-        neighbour_.resize(size + size / 4);
-        gradient_.resize(neighbour_.size());
-    }
-    team.for_parts(blocks, shortest_part, [&](int part, int begin, int end) {
-        std::size_t before = 0;
-        for (int k = 0; k < part; ++k) before += list_room_[k].size;
-        const ListRoom& room = list_room_[part];
-        std::copy_n(room.rows.begin(), room.size, neighbour_.begin() + static_cast<std::ptrdiff_t>(before));
-        for (int block = begin; block < end; ++block) row_begin_[block] += static_cast<int>(before / lanes);
-    });
-    row_begin_[blocks] = static_cast<int>(size / lanes);
+        const int slots = add_runs(grid_, rows_around, cell, cell_begin_, runs);
+        return slots + add_runs(grid_, rows_around, cell, image_cell_begin_, runs);
+    };
+    const std::size_t size = lists_.list({.position = {position_.x.data(), position_.y.data(), position_.z.data()},
+                                          .blocks = image_begin_ / lanes,
+                                          .distance_squared = radius_ * radius_,
+                                          .filler = far_slot_,
+                                          .shortest_part = shortest_part,
+                                          .kernels = neighbour_kernels_},
+                                         team, {row_begin_, neighbour_, neighbour_count_}, candidates,
+                                         [](int, std::int32_t*, int n) { return n; });
+    if (gradient_.x.size() < size) gradient_.resize(neighbour_.size());
 }
 
 template <class Real>

@@ -5,7 +5,7 @@
 
 #include "../aligned.h"
 #include "../cell_grid.h"
-#include "../neighbour_kernels.h"
+#include "../neighbour_lists.h"
 #include "../thread_team.h"
 #include "mirror.h"
 #include "natator/model.h"
@@ -85,13 +85,7 @@ private:
     AlignedVector<std::int32_t> neighbour_;
     Vector3Array<Real> gradient_;
 
-    /// Room for the lists of a part of the blocks.
-    struct ListRoom {
-        std::array<std::vector<std::int32_t>, 16> found;
-        AlignedVector<std::int32_t> rows;
-        std::size_t size = 0;
-    };
-    std::vector<ListRoom> list_room_;
+    NeighbourLists<Real> lists_;
 };
 
 }  // namespace natator::cpu

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "aligned.h"
+#include "cell_grid.h"
+#include "neighbour_kernels.h"
+#include "thread_team.h"
+#include "workspace.h"
+
+namespace natator::cpu {
+
+/// Adds the runs of slots, out of those that begin at `cell_begin`, with all particles near those of a cell.
+/// Returns how many slots they hold.
+template <class Real>
+int add_runs(const CellGrid<Real>& grid, const typename CellGrid<Real>::Rows& rows, int cell,
+             const std::vector<int>& cell_begin, SlotRuns& runs) {
+    const auto range = grid.range_around(cell);
+    int slots = 0;
+    for (int k = 0; k < rows.count; ++k) {
+        const int begin = cell_begin[rows.first_cell[k] + range.first];
+        const int end = cell_begin[rows.first_cell[k] + range.last + 1];
+        runs.begin[runs.count] = begin;  // always written and only sometimes kept: no branch to mispredict
+        runs.end[runs.count] = end;
+        runs.count += begin != end;
+        slots += end - begin;
+    }
+    return slots;
+}
+
+/// Where NeighbourLists::list writes: block b holds rows [row_begin[b], row_begin[b+1]) of 16 slots each (sliced ELLPACK).
+struct SlicedRows {
+    std::vector<int>& row_begin;             ///< one more than blocks
+    AlignedVector<std::int32_t>& neighbour;  ///< grows, and may be longer than the rows need
+    std::vector<int>& count;                 ///< neighbours by slot
+};
+
+/// Builds lists of neighbours, block by block on all threads, the same for any number of them.
+template <class Real>
+class NeighbourLists {
+public:
+    struct Search {
+        const Real* position[3];    ///< by slot
+        int blocks;                 ///< that get lists
+        Real distance_squared;      ///< neighbours are nearer
+        std::int32_t filler;        ///< slot that unused entries point to
+        int shortest_part;          ///< blocks; fewer are done before another thread is awake
+        const NeighbourKernels<Real>* kernels;
+    };
+
+    /// candidates(slot, row, rows around it, runs) gives the runs to look through and returns how many slots they hold, or
+    /// -1 for a slot without particle; the row of cells and those around it are the last slot's (row -1 at first), so that
+    /// they need not be found anew. choose(slot, found, n) drops those that do not count and returns how many are left.
+    /// Returns the number of entries in all rows.
+    template <class Candidates, class Choose>
+    std::size_t list(const Search& search, ThreadTeam& team, SlicedRows rows, const Candidates& candidates,
+                     const Choose& choose) {
+        rooms_.resize(team.most_parts());
+        for (Room& room : rooms_) room.size = 0;
+        // The first part of the blocks has its rows written in place, the others into room of their own, to be appended.
+        team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {
+            list_part(search, begin, end, rooms_[part], part == 0 ? rows.neighbour : rooms_[part].rows, rows, candidates,
+                      choose);
+        });
+        std::size_t size = 0;
+        for (const Room& room : rooms_) size += room.size;
+        if (rows.neighbour.size() < size) rows.neighbour.resize(size + size / 2);
+        team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {
+            if (part == 0) return;
+            std::size_t before = 0;
+            for (int k = 0; k < part; ++k) before += rooms_[k].size;
+            const Room& room = rooms_[part];
+            std::copy_n(room.rows.begin(), room.size, rows.neighbour.begin() + static_cast<std::ptrdiff_t>(before));
+            for (int block = begin; block < end; ++block) rows.row_begin[block] += static_cast<int>(before / lanes);
+        });
+        rows.row_begin[search.blocks] = static_cast<int>(size / lanes);
+        return size;
+    }
+
+private:
+    /// Room for the neighbours of one block, and for the rows of a part of the blocks.
+    struct Room {
+        std::array<std::vector<std::int32_t>, lanes> found;
+        AlignedVector<std::int32_t> rows;
+        std::size_t size = 0;  ///< of the rows
+    };
+
+    template <class Candidates, class Choose>
+    void list_part(const Search& search, int first_block, int end_block, Room& room,
+                   AlignedVector<std::int32_t>& all_rows, SlicedRows rows, const Candidates& candidates,
+                   const Choose& choose) {
+        int row = -1;
+        typename CellGrid<Real>::Rows rows_around;
+        std::size_t end = 0;
+        for (int block = first_block; block < end_block; ++block) {
+            int most = 0;
+            std::array<int, lanes> count{};
+            std::array<const std::int32_t*, lanes> list{};
+            for (int lane = 0; lane < lanes; ++lane) {
+                const int slot = block * lanes + lane;
+                SlotRuns runs;
+                const int slots = candidates(slot, row, rows_around, runs);
+                if (slots < 0) continue;
+                std::vector<std::int32_t>& found = room.found[lane];
+                if (static_cast<int>(found.size()) < slots + lanes) found.resize(2 * slots + lanes);
+                const int n = search.kernels->find(search.position, slot, runs, search.distance_squared, found.data());
+                list[lane] = found.data();
+                count[lane] = choose(slot, found.data(), n);
+                rows.count[slot] = count[lane];
+                most = std::max(most, count[lane]);
+            }
+            const std::size_t needed = end + static_cast<std::size_t>(round_up_to_block(most)) * lanes;
+            if (all_rows.size() < needed) all_rows.resize(needed + needed / 2);
+            search.kernels->interleave(list.data(), count.data(), most, search.filler, all_rows.data() + end);
+            rows.row_begin[block] = static_cast<int>(end / lanes);
+            end += static_cast<std::size_t>(most) * lanes;
+        }
+        room.size = end;
+    }
+
+    std::vector<Room> rooms_{1};  ///< by part of the blocks
+};
+
+}  // namespace natator::cpu
