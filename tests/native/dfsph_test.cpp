@@ -123,7 +123,8 @@ TEST(Dfsph, AVortexOutlivesATurn) {
 
 /// As heavy as the water that it displaces, a body whose muscles rest neither sinks nor rises.
 TEST(Dfsph, ANeutralBodyHovers) {
-    const Model model = build_model(load_scene("open-water/creature-2"));
+    Model model = build_model(load_scene("open-water/creature-2"));
+    model.parameters.substeps = 2;
     State<float> state = initial_state<float>(model);
     Solver<float> solver(model);
     const auto height = [&] {

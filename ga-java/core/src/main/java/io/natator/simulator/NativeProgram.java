@@ -100,11 +100,11 @@ final class NativeProgram implements AutoCloseable {
     }
 
     /** Reads up to one byte more than allowed; then the program is killed, since it would wait for a reader. */
-    private static byte[] readLimited(Process process) throws IOException {
+    private byte[] readLimited(Process process) throws IOException {
         try (InputStream stdout = process.getInputStream()) {
             byte[] bytes = stdout.readNBytes(MAX_OUTPUT_BYTES + 1);
             if (bytes.length > MAX_OUTPUT_BYTES) {
-                ProcessGroup.kill(process);
+                processes.kill(process);
             }
             return bytes;
         }

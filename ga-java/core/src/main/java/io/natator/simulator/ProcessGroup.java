@@ -1,10 +1,17 @@
 package io.natator.simulator;
 
 import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.DirectoryIteratorException;
+import java.nio.file.DirectoryStream;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.List;
-import java.util.Set;
+import java.util.Map;
+import java.util.UUID;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicInteger;
 
 /** The native processes of one owner. None of them, nor any descendant, outlives it or this virtual machine. */
 public final class ProcessGroup implements AutoCloseable {
@@ -12,7 +19,13 @@ public final class ProcessGroup implements AutoCloseable {
     /** A killed process is gone at once unless the system is in trouble. */
     private static final long KILL_GRACE_SECONDS = 5;
 
-    private final Set<Process> running = ConcurrentHashMap.newKeySet();
+    /** In the environment of a process and of all its descendants: which start they come from. */
+    private static final String MARK = "NATATOR_STARTED_AS";
+    private static final Path PROCESSES = Path.of("/proc");
+
+    private final String name = UUID.randomUUID().toString();
+    private final AtomicInteger started = new AtomicInteger();
+    private final Map<Process, String> running = new ConcurrentHashMap<>();
     private final Thread stopAtExit = new Thread(this::stop, "stop-simulators");
     private volatile boolean stopped;
 
@@ -34,12 +47,15 @@ public final class ProcessGroup implements AutoCloseable {
     public Process start(List<String> command) throws SimulatorFailure, InterruptedException {
         failIfStopped();
         Process process;
+        String mark = MARK + '=' + name + '.' + started.incrementAndGet();
         try {
-            process = new ProcessBuilder(command).start();
+            ProcessBuilder builder = new ProcessBuilder(command);
+            builder.environment().put(MARK, mark.substring(MARK.length() + 1));
+            process = builder.start();
         } catch (IOException e) {
             throw new SimulatorFailure("cannot start " + command.get(0) + ": " + e.getMessage(), e);
         }
-        running.add(process);
+        running.put(process, mark);
         if (stopped) {
             end(process);
         }
@@ -73,17 +89,51 @@ public final class ProcessGroup implements AutoCloseable {
      * Kills a process with all its descendants. Not by {@link Process#destroyForcibly()}, which also closes the pipes:
      * that waits for a thread that is writing, and so for a descendant that holds the pipe open but does not read it.
      */
-    static void kill(Process process) {
+    void kill(Process process) {
+        String mark = running.get(process);
         if (process.isAlive()) {
             List<ProcessHandle> descendants = process.descendants().toList();
             process.toHandle().destroyForcibly();
             descendants.forEach(ProcessHandle::destroyForcibly);
+            while (mark != null && killMarked(mark + '\0')) {
+                Thread.onSpinWait();
+            }
+        }
+    }
+
+    /**
+     * Kills what the process started while its descendants were being counted, which is nobody's child by now. Where
+     * there is no /proc such processes stay.
+     *
+     * @return whether there was any: it may have started more
+     */
+    private static boolean killMarked(String mark) {
+        boolean any = false;
+        try (DirectoryStream<Path> folders = Files.newDirectoryStream(PROCESSES, "[0-9]*")) {
+            for (Path folder : folders) {
+                if (isMarked(folder, mark)) {
+                    any |= ProcessHandle.of(Long.parseLong(folder.getFileName().toString()))
+                            .map(ProcessHandle::destroyForcibly).orElse(false);
+                }
+            }
+        } catch (IOException | DirectoryIteratorException e) {
+            return false;
+        }
+        return any;
+    }
+
+    private static boolean isMarked(Path process, String mark) {
+        try {
+            String environment = Files.readString(process.resolve("environ"), StandardCharsets.ISO_8859_1);
+            return environment.contains(mark);
+        } catch (IOException e) {
+            return false;  // it has ended, or is another user's
         }
     }
 
     private void stop() {
         stopped = true;
-        running.forEach(ProcessGroup::kill);
+        running.keySet().forEach(this::kill);
     }
 
     boolean isStopped() {
@@ -93,6 +143,9 @@ public final class ProcessGroup implements AutoCloseable {
     @Override
     public void close() {
         stop();
+        if (started.get() > 0) {
+            killMarked(MARK + '=' + name);  // what a program left behind that ended by itself
+        }
         try {
             Runtime.getRuntime().removeShutdownHook(stopAtExit);
         } catch (IllegalStateException e) {

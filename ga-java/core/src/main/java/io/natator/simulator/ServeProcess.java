@@ -126,7 +126,7 @@ final class ServeProcess implements AutoCloseable {
                     line.reset();
                 } else if (line.size() == MAX_LINE_BYTES) {
                     answers.put(new Line(null, "more than " + MAX_LINE_BYTES + " bytes in one line"));
-                    ProcessGroup.kill(process);
+                    group.kill(process);
                     return;
                 } else {
                     line.write(next);

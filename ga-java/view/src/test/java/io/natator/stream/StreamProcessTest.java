@@ -139,6 +139,19 @@ class StreamProcessTest {
         assertThat(next.get()).isNull();
     }
 
+    /** What is started while the descendants are being counted is nobody's child when the program has been killed. */
+    @Test
+    void closingEndsWhatIsBeingStarted() throws IOException, InterruptedException {
+        String unlike = "3600." + ProcessHandle.current().pid();
+        StreamProcess process = new StreamProcess(
+                program(scene(), "for i in $(seq 200); do sleep " + unlike + " & done; wait"), OPTIONS);
+        process.next();
+        process.close();
+
+        assertThat(ProcessHandle.allProcesses().filter(other -> other.info().commandLine().orElse("").contains(unlike))
+                .filter(ProcessHandle::isAlive)).isEmpty();
+    }
+
     @Test
     void aProgramThatReadsNoCommandsCostsNoMemory() throws IOException, InterruptedException {
         String command = "{\"do\":\"" + "x".repeat(1000) + "\"}";
