@@ -13,7 +13,7 @@ SOLVER = [("substeps", 2), ("numIterations", 2), ("gravity", [0, -9.81, 0]), ("r
           ("fluidRestDistance", 0.05), ("dynamicFriction", 0.1), ("staticFriction", 0.1), ("particleFriction", 0.1),
           ("restitution", 0.5), ("adhesion", 1), ("sleepThreshold", 0.1), ("maxSpeed", 10), ("maxAcceleration", 100),
           ("shockPropagation", 1), ("dissipation", 0.1), ("damping", 0.1), ("cohesion", 0.1), ("surfaceTension", 1),
-          ("viscosity", 1), ("vorticityConfinement", 1), ("solidPressure", 1), ("freeSurfaceDrag", 0.1), ("buoyancy", 1),
+          ("viscosity", 1), ("kinematicViscosity", 0.001), ("kernelSupport", 2.5), ("vorticityConfinement", 1), ("solidPressure", 1), ("freeSurfaceDrag", 0.1), ("buoyancy", 1),
           ("collisionDistance", 0.05), ("particleCollisionMargin", 0.01), ("shapeCollisionMargin", 0.01),
           ("relaxationFactor", 1), ("relaxationMode", "local"), ("maxNeighborsPerParticle", 96)]
 SCENE = [("scheme", "conserving"), ("base", "thesis/tank"), ("duration", 0.02), ("timeStep", 1 / 60), ("fluid", None),
@@ -29,7 +29,7 @@ def overrides(random):
     if random.random() < 0.3:
         patch["fluid"] = {"count": [7, 5, 5]}
     if random.random() < 0.3:
-        patch["scheme"] = "conserving"
+        patch["scheme"] = random.choice(["conserving", "dfsph"])
     return patch
 
 

@@ -32,7 +32,7 @@ Model box_of_water(const Eigen::Vector3i& count) {
                            .gradient = MassGradient::uniform,
                            .bottom_mass = 1};
     add_fluid(block, model);
-    disorder_fluid(model);
+    disorder_fluid(spacing, model);
     model.planes = {{{0, 1, 0}, 0},
                     {{1, 0, 0}, 0},
                     {{-1, 0, 0}, count.x() * spacing},

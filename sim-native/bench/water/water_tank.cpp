@@ -1,5 +1,6 @@
 #include "water/water_tank.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -29,7 +30,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting) {
                            .gradient = MassGradient::uniform,
                            .bottom_mass = 1};
     add_fluid(block, model);
-    if (model.scheme == Scheme::dfsph) disorder_fluid(model);
+    if (model.scheme == Scheme::dfsph) disorder_fluid(spacing, model);
     model.planes = {{{0, 1, 0}, 0},
                     {{1, 0, 0}, 0},
                     {{-1, 0, 0}, count.x() * spacing},
@@ -49,12 +50,13 @@ WaterTank<Real>::WaterTank(const Eigen::Vector3i& count, const WaterSetting& set
     step_ = step_of(*model_);
 }
 
-/// The thesis' viscosity and damping bring the water to rest, whatever the run itself has.
+/// Viscosity and damping bring the water to rest, whatever the run itself has.
 template <class Real>
 void WaterTank<Real>::settle() {
     Model calm = *model_;
     calm.parameters.viscosity = SolverParameters().viscosity;
-    calm.parameters.kinematicViscosity = 0.05;
+    const double h = calm.time_step / calm.parameters.substeps, s = calm.parameters.fluidRestDistance;
+    calm.parameters.kinematicViscosity = std::min(0.05, 0.1 * s * s / h);
     calm.parameters.damping = 4;
     const Step step = step_of(calm);
     for (long frame = 0; frame < std::lround(settling / calm.time_step) && !instability_; ++frame)

@@ -23,7 +23,7 @@ constexpr double gibibyte = 1024.0 * 1024 * 1024;
 
 // Bytes, with the larger type of numbers and the room that growing arrays leave.
 constexpr double bytes_of_particle = 500, bytes_of_neighbour = 16, bytes_of_contact = 32, bytes_of_spring = 100,
-                 bytes_of_member = 80, bytes_of_cell = 16;
+                 bytes_of_member = 80, bytes_of_cell = 16, bytes_of_image = 200, bytes_of_gradient = 32;
 // In visits of a pair.
 constexpr double work_of_particle = 4, work_of_cluster = 100, work_of_substep = 1000, work_of_cell = 0.1;
 
@@ -38,6 +38,19 @@ Grid grid_over(const Model& model, double search_distance) {
     grid.cover({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}, search_distance,
                4096 + 16 * model.particles());
     return grid;
+}
+
+/// Of particles in the planes that they are nearer to than `distance`, as scheme `dfsph` has them: as if how near one is to
+/// a plane did not depend on the others.
+double images_at_start(const Model& model, double distance) {
+    const double particles = model.particles();
+    double with_images = particles;
+    for (const Plane& plane : model.planes) {
+        double near = 0;
+        for (const Eigen::Vector3d& place : model.position) near += plane.distance(place) < distance ? 1 : 0;
+        with_images *= 1 + near / particles;
+    }
+    return with_images - particles;
 }
 
 /// Number of particles in all cells before each.
@@ -119,21 +132,25 @@ Cost cost_of(const Model& model) {
     const double particles = model.particles();
     const SolverParameters& p = model.parameters;
     if (model.position.empty()) return cost;
-    const Candidates start = candidates_at_start(model, p.radius + p.particleCollisionMargin);
+    const bool water = model.scheme == Scheme::dfsph;
+    const double support = p.kernelSupport * p.fluidRestDistance;
+    const double reach = water ? support : p.radius;
+    const Candidates start = candidates_at_start(model, water ? reach : reach + p.particleCollisionMargin);
     double fluid = 0;
-    for (int i = 0; i < model.particles(); ++i) fluid += model.is_fluid(i) ? 1 : 0;
+    for (int i = 0; i < model.particles(); ++i) fluid += water || model.is_fluid(i) ? 1 : 0;
 
     // Fluid at rest: sqrt(2) particles in a cube of its spacing at most; cells are searched to 20 cubes of the radius.
-    const double ratio = p.fluidRestDistance > 0 ? p.radius / p.fluidRestDistance : 0;
+    const double ratio = p.fluidRestDistance > 0 ? reach / p.fluidRestDistance : 0;
     const double per_cube = std::numbers::sqrt2 * ratio * ratio * ratio;
     const double at_rest = 4 * std::numbers::pi / 3 * per_cube;
     double most = p.maxNeighborsPerParticle;
     if (model.scheme == Scheme::conserving) most = std::max(most, 4 * at_rest);
-    most = std::min(most, fluid);
+    most = water ? fluid : std::min(most, fluid);
     cost.candidates = std::max(start.fluid, fluid * std::min(20.25 * per_cube, fluid)) + start.contacts;
     const double of_fluid = fluid > 0 ? std::max(start.fluid / fluid / 2, at_rest) : 0;  // half of the cells is near
     const double fluid_neighbours = fluid * std::min(of_fluid, most);
-    cost.neighbours = fluid_neighbours + 2 * start.contacts;
+    const double images = water ? images_at_start(model, support) : 0;
+    cost.neighbours = fluid_neighbours * (1 + images / particles) + 2 * start.contacts;
 
     double members = 0;
     for (const Cluster& cluster : model.clusters) members += static_cast<double>(cluster.particles.size());
@@ -147,6 +164,7 @@ Cost cost_of(const Model& model) {
     cost.bytes = bytes_of_particle * particles + bytes_of_neighbour * fluid_neighbours +
                  bytes_of_contact * 2 * start.contacts + bytes_of_spring * springs + bytes_of_member * members +
                  bytes_of_cell * start.cells;
+    if (water) cost.bytes += bytes_of_image * images + bytes_of_gradient * cost.neighbours;
     return cost;
 }
 

@@ -4,14 +4,14 @@
 
 namespace natator {
 
-void disorder_fluid(Model& model) {
-    constexpr double most = 0.2;  // of the rest distance
+void disorder_fluid(double spacing, Model& model) {
+    constexpr double most = 0.2;  // of the spacing
     std::mt19937 random(20);      // the same everywhere, unlike the distributions of the library
     const auto number = [&random] { return 2 * static_cast<double>(random()) / 4294967295.0 - 1; };
     for (int i = 0; i < model.particles(); ++i) {
         if (!model.is_fluid(i)) continue;
         for (int axis = 0; axis < 3; ++axis)
-            model.position[i][axis] += most * model.parameters.fluidRestDistance * number();
+            model.position[i][axis] += most * spacing * number();
     }
 }
 

@@ -4,8 +4,8 @@
 
 namespace natator {
 
-/// Moves each fluid particle by up to a fifth of the rest distance along each axis, by its index alone: incompressible
+/// Moves each fluid particle by up to a fifth of `spacing` along each axis, the same in every run: incompressible
 /// particles on a lattice are a crystal, which resists shear, and only disordered ones a liquid.
-void disorder_fluid(Model& model);
+void disorder_fluid(double spacing, Model& model);
 
 }  // namespace natator

@@ -107,9 +107,10 @@ Model build_model(const Scene& scene) {
     if (scene.fluid) {
         check_clearance(scene, model.particles());
         add_fluid(*scene.fluid, model);
-        if (scene.scheme == Scheme::dfsph) disorder_fluid(model);
     }
     check_inside_tank(scene, model);
+    if (scene.scheme == Scheme::dfsph && scene.fluid)
+        disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluidRestDistance), model);
     return model;
 }
 

@@ -1,7 +1,7 @@
-// The water of scheme `dfsph`: incompressible SPH, made so by two pressure solves a substep (Bender, Koschier:
-// Divergence-Free SPH for Incompressible and Viscous Fluids, 2017), with the kernel C2 of Wendland (1995), and with
-// gradients that are exact for linear fields (Bonet, Lok: Variational and momentum preservation aspects of SPH, 1999,
-// eq. 47-49), averaged over a pair, so that its forces stay equal and opposite. Sums run over the neighbours j of a
+// The water of scheme `dfsph`: incompressible SPH by two pressure solves a substep (Bender, Koschier: Divergence-Free SPH
+// for Incompressible and Viscous Fluids, 2017), with the kernel C2 of Wendland (1995), and with gradients corrected to be
+// exact for linear fields (Bonet, Lok: Variational and momentum preservation aspects of SPH, 1999, eq. 47-49). A pair
+// takes the mean of its two corrections: its forces stay equal and opposite, and it is nearly as exact. Sums run over the neighbours j of a
 // particle i, difference = x_i - x_j, R the kernel's support. V is a particle's volume; density is the sum of V W, 1 at
 // rest, whatever the particles weigh.
 #pragma once
@@ -59,7 +59,8 @@ NATATOR_HD T unit_part(T v) {
 inline constexpr double corrected_density = 0.7, uncorrected_density = 0.5;
 inline constexpr double corrected_determinant = 0.4, uncorrected_determinant = 0.2;
 
-/// Density, first moments of the kernel's gradient, where neighbours crowd, and how fast they pass.
+/// Density, first moments of the kernel's gradient, the way out of where neighbours crowd (particle shifting: Lind, Xu,
+/// Stansby, Rogers, 2012), and how fast they pass.
 template <class T>
 struct MomentSums {
     T density{};
@@ -109,7 +110,7 @@ struct MomentSums {
     }
 };
 
-/// G_ij = V_i V_j (L_i + L_j)/2 grad_i W: the derivative of V_i times the density by x_j, with the sign of i's.
+/// G_ij = V_i V_j (L_i + L_j)/2 grad_i W: sum_j (v_j - v_i) G_ij is V_i times the divergence of v at i.
 template <class T, class R>
 NATATOR_HD Vec3<T> pair_gradient(const Vec3<T>& difference, const WendlandKernel<R>& kernel, T volumes,
                                  const Symmetric3<T>& both) {

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "io/strict_json.h"
 #include "readers.h"
@@ -77,15 +80,42 @@ void check_frames(const Scene& scene, const Place& place) {
     if (frames < 0.5) fields::refuse(place.key("duration"), scene.duration, "at least one timeStep");
 }
 
-/// The water's viscosity is explicit: nu h / s^2 must stay below a tenth, h the substep and s the rest distance.
+/// The water's viscosity is explicit: nu h / s^2 must stay below a tenth, h the longest substep and s the rest distance.
 void check_viscosity(const Scene& scene, const Place& place) {
-    if (scene.scheme != Scheme::dfsph) return;
-    const double s = scene.solver.fluidRestDistance;
-    const double most = 0.1 * s * s * scene.solver.substeps / scene.time_step;
+    double h = scene.time_step / scene.solver.substeps;
+    if (scene.settling.updates > 0) h = std::max(h, scene.settling.time_step / scene.settling.substeps);
+    const double most = 0.1 * scene.solver.fluidRestDistance * scene.solver.fluidRestDistance / h;
     if (!(scene.solver.kinematicViscosity > most)) return;
     std::ostringstream text;
-    text << "at most " << most << " (0.1 fluidRestDistance^2 substeps / timeStep); more substeps allow more";
+    text << "at most " << most << " (0.1 fluidRestDistance^2 / longest substep, settling included)";
     fields::refuse(place.key("solver").key("kinematicViscosity"), scene.solver.kinematicViscosity, text.str());
+}
+
+/// Mirrors fill space only where they meet at right angles, or face each other.
+void check_mirrors(const Scene& scene, const Place& place) {
+    constexpr double tolerance = 1e-3;
+    for (std::size_t i = 0; i < scene.planes.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+            const double cosine = scene.planes[i].normal.dot(scene.planes[k].normal);
+            if (std::abs(cosine) < tolerance || cosine < tolerance - 1) continue;
+            std::ostringstream text;
+            text << "at a right angle to planes[" << k << "] or facing it, in scheme dfsph";
+            const auto& n = scene.planes[i].normal;
+            fields::refuse(place.key("planes").item(i), json{n.x(), n.y(), n.z(), scene.planes[i].offset}, text.str());
+        }
+}
+
+void check_water(const Scene& scene, const Place& place) {
+    if (scene.scheme != Scheme::dfsph) return;
+    const SolverParameters& p = scene.solver;
+    const std::pair<const char*, double> unsupported[] = {{"cohesion", p.cohesion},
+                                                          {"surfaceTension", p.surfaceTension},
+                                                          {"vorticityConfinement", p.vorticityConfinement},
+                                                          {"freeSurfaceDrag", p.freeSurfaceDrag}};
+    for (const auto& [key, value] : unsupported)
+        if (value != 0) fields::refuse(place.key("solver").key(key), value, "0 in scheme dfsph");
+    check_viscosity(scene, place);
+    check_mirrors(scene, place);
 }
 
 }  // namespace
@@ -115,7 +145,7 @@ Scene scene_from_json(const json& document, const std::string& name) {
         fields::read_object(document.at("stopping"), place.key("stopping"), stopping_fields(), {}, scene.stopping);
     }
     check_frames(scene, place);
-    check_viscosity(scene, place);
+    check_water(scene, place);
     return scene;
 }
 

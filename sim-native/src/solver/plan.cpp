@@ -101,14 +101,14 @@ std::vector<std::string> describe_plan(const Model& model) {
     const auto each = [&](Stage stage, const char* kind = "") {
         return std::to_string(model.parameters.numIterations) + " x per substep: " + kind + name(stage);
     };
-    add(plan.water, once("pressure and viscosity of the water"));
+    add(plan.water, once("divergence and viscosity of the water"));
     add(true, once(name(Stage::predict)));
     add(plan.fluid || plan.contacts, once("sort into cells"));
     add(plan.fluid, once(std::string("find fluid neighbours") + (plan.uniform_fluid ? "" : " (test per pair)")));
     add(plan.contacts, once("find contacts"));
     add(plan.planes, once("find plane contacts"));
     add(plan.fluid, each(Stage::density) + (plan.solid_pressure ? " with solid pressure" : ""));
-    add(plan.fluid, each(Stage::density_constraint));
+    add(plan.fluid || plan.water, each(Stage::density_constraint));
     add(plan.cohesion && flex, each(Stage::cohesion));
     add(plan.contacts, each(Stage::contacts) + (plan.particle_friction ? " with friction" : "") +
                            (plan.shock_propagation ? ", shock propagation" : ""));

@@ -23,7 +23,7 @@ enum class Grouping {
     solids_aside,  ///< scheme `conserving`: solids beside the fluid that touches none
 };
 
-/// The groups of constraints that act on solids, in the order of both schemes.
+/// The groups of constraints that act on solids, in the order of all schemes.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void solve_solids(Stages& stages, const Plan& plan, const AfterStage& after) {
@@ -73,7 +73,8 @@ NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterSt
     }
 }
 
-/// One iteration of the schemes `conserving` and `dfsph`, whose water is solved with the prediction: each group of constraints in turn, on the positions that the last one left.
+/// One iteration of the schemes `conserving` and `dfsph`: each group of constraints in turn, on the positions that the
+/// last one left.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) {
@@ -92,7 +93,7 @@ NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterS
     }
 }
 
-/// What acts on the velocities beyond the constraints, the same in both schemes; all of it is off in the thesis. Only
+/// What acts on the velocities beyond the constraints, the same in all schemes; all of it is off in the thesis. Only
 /// Stages with `effects` are called: a kernel without their code has registers to spare for the rest.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "aligned.h"
 #include "cell_grid.h"
+#include "natator/error.h"
 #include "neighbour_kernels.h"
 #include "thread_team.h"
 #include "workspace.h"
@@ -67,6 +70,8 @@ public:
         });
         std::size_t size = 0;
         for (const Room& room : rooms_) size += room.size;
+        if (size > std::numeric_limits<int>::max())
+            throw InputError("particles have crowded: " + std::to_string(size) + " neighbours; must be fewer than 2^31");
         if (rows.neighbour.size() < size) rows.neighbour.resize(size + size / 2);
         team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {
             if (part == 0) return;

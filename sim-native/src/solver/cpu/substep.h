@@ -35,7 +35,7 @@ struct Constants {
     Real gradient_estimate;  ///< G, see physics::gradient_part; 0 without fluid
 };
 
-/// What both schemes do in a substep on the CPU, one source file per stage, and what they share to do it.
+/// What all schemes do in a substep on the CPU, one source file per stage, and what they share to do it.
 /// step.h gives the order of the stages.
 template <class Real>
 class Substep {

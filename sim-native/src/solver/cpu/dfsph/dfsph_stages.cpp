@@ -12,8 +12,7 @@ constexpr double least_wall_distance = 0.3;
 /// images hold it.
 template <class Real>
 Vec3<Real> DfsphStages<Real>::before_planes(int particle, Vec3<Real> x) const {
-    const Real held = std::min(static_cast<Real>(least_wall_distance * this->model_.parameters.fluidRestDistance),
-                               this->constants_.collision_distance);
+    const Real held = static_cast<Real>(least_wall_distance * this->model_.parameters.fluidRestDistance);
     for (const Plane& plane : this->model_.planes) {
         const physics::PlaneSurface<Real> surface{vec3<Real>(plane.normal.template cast<Real>()),
                                                   static_cast<Real>(plane.offset)};
@@ -25,6 +24,7 @@ Vec3<Real> DfsphStages<Real>::before_planes(int particle, Vec3<Real> x) const {
 /// x* = x + h v* + shift, v* without the density solve.
 template <class Real>
 void DfsphStages<Real>::predict() {
+    if (!this->plan_.water) return ConservingStages<Real>::predict();
     auto& ws = this->ws_;
     for (int i = 0; i < ws.particles; ++i)
         if (this->inverse_mass_[i] > 0)
@@ -43,7 +43,7 @@ template <class Real>
 void DfsphStages<Real>::solve_density_constraint() {
     const auto& solids = this->ws_.solid_ids;
     for (const int i : solids) water_.set_velocity(i, present_velocity(i));
-    if (!solids.empty()) water_.lay_velocities_out(*this->team_);
+    if (!solids.empty()) water_.mirror_velocities();
     water_.correct_density(*this->team_);
     for (const int i : solids) {
         if (!(this->inverse_mass_[i] > 0)) continue;
@@ -57,7 +57,8 @@ void DfsphStages<Real>::update_velocities() {
     for (const int i : this->ws_.fluid_ids) {
         const int slot = this->ws_.slot_of[i];
         if (!(this->inverse_mass_[i] > 0)) continue;
-        const Vec3<Real> v = water_.velocity(i);
+        Vec3<Real> v = water_.velocity(i);
+        if (this->plan_.clamp_speed) v = clamped(v, this->constants_.max_speed);
         this->displacement_.set(slot, this->h_ * (v - this->ws_.predicted.at(slot)));
         this->ws_.position.set(slot, before_planes(i, this->base_.at(slot) + this->displacement_.at(slot)));
     }
@@ -88,6 +89,7 @@ std::vector<Real> DfsphStages<Real>::pressures() const {
 
 template <class Real>
 std::vector<int> DfsphStages<Real>::neighbour_counts() const {
+    if (!this->plan_.water) return Substep<Real>::neighbour_counts();
     std::vector<int> counts(this->ws_.particles, 0);
     for (int i = 0; i < this->ws_.particles; ++i) counts[i] = water_.neighbours(i);
     return counts;

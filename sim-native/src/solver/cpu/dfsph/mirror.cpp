@@ -25,16 +25,16 @@ const std::vector<typename Mirror<Real>::Image>& Mirror<Real>::images_of(const s
     images_.clear();
     for (int plane = 0; plane < static_cast<int>(planes_.size()); ++plane) {
         const auto& [normal, offset] = planes_[plane];
-        const auto add = [&, n = normal, d = offset](int particle, int reflection, const Vector& x) {
+        const auto add = [&, n = normal, d = offset](int particle, int reflection, int planes, const Vector& x) {
             const Real before = n.dot(x) + d;
-            if (before > 0 && before < distance)
-                images_.push_back({particle, reflected(reflection, plane), x - 2 * before * n});
+            if (before >= 0 && before < distance)
+                images_.push_back({particle, reflected(reflection, plane), planes, x - 2 * before * n});
         };
         const std::size_t images = images_.size();
-        for (std::size_t i = 0; i < positions.size(); ++i) add(static_cast<int>(i), 0, positions[i]);
+        for (std::size_t i = 0; i < positions.size(); ++i) add(static_cast<int>(i), 0, 1, positions[i]);
         for (std::size_t k = 0; k < images; ++k) {
             const Image image = images_[k];  // images_ grows
-            add(image.particle, image.reflection, image.position);
+            if (image.planes < 3) add(image.particle, image.reflection, image.planes + 1, image.position);
         }
     }
     return images_;

@@ -10,7 +10,7 @@
 namespace natator::cpu {
 
 /// Walls without friction, as mirrors: the water beyond a plane is the image of the water before it. Images of images
-/// fill edges and corners.
+/// fill edges, and those of these corners, where three planes meet; there are no further ones.
 template <class Real>
 class Mirror {
 public:
@@ -22,6 +22,7 @@ public:
     struct Image {
         int particle;    ///< whose it is
         int reflection;  ///< index for matrix()
+        int planes;      ///< that it was reflected at
         Vector position;
     };
     /// Images of all particles within `distance` before a plane.

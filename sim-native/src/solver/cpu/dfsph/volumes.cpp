@@ -1,7 +1,9 @@
 #include "volumes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 
@@ -33,25 +35,26 @@ std::vector<double> particle_volumes(const Model& model) {
     const SolverParameters& p = model.parameters;
     const double whole = lattice_volume(p.fluidRestDistance, support(model));
     std::vector<double> volumes(model.particles(), whole);
-    std::map<std::uint32_t, std::vector<int>> groups;
+    // Solids by group and cell of one rest distance: what is nearer than that is in the cells around.
+    using Cell = std::array<std::int64_t, 4>;
+    const auto cell_of = [&](int i, int dx, int dy, int dz) {
+        const Eigen::Array3d at = (model.position[i] / p.fluidRestDistance).array().floor();
+        return Cell{model.phase[i] & phase::group_mask, std::int64_t(at.x()) + dx, std::int64_t(at.y()) + dy,
+                    std::int64_t(at.z()) + dz};
+    };
+    std::map<Cell, std::vector<int>> cells;
     for (int i = 0; i < model.particles(); ++i)
-        if (!model.is_fluid(i)) groups[model.phase[i] & phase::group_mask].push_back(i);
-    for (auto& [group, members] : groups) {
-        // Sorted along x, so that those too far away are not looked at.
-        std::sort(members.begin(), members.end(),
-                  [&](int a, int b) { return model.position[a].x() < model.position[b].x(); });
-        for (std::size_t k = 0; k < members.size(); ++k) {
-            const Eigen::Vector3d& x = model.position[members[k]];
-            double nearest = p.fluidRestDistance;
-            const auto look_at = [&](std::size_t other) {
-                const Eigen::Vector3d away = model.position[members[other]] - x;
-                nearest = std::min(nearest, away.norm());
-                return std::abs(away.x()) < nearest;
-            };
-            for (std::size_t other = k; other-- > 0 && look_at(other);) {}
-            for (std::size_t other = k + 1; other < members.size() && look_at(other); ++other) {}
-            volumes[members[k]] = whole * std::pow(nearest / p.fluidRestDistance, 3);
+        if (!model.is_fluid(i)) cells[cell_of(i, 0, 0, 0)].push_back(i);
+    for (int i = 0; i < model.particles(); ++i) {
+        if (model.is_fluid(i)) continue;
+        double nearest = p.fluidRestDistance;
+        for (int place = 0; place < 27; ++place) {
+            const auto found = cells.find(cell_of(i, place % 3 - 1, place / 3 % 3 - 1, place / 9 - 1));
+            if (found == cells.end()) continue;
+            for (const int other : found->second)
+                if (other != i) nearest = std::min(nearest, (model.position[other] - model.position[i]).norm());
         }
+        volumes[i] = whole * std::pow(nearest / p.fluidRestDistance, 3);
     }
     return volumes;
 }

@@ -78,7 +78,7 @@ void Water<Real>::lay_out(const State<Real>& state) {
             low[axis] = std::min(low[axis], x[axis]);
             high[axis] = std::max(high[axis], x[axis]);
         }
-        low[axis] -= radius_;  // images are at most that far out
+        low[axis] -= radius_;  // images that are further out are in the border cells
         high[axis] += radius_;
     }
     grid_.cover(low, high, radius_, 4096 + 16 * particles_);
@@ -234,12 +234,6 @@ void Water<Real>::push_apart(ThreadTeam& team) {
 }
 
 template <class Real>
-void Water<Real>::lay_velocities_out(ThreadTeam& team) {
-    on_all_threads(team, kernels_->pack);
-    mirror_velocities();
-}
-
-template <class Real>
 void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     h_ = h;
     lay_out(state);
@@ -269,7 +263,8 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
             velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
         target_[slot] = volume_[slot] / h * std::min(density_[slot] - 1, Real(most_excess));
     }
-    lay_velocities_out(team);
+    on_all_threads(team, kernels_->pack);
+    mirror_velocities();
 }
 
 template <class Real>

@@ -22,17 +22,24 @@ class Water {
 public:
     explicit Water(const Model& model);
 
-    /// Takes the state at the start of a substep of length h (s): makes its velocities free of divergence, then adds
-    /// viscosity and gravity.
+    /// Takes the state at the start of a substep of length h (s): takes off part of what compresses, then adds viscosity and
+    /// gravity.
     void begin(const State<Real>& state, Real h, ThreadTeam& team);
     /// One Jacobi pass of the density solve: pushes apart where the velocities lead to more than rest density.
     void correct_density(ThreadTeam& team);
 
     /// As the last call left it, by particle, length/s.
     Vec3<Real> velocity(int particle) const { return velocity_.at(slot_of_[particle]); }
-    void set_velocity(int particle, const Vec3<Real>& v) { velocity_.set(slot_of_[particle], v); }
-    /// Velocities that were set are not seen before this.
-    void lay_velocities_out(ThreadTeam& team);
+    /// To be followed by mirror_velocities once all are set.
+    void set_velocity(int particle, const Vec3<Real>& v) {
+        const int slot = slot_of_[particle];
+        velocity_.set(slot, v);
+        packed_velocity_[4 * slot] = v.x;
+        packed_velocity_[4 * slot + 1] = v.y;
+        packed_velocity_[4 * slot + 2] = v.z;
+    }
+    /// Gives the images the velocities of what they are images of.
+    void mirror_velocities();
     /// What keeps particles evenly spread, by particle, length; no velocity comes with it.
     Vec3<Real> shift(int particle) const;
 
@@ -46,7 +53,6 @@ private:
     void lay_out(const State<Real>& state);
     void find_neighbours(ThreadTeam& team);
     void mirror_corrections();
-    void mirror_velocities();
     void push_apart(ThreadTeam& team);
     WaterView<Real> view();
 

@@ -95,18 +95,24 @@ public final class ProcessGroup implements AutoCloseable {
             List<ProcessHandle> descendants = process.descendants().toList();
             process.toHandle().destroyForcibly();
             descendants.forEach(ProcessHandle::destroyForcibly);
-            while (mark != null && killMarked(mark + '\0')) {
-                Thread.onSpinWait();
+            if (mark != null) {
+                killAllMarked(mark + '\0');
             }
         }
     }
 
     /**
-     * Kills what the process started while its descendants were being counted, which is nobody's child by now. Where
-     * there is no /proc such processes stay.
-     *
-     * @return whether there was any: it may have started more
+     * Kills what a process started while its descendants were being counted, or what has lost its parent: it is nobody's
+     * child by now, and may have started more meanwhile. Where there is no /proc such processes stay.
      */
+    private static void killAllMarked(String mark) {
+        long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(KILL_GRACE_SECONDS);
+        while (killMarked(mark) && System.nanoTime() < end) {
+            Thread.yield();
+        }
+    }
+
+    /** Whether there was any. */
     private static boolean killMarked(String mark) {
         boolean any = false;
         try (DirectoryStream<Path> folders = Files.newDirectoryStream(PROCESSES, "[0-9]*")) {
@@ -134,6 +140,9 @@ public final class ProcessGroup implements AutoCloseable {
     private void stop() {
         stopped = true;
         running.keySet().forEach(this::kill);
+        if (started.get() > 0) {
+            killAllMarked(MARK + '=' + name + '.');  // what a program left behind that ended by itself
+        }
     }
 
     boolean isStopped() {
@@ -143,9 +152,6 @@ public final class ProcessGroup implements AutoCloseable {
     @Override
     public void close() {
         stop();
-        if (started.get() > 0) {
-            killMarked(MARK + '=' + name);  // what a program left behind that ended by itself
-        }
         try {
             Runtime.getRuntime().removeShutdownHook(stopAtExit);
         } catch (IllegalStateException e) {
