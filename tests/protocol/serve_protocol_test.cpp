@@ -93,7 +93,7 @@ TEST(ServeProtocolTest, ARequestThatCostsTooMuchSpoilsNoOther) {
     EXPECT_EQ(by_id.at(3)["status"], "ok");
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // which reserves more than this
+#if !defined(NATATOR_SANITIZED)  // which reserves more than this
 TEST(ServeProtocolTest, ARequestWithoutMemorySpoilsNoOther) {
     const std::string large = R"({"id":1,"scene":"thesis/tank","duration":0.1,"overrides":)"
                               R"({"planes":[],"fluid":{"count":[160,160,160]}}})";

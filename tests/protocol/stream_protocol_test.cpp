@@ -236,7 +236,7 @@ TEST(StreamTest, AReaderThatStopsReadingCostsNoMemory) {
         ::usleep(2'000);
     }
     EXPECT_LT(taken, 140 * command.size());
-#ifdef __SANITIZE_ADDRESS__
+#ifdef NATATOR_SANITIZED
     constexpr double room = 300;  // MB: what is freed is kept aside for a while
 #else
     constexpr double room = 30;
