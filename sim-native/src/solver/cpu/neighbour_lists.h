@@ -34,6 +34,23 @@ int add_runs(const CellGrid<Real>& grid, const typename CellGrid<Real>::Rows& ro
     return slots;
 }
 
+/// The rows around a cell, kept for the cells that follow in the same row.
+template <class Real>
+class RowsAround {
+public:
+    const typename CellGrid<Real>::Rows& of(const CellGrid<Real>& grid, int cell) {
+        if (grid.row(cell) != row_) {
+            row_ = grid.row(cell);
+            rows_ = grid.rows_around(row_);
+        }
+        return rows_;
+    }
+
+private:
+    int row_ = -1;
+    typename CellGrid<Real>::Rows rows_;
+};
+
 /// Where NeighbourLists::list writes: block b holds rows [row_begin[b], row_begin[b+1]) of 16 slots each (sliced ELLPACK).
 struct SlicedRows {
     std::vector<int>& row_begin;             ///< one more than blocks
@@ -54,10 +71,9 @@ public:
         const NeighbourKernels<Real>* kernels;
     };
 
-    /// candidates(slot, row, rows around it, runs) gives the runs to look through and returns how many slots they hold, or
-    /// -1 for a slot without particle; the row of cells and those around it are the last slot's (row -1 at first), so that
-    /// they need not be found anew. choose(slot, found, n) drops those that do not count and returns how many are left.
-    /// Returns the number of entries in all rows.
+    /// candidates(slot, RowsAround, runs) gives the runs to look through and returns how many slots they hold, or -1 for a
+    /// slot without particle. choose(slot, found, n) drops those that do not count and returns how many are left. Returns
+    /// the number of entries in all rows.
     template <class Candidates, class Choose>
     std::size_t list(const Search& search, ThreadTeam& team, SlicedRows rows, const Candidates& candidates,
                      const Choose& choose) {
@@ -97,8 +113,7 @@ private:
     void list_part(const Search& search, int first_block, int end_block, Room& room,
                    AlignedVector<std::int32_t>& all_rows, SlicedRows rows, const Candidates& candidates,
                    const Choose& choose) {
-        int row = -1;
-        typename CellGrid<Real>::Rows rows_around;
+        RowsAround<Real> around;
         std::size_t end = 0;
         for (int block = first_block; block < end_block; ++block) {
             int most = 0;
@@ -107,7 +122,7 @@ private:
             for (int lane = 0; lane < lanes; ++lane) {
                 const int slot = block * lanes + lane;
                 SlotRuns runs;
-                const int slots = candidates(slot, row, rows_around, runs);
+                const int slots = candidates(slot, around, runs);
                 if (slots < 0) continue;
                 std::vector<std::int32_t>& found = room.found[lane];
                 if (static_cast<int>(found.size()) < slots + lanes) found.resize(2 * slots + lanes);

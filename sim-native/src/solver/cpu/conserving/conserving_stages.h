@@ -98,6 +98,8 @@ private:
     std::vector<std::vector<Vec3<Real>>> cluster_displacement_;  ///< sum of the substep's corrections per member
 
 protected:
+    /// x, or where it is put that is behind a plane or nearer to one than `distance`: see physics::put_before.
+    Vec3<Real> before_planes(Vec3<Real> x, Real distance) const;
     void move(int slot, const Vec3<Real>& by) {
         displacement_.add(slot, by);
         ws_.position.set(slot, base_.at(slot) + displacement_.at(slot));

@@ -11,15 +11,19 @@
 namespace natator::cpu {
 
 template <class Real>
+Vec3<Real> ConservingStages<Real>::before_planes(Vec3<Real> x, Real distance) const {
+    for (const Plane& plane : model_.planes)
+        x = put_before(physics::PlaneSurface<Real>{vec3<Real>(plane.normal.template cast<Real>()),
+                                                   static_cast<Real>(plane.offset)},
+                       distance, x);
+    return x;
+}
+
+template <class Real>
 void ConservingStages<Real>::predict() {
-    for (const Plane& plane : model_.planes) {
-        const physics::PlaneSurface<Real> surface{vec3<Real>(plane.normal.template cast<Real>()),
-                                                  static_cast<Real>(plane.offset)};
-        for (int i = 0; i < ws_.particles; ++i)
-            if (inverse_mass_[i] > 0)
-                state_->position[i] =
-                    eigen(put_before(surface, constants_.collision_distance, vec3(state_->position[i])));
-    }
+    for (int i = 0; i < ws_.particles; ++i)
+        if (inverse_mass_[i] > 0)
+            state_->position[i] = eigen(before_planes(vec3(state_->position[i]), constants_.collision_distance));
     Substep<Real>::predict();
 }
 
@@ -97,6 +101,8 @@ void ConservingStages<Real>::find_fluid_neighbours() {
     }
 }
 
+template Vec3<float> ConservingStages<float>::before_planes(Vec3<float>, float) const;
+template Vec3<double> ConservingStages<double>::before_planes(Vec3<double>, double) const;
 template void ConservingStages<float>::predict();
 template void ConservingStages<double>::predict();
 template float ConservingStages<float>::contact_depth(int, int) const;

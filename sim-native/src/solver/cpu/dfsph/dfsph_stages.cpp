@@ -1,24 +1,17 @@
 #include "dfsph_stages.h"
 
-#include "physics/plane.h"
-
 namespace natator::cpu {
 
 /// Nearer to a mirror than this, in rest distances, a particle and its image overlap, and the kernel no longer parts
 /// them.
 constexpr double least_wall_distance = 0.3;
 
-/// Where a particle is put that is nearer to a plane than it may be. Water does not touch planes otherwise: their mirror
-/// images hold it.
+/// Water does not touch planes otherwise: their mirror images hold it.
 template <class Real>
-Vec3<Real> DfsphStages<Real>::before_planes(int particle, Vec3<Real> x) const {
-    const Real held = static_cast<Real>(least_wall_distance * this->model_.parameters.fluidRestDistance);
-    for (const Plane& plane : this->model_.planes) {
-        const physics::PlaneSurface<Real> surface{vec3<Real>(plane.normal.template cast<Real>()),
-                                                  static_cast<Real>(plane.offset)};
-        x = put_before(surface, this->model_.is_fluid(particle) ? held : this->constants_.collision_distance, x);
-    }
-    return x;
+Real DfsphStages<Real>::wall_distance(int particle) const {
+    return this->model_.is_fluid(particle)
+               ? static_cast<Real>(least_wall_distance * this->model_.parameters.fluidRestDistance)
+               : this->constants_.collision_distance;
 }
 
 /// x* = x + h v* + shift, v* without the density solve.
@@ -28,7 +21,7 @@ void DfsphStages<Real>::predict() {
     auto& ws = this->ws_;
     for (int i = 0; i < ws.particles; ++i)
         if (this->inverse_mass_[i] > 0)
-            this->state_->position[i] = eigen(before_planes(i, vec3(this->state_->position[i])));
+            this->state_->position[i] = eigen(this->before_planes(vec3(this->state_->position[i]), wall_distance(i)));
     water_.begin(*this->state_, this->h_, *this->team_);
     for (int i = 0; i < ws.particles; ++i) {
         Vec3<Real> v = water_.velocity(i);
@@ -44,7 +37,7 @@ void DfsphStages<Real>::solve_density_constraint() {
     const auto& solids = this->ws_.solid_ids;
     for (const int i : solids) water_.set_velocity(i, present_velocity(i));
     if (!solids.empty()) water_.mirror_velocities();
-    water_.correct_density(*this->team_);
+    water_.push_apart(*this->team_);
     for (const int i : solids) {
         if (!(this->inverse_mass_[i] > 0)) continue;
         this->move(this->ws_.slot_of[i], this->h_ * (water_.velocity(i) - present_velocity(i)));
@@ -60,7 +53,8 @@ void DfsphStages<Real>::update_velocities() {
         Vec3<Real> v = water_.velocity(i);
         if (this->plan_.clamp_speed) v = clamped(v, this->constants_.max_speed);
         this->displacement_.set(slot, this->h_ * (v - this->ws_.predicted.at(slot)));
-        this->ws_.position.set(slot, before_planes(i, this->base_.at(slot) + this->displacement_.at(slot)));
+        this->ws_.position.set(
+            slot, this->before_planes(this->base_.at(slot) + this->displacement_.at(slot), wall_distance(i)));
     }
     ConservingStages<Real>::update_velocities();
 }

@@ -35,7 +35,8 @@ private:
         const int slot = this->ws_.slot_of[particle];
         return this->ws_.predicted.at(slot) + 1 / this->h_ * this->displacement_.at(slot);
     }
-    Vec3<Real> before_planes(int particle, Vec3<Real> x) const;
+    /// What a particle keeps from planes, length.
+    Real wall_distance(int particle) const;
 
     Water<Real> water_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "../workspace.h"
 #include "physics/constants.h"
@@ -39,9 +38,8 @@ Water<Real>::Water(const Model& model)
       neighbour_kernels_(&neighbour_kernels<Real>(instruction_set())),
       radius_(static_cast<Real>(support(model))),
       spacing_(static_cast<Real>(model.parameters.fluidRestDistance)),
-      kernel_scale_(static_cast<Real>(21 / (2 * std::numbers::pi * std::pow(support(model), 3)))),
+      kernel_scale_(static_cast<Real>(wendland(0, support(model)))),
       at_spacing_(static_cast<Real>(1 / wendland(model.parameters.fluidRestDistance, support(model)))),
-      own_value_(static_cast<Real>(wendland(0, support(model)))),
       mirror_(model),
       particles_(model.particles()),
       image_begin_(round_up_to_block(model.particles())) {
@@ -137,13 +135,10 @@ void Water<Real>::lay_out(const State<Real>& state) {
 /// Of all particles with all particles and images.
 template <class Real>
 void Water<Real>::find_neighbours(ThreadTeam& team) {
-    const auto candidates = [this](int slot, int& row, typename CellGrid<Real>::Rows& rows_around, SlotRuns& runs) {
+    const auto candidates = [this](int slot, RowsAround<Real>& around, SlotRuns& runs) {
         if (slot >= particles_) return -1;
         const int cell = cell_of_[particle_of_[slot]];
-        if (grid_.row(cell) != row) {
-            row = grid_.row(cell);
-            rows_around = grid_.rows_around(row);
-        }
+        const auto& rows_around = around.of(grid_, cell);
         const int slots = add_runs(grid_, rows_around, cell, cell_begin_, runs);
         return slots + add_runs(grid_, rows_around, cell, image_cell_begin_, runs);
     };
@@ -199,7 +194,6 @@ WaterView<Real> Water<Real>::view() {
                         .kernel_scale = kernel_scale_,
                         .slope_scale = 20 * kernel_scale_ / (radius_ * radius_),
                         .at_spacing = at_spacing_,
-                        .own_value = own_value_,
                         .softening = Real(0.01) * spacing_ * spacing_,
                         .wet = Real(wet),
                         .relaxation = Real(relaxation),
@@ -224,7 +218,6 @@ WaterView<Real> Water<Real>::view() {
     return all;
 }
 
-/// A Jacobi pass towards target_.
 template <class Real>
 void Water<Real>::push_apart(ThreadTeam& team) {
     on_all_threads(team, kernels_->compute_impulse);
@@ -265,11 +258,6 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();
-}
-
-template <class Real>
-void Water<Real>::correct_density(ThreadTeam& team) {
-    push_apart(team);
 }
 
 template class Water<float>;

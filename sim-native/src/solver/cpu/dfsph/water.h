@@ -25,8 +25,9 @@ public:
     /// Takes the state at the start of a substep of length h (s): takes off part of what compresses, then adds viscosity and
     /// gravity.
     void begin(const State<Real>& state, Real h, ThreadTeam& team);
-    /// One Jacobi pass of the density solve: pushes apart where the velocities lead to more than rest density.
-    void correct_density(ThreadTeam& team);
+    /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after begin() is where
+    /// they lead to more than rest density.
+    void push_apart(ThreadTeam& team);
 
     /// As the last call left it, by particle, length/s.
     Vec3<Real> velocity(int particle) const { return velocity_.at(slot_of_[particle]); }
@@ -53,7 +54,6 @@ private:
     void lay_out(const State<Real>& state);
     void find_neighbours(ThreadTeam& team);
     void mirror_corrections();
-    void push_apart(ThreadTeam& team);
     WaterView<Real> view();
 
     template <class Work>
@@ -71,7 +71,7 @@ private:
     const Model& model_;
     const WaterKernels<Real>* kernels_;
     const NeighbourKernels<Real>* neighbour_kernels_;
-    Real radius_, spacing_, kernel_scale_, at_spacing_, own_value_, dynamic_viscosity_;
+    Real radius_, spacing_, kernel_scale_, at_spacing_, dynamic_viscosity_;
     std::vector<Real> volume_of_, inverse_mass_of_;  ///< by particle
     Mirror<Real> mirror_;
     CellGrid<Real> grid_;

@@ -37,7 +37,7 @@ void compute_moments(const WaterView<Real>& water) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             sums.add(difference, kernel, water.at_spacing, other.w, Vec3<Lane>{moves.x, moves.y, moves.z} - v);
         });
-        const Lane density = sums.density + Group::get(water.volume + first) * water.own_value;
+        const Lane density = sums.density + Group::get(water.volume + first) * water.kernel_scale;
         const Symmetric3<Lane> l = sums.correction(density);
         Group::put(water.density + first, density);
         const Lane parts[6] = {l.xx, l.yy, l.zz, l.xy, l.xz, l.yz};

@@ -17,7 +17,6 @@ struct WaterView {
 
     Real inverse_radius, kernel_scale, slope_scale;  ///< see physics::WendlandKernel
     Real at_spacing;                                 ///< 1 / W at the rest spacing
-    Real own_value;                                  ///< W(0)
     Real softening;                                  ///< of r^2 in the viscosity
     Real wet;                                        ///< density above which a particle is held incompressible
     Real relaxation;                                 ///< of the Jacobi passes
