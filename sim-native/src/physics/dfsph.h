@@ -54,6 +54,16 @@ NATATOR_HD T unit_part(T v) {
     return smaller(positive_part(v), one<T>());
 }
 
+// The numbers of the method.
+inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
+inline constexpr double jacobi_relaxation = 0.5;
+inline constexpr int divergence_passes = 1;    ///< on the velocities as they are, a substep
+inline constexpr double most_excess = 0.05;    ///< of rest density that a substep takes off
+inline constexpr double shift_strength = 0.5;  ///< of R h |dv| times where neighbours crowd
+inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a substep
+inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
+inline constexpr double least_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its image
+
 // How far gradients are corrected: in full at this density and this determinant of the moments, not at all at half the
 // determinant or the lower density. Near a free surface half of the neighbours lack, and the inverse is ill-conditioned.
 inline constexpr double corrected_density = 0.7, uncorrected_density = 0.5;
@@ -84,7 +94,8 @@ struct MomentSums {
         moments.yz += weight * difference.y * difference.z;
         const T close = value * at_spacing, square = close * close;
         crowding += weight * (1 + R(0.2) * square * square) * difference;
-        const T speed_square = dot(relative_velocity, relative_velocity);
+        const T square_of_speed = dot(relative_velocity, relative_velocity);
+        const T speed_square = weight > 0 ? square_of_speed : T{};  // what ends a list has no weight
         fastest_square = smaller(-fastest_square, -speed_square) * R(-1);
     }
 
@@ -134,6 +145,28 @@ struct ResponseSums {
         return all > R(least_response) ? 1 / all : T{};
     }
 };
+
+/// What a solve goes for, times V_i: the rate of expansion that takes a particle to rest density within a substep.
+template <class T>
+NATATOR_HD T density_target(T volume, T density, Scalar<T> h) {
+    return volume / h * smaller(density - 1, T{} + Scalar<T>(most_excess));
+}
+
+/// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.
+template <class T>
+NATATOR_HD T pressure_impulse(T target, T rate, T response, T density) {
+    using R = Scalar<T>;
+    const T all = R(jacobi_relaxation) * positive_part(target - rate) * response;
+    return density > R(wet_density) ? all : T{};
+}
+
+/// What keeps a particle of the fluid evenly spread in its substep, length; no velocity comes with it.
+template <class T>
+NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square, T radius, T spacing, T h) {
+    if (!(density > T(shifted_density))) return {};
+    const T strength = T(shift_strength) * radius * h * square_root(fastest_square);
+    return clamped(strength * crowding, T(longest_shift) * spacing);
+}
 
 /// Viscous impulses on a particle, without its inverse mass and 10 h mu: Monaghan's form (2005, eq. 8.5), which acts
 /// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0.

@@ -5,31 +5,10 @@
 
 #include "../workspace.h"
 #include "physics/constants.h"
+#include "physics/dfsph.h"
 #include "volumes.h"
 
 namespace natator::cpu {
-namespace {
-
-constexpr double wet = 0.9;            ///< density from which a particle is held incompressible
-constexpr double relaxation = 0.5;     ///< of the Jacobi passes
-constexpr int divergence_passes = 1;   ///< on the velocities as they are
-constexpr double most_excess = 0.05;   ///< of rest density that a substep takes off
-constexpr double shift_strength = 0.5; ///< of R h |dv| times where neighbours crowd
-constexpr double longest_shift = 0.05; ///< of the rest distance, a substep
-constexpr double shifted_density = 0.95;  ///< below it is the surface, which is left as it is
-
-/// Mass density of the fluid, from the mean mass of its particles.
-double fluid_density(const Model& model, const std::vector<double>& volumes) {
-    double mass = 0, volume = 0;
-    for (int i = 0; i < model.particles(); ++i) {
-        if (!model.is_fluid(i) || model.inverse_mass[i] == 0) continue;
-        mass += 1 / model.inverse_mass[i];
-        volume += volumes[i];
-    }
-    return volume > 0 ? mass / volume : 0;
-}
-
-}  // namespace
 
 template <class Real>
 Water<Real>::Water(const Model& model)
@@ -60,9 +39,8 @@ Water<Real>::Water(const Model& model)
 template <class Real>
 Vec3<Real> Water<Real>::shift(int particle) const {
     const int slot = slot_of_[particle];
-    if (!model_.is_fluid(particle) || !(density_[slot] > Real(shifted_density))) return {};
-    const Real strength = Real(shift_strength) * radius_ * h_ * std::sqrt(fastest_square_[slot]);
-    return clamped(strength * crowding_.at(slot), Real(longest_shift) * spacing_);
+    if (!model_.is_fluid(particle)) return {};
+    return physics::shift_of(density_[slot], crowding_.at(slot), fastest_square_[slot], radius_, spacing_, h_);
 }
 
 /// Numbers the slots by cell, first of the particles, then of the images.
@@ -195,8 +173,6 @@ WaterView<Real> Water<Real>::view() {
                         .slope_scale = 20 * kernel_scale_ / (radius_ * radius_),
                         .at_spacing = at_spacing_,
                         .softening = Real(0.01) * spacing_ * spacing_,
-                        .wet = Real(wet),
-                        .relaxation = Real(relaxation),
                         .position = {position[0], position[1], position[2]},
                         .volume = volume_.data(),
                         .inverse_mass = inverse_mass_.data(),
@@ -244,7 +220,7 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
 
     std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
-    for (int pass = 0; pass < divergence_passes; ++pass) push_apart(team);
+    for (int pass = 0; pass < physics::divergence_passes; ++pass) push_apart(team);
     if (dynamic_viscosity_ > 0)
         on_all_threads(team, [&](const WaterView<Real>& part) {
             kernels_->add_viscosity(part, 10 * h * dynamic_viscosity_);
@@ -254,7 +230,7 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     for (int slot = 0; slot < particles_; ++slot) {
         if (inverse_mass_[slot] > 0)
             velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
-        target_[slot] = volume_[slot] / h * std::min(density_[slot] - 1, Real(most_excess));
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], h);
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();

@@ -100,9 +100,8 @@ void compute_impulse(const WaterView<Real>& water) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             rate += dot(Vec3<Lane>{moves.x, moves.y, moves.z} - v, get3<Group>(water.gradient, entry));
         });
-        const Lane lacks = positive_part(Group::get(water.target + first) - rate);
-        const Lane all = water.relaxation * lacks * Group::get(water.response + first);
-        const Lane impulse = Group::get(water.density + first) > water.wet ? all : Lane{};
+        const Lane impulse = pressure_impulse(Group::get(water.target + first), rate,
+                                              Group::get(water.response + first), Group::get(water.density + first));
         Group::put(water.impulse + first, impulse);
         Group::put(water.impulse_sum + first, Group::get(water.impulse_sum + first) + impulse);
     });

@@ -18,8 +18,6 @@ struct WaterView {
     Real inverse_radius, kernel_scale, slope_scale;  ///< see physics::WendlandKernel
     Real at_spacing;                                 ///< 1 / W at the rest spacing
     Real softening;                                  ///< of r^2 in the viscosity
-    Real wet;                                        ///< density above which a particle is held incompressible
-    Real relaxation;                                 ///< of the Jacobi passes
 
     const Real* position[3];
     const Real* volume;

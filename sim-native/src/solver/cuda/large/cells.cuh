@@ -18,7 +18,7 @@ __global__ void __launch_bounds__(large_threads)
     const Quad<Real> before = slots.at.state_velocity[s];
     const bool fluid = number_in(before.w) < model.fluid;
     if (scheme == Scheme::conserving && x.w > 0) {
-        x = quad(put_before_planes(model, xyz(x)), x.w);
+        x = quad(put_before_planes(model, xyz(x), model.collision_distance), x.w);
         slots.at.state_position[s] = x;
     }
     const Vec3<Real> v = drift_velocity(model, xyz(before), x.w, fluid, slots.h);
@@ -59,6 +59,7 @@ __global__ void __launch_bounds__(large_threads)
     at.drift[s] = quad(xyz(at.drift_before[before]), there.w);
     at.position[s] = at.base[s] = there;
     at.number[s] = number;
+    if (model.plan.water) at.water.slot_before[s] = before;
     if (s >= model.fluid) at.slot_of_solid[number - model.fluid] = s;
 }
 

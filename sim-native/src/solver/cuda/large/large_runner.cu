@@ -1,5 +1,6 @@
 #include "large_runner.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -91,7 +92,7 @@ void LargeRunner<Real>::allocate() {
     give(at.fluid_contact, model.plan.contacts ? fluid * slots.room.fluid : 0);
     give(at.solid_contact, model.plan.contacts ? solids * slots.room.solid : 0);
     give(at.shared, 1);
-    base_.scan_bytes = scan_bytes(2 * model.grid.cells);
+    base_.scan_bytes = scan_bytes(std::max(2 * model.grid.cells, model.water.grid.cells));
     memory_.emplace_back(base_.scan_bytes);
     base_.scan_room = memory_.back().data();
     const Plan& plan = model.plan;
@@ -100,7 +101,7 @@ void LargeRunner<Real>::allocate() {
     give(at.change, plan.dissipation ? all : 0);
     give(at.normal, plan.surface_tension ? fluid : 0);
     give(at.curl, plan.vorticity ? fluid : 0);
-    if (model.scheme != Scheme::conserving) return;
+    if (model.scheme == Scheme::flex) return;
     give(at.active, all);
     for (auto* const array : {&at.displacement, &at.boundary}) give(*array, all);
     for (auto* const array : {&at.lambda, &at.lambda_sum, &at.overlap, &at.overlap_lambda}) give(*array, all);
@@ -110,6 +111,44 @@ void LargeRunner<Real>::allocate() {
     give(at.member_displacement, model.members);
     give(at.member_push, model.members);
     give(at.motion, model.free_bodies);
+    if (plan.water) allocate_water();
+}
+
+template <class Real>
+void LargeRunner<Real>::allocate_water() {
+    const ModelView<Real>& model = base_.model;
+    const std::size_t particles = model.particles, copies = particles * model.water.most_copies;
+    WaterArrays<Real>& water = base_.slots.at.water;
+    give(water.table, model.water.grid.cells);
+    give(water.keys, copies);
+    give(water.candidate, copies);
+    for (auto* const array : {&water.position, &water.velocity, &water.pushed, &water.correction, &water.shear,
+                              &water.crowding})
+        give(*array, particles);
+    for (auto* const array : {&water.density, &water.response, &water.target, &water.impulse, &water.density_of})
+        give(*array, particles);
+    for (auto* const array : {&water.count, &water.count_of, &water.slot_before, &water.slot_of_solid})
+        give(*array, particles);
+    // A lattice has 4/3 pi (R/s)^3; solids and crowds have more, see make_room.
+    make_room(static_cast<int>(5 * std::pow(host_model_.parameters.kernelSupport, 3)));
+}
+
+/// For so many neighbours in the water's lists.
+template <class Real>
+void LargeRunner<Real>::make_room(int neighbours) {
+    WaterArrays<Real>& water = base_.slots.at.water;
+    const std::size_t particles = base_.model.particles;
+    const std::size_t entries = (particles + 31) / 32 * 32 * neighbours;
+    graphs_.clear();  // they know the old place
+    neighbour_room_ = {};
+    water.most = neighbours;
+    neighbour_room_ = DeviceBuffer<unsigned>(entries);
+    water.neighbour = neighbour_room_.data();
+    for (int axis = 0; axis < 3; ++axis) {
+        gradient_room_[axis] = {};
+        gradient_room_[axis] = DeviceBuffer<Real>(entries);
+        water.gradient[axis] = gradient_room_[axis].data();
+    }
 }
 
 template <class Real>
@@ -141,21 +180,6 @@ void LargeRunner<Real>::copy_back(const Copy& from) const {
     copy(at.state_position, from.position.data(), from.position.size(), base_.stream);
     copy(at.state_velocity, from.velocity.data(), from.velocity.size(), base_.stream);
     copy(at.fit, from.fit.data(), from.fit.size(), base_.stream);
-}
-
-template <class Real>
-void LargeRunner<Real>::keep() {
-    if (kept_.position.size() == 0) kept_ = room_for_copy();
-    copy_to(kept_);
-    kept_rest_length_ = muscles_.spring_rest_length;
-    wait();
-}
-
-template <class Real>
-void LargeRunner<Real>::restore_kept() {
-    copy_back(kept_);
-    muscles_.spring_rest_length = kept_rest_length_;
-    wait();
 }
 
 template <class Real>
@@ -223,7 +247,7 @@ void LargeRunner<Real>::set_muscles(const Update& update) {
         device_rest_lengths_ = DeviceBuffer<Real>(size);
         rest_lengths_size_ = size;
     }
-    const bool by_substep = base_.model.scheme == Scheme::conserving;
+    const bool by_substep = base_.model.scheme != Scheme::flex;
     for (int k = 0; k < update.substeps; ++k) {
         const double end = update.start_time + update.time_step * (k + 1) / update.substeps;
         if (update.gait && (by_substep || k == 0))
@@ -290,12 +314,18 @@ typename LargeRunner<Real>::End LargeRunner<Real>::run(const Update& update, Sta
                                                        const Trace<Real>& trace) {
     set_muscles(update);
     std::optional<StageClock> clock;
-    if (profile) clock.emplace(base_.stream);
-    if (profile || trace.predicted)
-        launch(update, update.substeps, clock ? &*clock : nullptr, trace);
-    else
-        check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
-    wait();
+    for (;;) {
+        clock.reset();
+        if (profile) clock.emplace(base_.stream);
+        if (profile || trace.predicted)
+            launch(update, update.substeps, clock ? &*clock : nullptr, trace);
+        else
+            check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
+        wait();
+        if (end_->most_neighbours <= base_.slots.at.water.most) break;
+        copy_back(before_);  // and once more, with room for all neighbours
+        make_room(end_->most_neighbours + end_->most_neighbours / 4);
+    }
     if (clock) clock->add_to(*profile);
     End end;
     end.mean_x = end_->mean_x;
@@ -322,7 +352,7 @@ double LargeRunner<Real>::mean_x() {
 
 template <class Real>
 std::vector<Real> LargeRunner<Real>::densities() const {
-    if (!base_.model.plan.fluid) return {};
+    if (!base_.model.plan.fluid && !base_.model.plan.water) return {};
     const DeviceBuffer<Real> densities(base_.model.fluid);
     launch_densities(base_, densities.data());
     wait();

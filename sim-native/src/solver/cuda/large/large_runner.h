@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,10 +31,6 @@ public:
     void upload(const State<Real>& state);
     /// Time and spring rest lengths are those of `like`.
     State<Real> download(const State<Real>& like) const;
-
-    /// Keeps the State as it is, beside the one of each update's start; and goes back to it.
-    void keep();
-    void restore_kept();
 
     struct Update {
         double start_time = 0;
@@ -67,6 +64,8 @@ private:
     template <class T>
     void give(T*& array, std::size_t size);
     void allocate();
+    void allocate_water();
+    void make_room(int neighbours);
     Copy room_for_copy() const;
     void copy_to(const Copy& copy) const;
     void copy_back(const Copy& copy) const;
@@ -80,9 +79,10 @@ private:
     DeviceModel<Real> device_model_;
     LargeLaunch<Real> base_{};
     std::vector<DeviceBuffer<char>> memory_;
-    Copy before_, kept_;
+    DeviceBuffer<unsigned> neighbour_room_;
+    std::array<DeviceBuffer<Real>, 3> gradient_room_;
+    Copy before_;
     State<Real> muscles_;  ///< only its spring rest lengths
-    std::vector<Real> kept_rest_length_;
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;
     // Of the host, where the device reads and writes them.

@@ -12,7 +12,11 @@ __global__ void densities_large(const __grid_constant__ ModelView<Real> model,
     const int s = own_index();
     if (s >= model.fluid) return;
     const Vec3<Real> x = xyz(slots.position()[s]);
-    const Real above = model.scheme == Scheme::conserving
+    if (model.plan.water) {
+        density[s] = slots.at.water.density_of[s];
+        return;
+    }
+    const Real above = model.scheme != Scheme::flex
                            ? density_of(model, slots, s, slots.position(), boundary_terms(model, slots, s, x)).above
                            : compression_of(model, slots, s, x);
     density[slots.number()[s]] = above + 1;
@@ -23,6 +27,10 @@ __global__ void neighbour_counts_large(const __grid_constant__ ModelView<Real> m
                                        const __grid_constant__ Slots<Real> slots, int* counts) {
     const int s = own_index();
     if (s >= model.particles) return;
+    if (model.plan.water) {
+        counts[s] = slots.at.water.count_of[s];
+        return;
+    }
     counts[slots.number()[s]] =
         (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
 }
@@ -46,7 +54,7 @@ __global__ void far_slot_large(const __grid_constant__ ModelView<Real> model,
                                const __grid_constant__ Slots<Real> slots) {
     for (Quad<Real>* const array : {slots.at.state_position, slots.position(), slots.next(), slots.start()})
         array[model.particles] = far_away<Real>();
-    if (model.scheme == Scheme::conserving) slots.lambda()[model.particles] = 0;
+    if (model.scheme != Scheme::flex) slots.lambda()[model.particles] = 0;
 }
 
 template <class Real>
@@ -73,7 +81,9 @@ int blocks_of(const LargeLaunch<Real>& launch) {
 
 template <class Real>
 void launch_substep(const LargeLaunch<Real>& launch) {
-    if (launch.model.scheme == Scheme::conserving)
+    if (launch.model.plan.water)
+        launch_water_substep(launch);
+    else if (launch.model.scheme != Scheme::flex)
         launch_substep_of<Real, Scheme::conserving>(launch);
     else
         launch_substep_of<Real, Scheme::flex>(launch);

@@ -12,10 +12,36 @@ struct LargeShared : Shared<Real> {
     int overlapping;         ///< scheme conserving: some particles began this substep overlapping
     int full;                ///< scheme conserving: some neighbour list is full
     int touches;             ///< the body touches a plane
+    int most_neighbours;     ///< scheme dfsph: of any particle, also where lists have no room for them
     double mean_x;           ///< of the body
 };
 
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
+
+/// The water of scheme dfsph. A slot is a particle's place in the State as the last substep left it, unless said
+/// otherwise. An entry is a slot with the set of planes that it is the ghost of: planes << most_slot_bits | slot.
+template <class Real>
+struct WaterArrays {
+    int* table;             ///< ends of the cells
+    std::uint64_t* keys;    ///< of particles and ghosts: planes << 58 | particle << 32 | slot, cell by cell
+    Quad<Real>* candidate;  ///< positions of particles and ghosts, cell by cell; w: the entry as an integer
+
+    // Entry k of slot s at [(s / 32 * most + k) * 32 + s % 32].
+    int most;             ///< entries of a slot that there is room for
+    unsigned* neighbour;  ///< entries
+    Real* gradient[3];    ///< G_ij
+    int* count;           ///< of neighbours
+
+    Quad<Real>* position;               ///< w: volume
+    Quad<Real>*velocity, *pushed;       ///< w: inverse mass; `pushed` has the viscosity and gravity of the substep
+    Quad<Real>*correction, *shear;      ///< L_i: xx, yy, zz, xy; xz, yz, inverse mass
+    Quad<Real>* crowding;               ///< w: largest |v_j - v_i|^2
+    Real *density, *response, *target, *impulse;
+    Real* density_of;       ///< by particle
+    int* count_of;          ///< by particle
+    int* slot_before;       ///< by slot of this substep
+    int* slot_of_solid;     ///< by solid
+};
 
 /// Arrays of a large State in device memory, by slot unless said otherwise; one more slot is far from all others.
 template <class Real>
@@ -47,13 +73,15 @@ struct SlotArrays {
     Real *density, *overlaps;
     Quad<Real>*change, *normal, *curl;
 
-    // Scheme conserving only.
+    // Not in scheme flex.
     Quad<Real>*displacement, *boundary;
     Real *lambda, *lambda_sum, *overlap, *overlap_lambda;
     int* active;
     Quad<Real>*internal, *spring_push, *member_displacement, *member_push;
     Real* spring_lambda;
     BodyMotion* motion;
+
+    WaterArrays<Real> water;  ///< scheme dfsph only
 };
 
 /// Contacts that lists have room for; those of slots that have more are searched anew each time.
@@ -173,7 +201,7 @@ __device__ int search_contacts(const ModelView<Real>& model, const Slots<Real>& 
     const Vec3<Real> x = xyz(slots.base()[s]);
     const int i = slots.number()[s];
     int n = 0;
-    for (int solids = s < model.fluid ? 1 : 0; solids < 2; ++solids)
+    for (int solids = s < model.fluid || model.plan.water ? 1 : 0; solids < 2; ++solids)
         for_each_candidate(model, slots, solids == 1, x, [&](int other, bool near) {
             if (!near) return;
             const int j = slots.number()[other];

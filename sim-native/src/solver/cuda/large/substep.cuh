@@ -43,6 +43,10 @@ void launch_substep(const LargeLaunch<Real>& launch);
 template <class Real, Scheme scheme>
 void launch_substep_of(const LargeLaunch<Real>& launch);
 
+/// Of scheme dfsph, where there is fluid.
+template <class Real>
+void launch_water_substep(const LargeLaunch<Real>& launch);
+
 template <class Real, Scheme scheme>
 void launch_predict(const LargeLaunch<Real>& launch);
 template <class Real>

@@ -1,0 +1,337 @@
+#pragma once
+
+// The water of scheme dfsph for a large State: a kernel per sum over neighbours. See cpu/dfsph/water.h.
+#include "cells.cuh"
+#include "search.cuh"
+#include "solver/cuda/conserving.cuh"
+
+namespace natator::cuda {
+
+inline constexpr unsigned slot_mask = (1u << most_slot_bits) - 1;
+
+template <class Real>
+__device__ Vec3<Real> turned(const Reflection<Real>& mirror, const Vec3<Real>& v) {
+    return {dot(mirror.turn[0], v), dot(mirror.turn[1], v), dot(mirror.turn[2], v)};
+}
+/// H L H^T.
+template <class Real>
+__device__ physics::Symmetric3<Real> turned(const Reflection<Real>& mirror, const physics::Symmetric3<Real>& l) {
+    const Vec3<Real> x = l * mirror.turn[0], y = l * mirror.turn[1], z = l * mirror.turn[2];
+    return {dot(mirror.turn[0], x), dot(mirror.turn[1], y), dot(mirror.turn[2], z),
+            dot(mirror.turn[0], y), dot(mirror.turn[0], z), dot(mirror.turn[1], z)};
+}
+template <class Real>
+__device__ Vec3<Real> ghost_of(const WaterModel<Real>& water, const Vec3<Real>& x, unsigned planes) {
+    return planes == 0 ? x : turned(water.reflection[planes], x) + water.reflection[planes].shift;
+}
+
+/// Calls visit(planes, position) for a particle at x and for its ghosts.
+template <class Real, class Visit>
+__device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x, const Visit& visit) {
+    visit(0u, x);
+    // Each set of planes from the one without its last.
+    for (unsigned planes = 1; planes < 1u << model.planes; ++planes) {
+        if (__popc(planes) > 3) continue;
+        bool before_all = true;
+        unsigned so_far = 0;
+        for (int k = 0; k < model.planes && before_all; ++k) {
+            if (!(planes >> k & 1)) continue;
+            const Real distance = distance_to(model.plane[k].surface, ghost_of(model.water, x, so_far));
+            before_all = distance >= 0 && distance < model.water.radius;
+            so_far |= 1u << k;
+        }
+        if (before_all) visit(planes, ghost_of(model.water, x, planes));
+    }
+}
+
+/// Puts what is behind planes before them, and counts particles and ghosts by cell.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    begin_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const Quad<Real> before = slots.at.state_velocity[s];
+    const int number = number_in(before.w);
+    const bool fluid = number < model.fluid;
+    Quad<Real> x = slots.at.state_position[s];
+    if (x.w > 0) {
+        const Real distance =
+            fluid ? Real(physics::least_wall_distance) * model.water.spacing : model.collision_distance;
+        x = quad(put_before_planes(model, xyz(x), distance), x.w);
+        slots.at.state_position[s] = x;
+    }
+    water.position[s] = quad(xyz(x), model.water.volume[number]);
+    water.velocity[s] = quad(xyz(before), x.w);
+    if (!fluid) water.slot_of_solid[number - model.fluid] = s;
+    for_each_copy(model, xyz(x), [&](unsigned, const Vec3<Real>& at) {
+        atomicAdd(water.table + model.water.grid.cell(at), 1);
+    });
+}
+
+/// Puts the particles and ghosts of each cell together, in no order. Turns the cells' begins in the table into their ends.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    scatter_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const auto number = static_cast<std::uint64_t>(number_in(slots.at.state_velocity[s].w));
+    for_each_copy(model, xyz(water.position[s]), [&](unsigned planes, const Vec3<Real>& at) {
+        water.keys[atomicAdd(water.table + model.water.grid.cell(at), 1)] =
+            static_cast<std::uint64_t>(planes) << 58 | number << 32 | static_cast<unsigned>(s);
+    });
+}
+
+/// Lays out what searches read, in each cell by set of planes and then by particle: the order depends on positions alone.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    order_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    if (slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const int copies = water.table[model.water.grid.cells - 1];
+    for (int k = own_index(); k < copies; k += static_cast<int>(gridDim.x * blockDim.x)) {
+        const std::uint64_t key = water.keys[k];
+        const auto planes = static_cast<unsigned>(key >> 58), slot = static_cast<unsigned>(key);
+        const Vec3<Real> x = ghost_of(model.water, xyz(water.position[slot]), planes);
+        const int cell = model.water.grid.cell(x);
+        const int begin = cell > 0 ? water.table[cell - 1] : 0, end = water.table[cell];
+        int rank = begin;
+        for (int other = begin; other < end; ++other) rank += water.keys[other] < key;
+        water.candidate[rank] = quad(x, as_number<Real>(static_cast<int>(planes << most_slot_bits | slot)));
+    }
+}
+
+template <class Real>
+__device__ std::size_t first_entry(const WaterArrays<Real>& water, int s) {
+    return static_cast<std::size_t>(s / 32) * water.most * 32 + s % 32;
+}
+
+/// Lists what is within the kernel's support of each particle, solids and ghosts too.
+template <class Real>
+__global__ void __launch_bounds__(search_threads)
+    find_water_neighbours(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const Vec3<Real> x = xyz(water.position[s]);
+    const Real distance_squared = model.water.radius * model.water.radius;
+    unsigned* const list = water.neighbour + first_entry(water, s);
+    int n = 0;
+    model.water.grid.for_each_run(x, [&](int first, int last) {
+        const int begin = first > 0 ? water.table[first - 1] : 0, end = water.table[last];
+        for (int k = begin; k < end; ++k) {
+            const Quad<Real> other = water.candidate[k];
+            const Real r2 = physics::squared_length(x - xyz(other));
+            if (!(r2 < distance_squared && r2 > 0)) continue;
+            if (n < water.most) list[static_cast<std::size_t>(n) * 32] = static_cast<unsigned>(number_in(other.w));
+            ++n;
+        }
+    });
+    if (n > water.most) atomicMax(&slots.shared().most_neighbours, n);
+    water.count[s] = min(n, water.most);
+    water.count_of[number_in(slots.at.state_velocity[s].w)] = n;
+}
+
+/// Calls visit(its place, slot, planes) for the neighbours of slot s.
+template <class Real, class Visit>
+__device__ void for_each_water_neighbour(const WaterArrays<Real>& water, int s, const Visit& visit) {
+    const int count = water.count[s];
+    std::size_t place = first_entry(water, s);
+    for (int k = 0; k < count; ++k, place += 32) {
+        const unsigned entry = water.neighbour[place];
+        visit(place, static_cast<int>(entry & slot_mask), entry >> most_slot_bits);
+    }
+}
+
+/// A neighbour's velocity; of a ghost as its mirrors show it. w: inverse mass.
+template <class Real>
+__device__ Quad<Real> seen_velocity(const ModelView<Real>& model, const Quad<Real>* velocity, int slot,
+                                    unsigned planes) {
+    const Quad<Real> v = velocity[slot];
+    return planes == 0 ? v : quad(turned(model.water.reflection[planes], xyz(v)), v.w);
+}
+
+template <class Real>
+__device__ Vec3<Real> gradient_at(const WaterArrays<Real>& water, std::size_t place) {
+    return {water.gradient[0][place], water.gradient[1][place], water.gradient[2][place]};
+}
+
+/// Density, correction, crowding.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    water_moments(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const Quad<Real> here = water.position[s], moves = water.velocity[s];
+    physics::MomentSums<Real> sums;
+    for_each_water_neighbour(water, s, [&](std::size_t, int other, unsigned planes) {
+        const Quad<Real> there = water.position[other];
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+        const Quad<Real> v = seen_velocity(model, water.velocity, other, planes);
+        sums.add(difference, model.water.kernel, model.water.at_spacing, there.w, xyz(v) - xyz(moves));
+    });
+    const Real density = sums.density + here.w * model.water.kernel.scale;
+    const physics::Symmetric3<Real> l = sums.correction(density);
+    water.density[s] = density;
+    water.density_of[number_in(slots.at.state_velocity[s].w)] = density;
+    water.correction[s] = {l.xx, l.yy, l.zz, l.xy};
+    water.shear[s] = {l.xz, l.yz, moves.w, 0};
+    water.crowding[s] = quad(sums.crowding, sums.fastest_square);
+    water.target[s] = 0;
+}
+
+template <class Real>
+__device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction, const Quad<Real>& shear) {
+    return {correction.x, correction.y, correction.z, correction.w, shear.x, shear.y};
+}
+
+/// G_ij and the response.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    water_gradients(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const Quad<Real> here = water.position[s], own_shear = water.shear[s];
+    const physics::Symmetric3<Real> own = correction_of(water.correction[s], own_shear);
+    physics::ResponseSums<Real> sums;
+    for_each_water_neighbour(water, s, [&](std::size_t place, int other, unsigned planes) {
+        const Quad<Real> there = water.position[other], shear = water.shear[other];
+        physics::Symmetric3<Real> its = correction_of(water.correction[other], shear);
+        if (planes != 0) its = turned(model.water.reflection[planes], its);
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+        const Vec3<Real> gradient =
+            physics::pair_gradient(difference, model.water.kernel, here.w * there.w, own + its);
+        water.gradient[0][place] = gradient.x;
+        water.gradient[1][place] = gradient.y;
+        water.gradient[2][place] = gradient.z;
+        sums.add(gradient, shear.z);
+    });
+    water.response[s] = sums.response(own_shear.z);
+}
+
+/// The impulses of a Jacobi pass.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    water_impulses(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const Vec3<Real> v = xyz(water.velocity[s]);
+    Real rate = 0;
+    for_each_water_neighbour(water, s, [&](std::size_t place, int other, unsigned planes) {
+        const Vec3<Real> u = xyz(seen_velocity(model, water.velocity, other, planes));
+        rate += dot(u - v, gradient_at(water, place));
+    });
+    water.impulse[s] = physics::pressure_impulse(water.target[s], rate, water.response[s], water.density[s]);
+}
+
+/// Moves a solid by a change of its velocity in this substep.
+template <class Real>
+__device__ void move_solid(const Slots<Real>& slots, int solid, const Vec3<Real>& push) {
+    move(slots, slots.slot_of_solid()[solid], slots.h * push);
+}
+
+/// v_i -= w_i sum (impulse_i + impulse_j) G_ij; solids are moved by it too once the substep has predicted them.
+template <bool moves_solids, class Real>
+__global__ void __launch_bounds__(large_threads)
+    push_water_apart(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const Real own = water.impulse[s];
+    Vec3<Real> sum{0, 0, 0};
+    for_each_water_neighbour(water, s, [&](std::size_t place, int other, unsigned) {
+        sum += (own + water.impulse[other]) * gradient_at(water, place);
+    });
+    const Quad<Real> v = water.velocity[s];
+    const Vec3<Real> push = -v.w * sum;
+    water.velocity[s] = quad(xyz(v) + push, v.w);
+    if constexpr (moves_solids) {
+        const int number = number_in(slots.at.state_velocity[s].w);
+        if (number >= model.fluid && v.w > 0) move_solid(slots, number - model.fluid, push);
+    }
+}
+
+/// Viscosity and gravity, beside the velocities; what the density solve goes for.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    push_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const Quad<Real> here = water.position[s], moves = water.velocity[s];
+    Vec3<Real> v = xyz(moves);
+    if (model.water.dynamic_viscosity > 0) {
+        physics::ViscousSums<Real> sums;
+        for_each_water_neighbour(water, s, [&](std::size_t place, int other, unsigned planes) {
+            const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(water.position[other]), planes);
+            const Vec3<Real> u = xyz(seen_velocity(model, water.velocity, other, planes));
+            sums.add(difference, u - xyz(moves), model.water.softening, gradient_at(water, place));
+        });
+        v += (10 * slots.h * model.water.dynamic_viscosity * moves.w) * sums.impulse;
+    }
+    const bool fluid = number_in(slots.at.state_velocity[s].w) < model.fluid;
+    if (moves.w > 0) v += slots.h * (fluid ? model.fluid_gravity : model.gravity);
+    water.pushed[s] = quad(v, moves.w);
+    water.target[s] = physics::density_target(here.w, water.density[s], slots.h);
+}
+
+/// x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    predict_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.at.water;
+    const Quad<Real> x = slots.at.state_position[s], pushed = water.pushed[s], crowding = water.crowding[s];
+    const Real number = slots.at.state_velocity[s].w;
+    const bool fluid = number_in(number) < model.fluid;
+    Vec3<Real> v = xyz(pushed);
+    if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
+    water.velocity[s] = fluid ? pushed : quad(v, pushed.w);
+    Vec3<Real> there = xyz(x) + slots.h * v;
+    if (fluid)
+        there += physics::shift_of(water.density[s], xyz(crowding), crowding.w, model.water.radius,
+                                   model.water.spacing, slots.h);
+    const int cell = model.grid.cell(there) + (fluid ? 0 : model.grid.cells);
+    slots.at.predicted[s] = quad(there, x.w);
+    slots.at.drift_before[s] = quad(v, number);
+    slots.at.cell[s] = cell;
+    atomicAdd(slots.at.table + cell, 1);
+}
+
+/// Contacts, springs, clusters and planes of the solids; tells the water how they move by then. One block.
+template <class Real>
+__global__ void __launch_bounds__(threads)
+    solids_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    if (slots.failed()) return;
+    if (model.plan.contacts) solve_contacts(model, slots);
+    if (model.plan.springs) solve_springs(model, slots);
+    if (model.plan.clusters) solve_clusters(model, slots);
+    for (int solid = threadIdx.x; solid < model.solids; solid += threads) {
+        const int s = slots.slot_of_solid()[solid];
+        solve_planes_of(model, slots, s);
+        slots.at.water.velocity[slots.at.water.slot_of_solid[solid]] = constrained_velocity<Real>(slots, s);
+    }
+}
+
+/// The fluid goes where its velocities take it.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    move_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    const int s = own_index();
+    if (s >= model.fluid || slots.failed()) return;
+    const Quad<Real> base = slots.base()[s];
+    if (!(base.w > 0)) return;
+    Vec3<Real> v = xyz(slots.at.water.velocity[slots.at.water.slot_before[s]]);
+    if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
+    const Vec3<Real> displacement = slots.h * (v - xyz(slots.drift()[s]));
+    slots.displacement()[s] = quad(displacement, Real(0));
+    const Real distance = Real(physics::least_wall_distance) * model.water.spacing;
+    slots.position()[s] = quad(put_before_planes(model, xyz(base) + displacement, distance), base.w);
+}
+
+}  // namespace natator::cuda
