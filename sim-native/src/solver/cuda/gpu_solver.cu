@@ -137,15 +137,16 @@ private:
 template <class Real>
 class GpuSolver<Real>::ByWholeGpu : public Implementation {
 public:
-    ByWholeGpu(const Model& model, cuda::ContactRoom room) : Implementation(model), runner_(model, room) {}
+    ByWholeGpu(const Model& model, cuda::ContactRoom room) : Implementation(model), runner_(model, 1, room) {}
 
 private:
     const cuda::DeviceModel<Real>& device_model() const override { return runner_.model(); }
     cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
                        const cuda::Trace<Real>& trace) override {
-        runner_.upload(state);
-        const auto end = runner_.run({state.time, time_step, substeps, gait, false}, nullptr, trace);
-        state = runner_.download(state);
+        runner_.upload(0, state);
+        const std::vector<const Gait*> gaits(gait ? 1 : 0, gait);
+        const auto end = runner_.run({state.time, time_step, substeps, gaits, false}, nullptr, trace).front();
+        state = runner_.download(0, state);
         cuda::Progress progress;
         if (!end.finite) {
             progress.stopped = static_cast<int>(StopReason::unstable);

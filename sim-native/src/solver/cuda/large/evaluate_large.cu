@@ -1,10 +1,9 @@
 #include "evaluate_large.h"
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <future>
-#include <mutex>
+#include <optional>
 
 #include "evaluate/perturb.h"
 #include "large_runner.h"
@@ -23,85 +22,104 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// The settled start that members without a perturbation share, by who asks first.
-template <class Real>
-struct SharedStart {
-    std::mutex mutex;
-    std::optional<State<Real>> state;
-    Progress progress;
-};
-
-/// Evaluates one member after another. Several work side by side, each with a stream of its own: a State of some
-/// thousand particles leaves most of a GPU idle.
+/// Evaluates as many members at a time as there are States side by side.
 template <class Real>
 class LargeScene {
 public:
-    LargeScene(const Scene& scene, const Model& model, SharedStart<Real>& shared, StageProfile* profile)
-        : scene_(scene), model_(model), shared_(shared), profile_(profile), runner_(model) {}
+    LargeScene(const Scene& scene, const Model& model, int states, BatchTimes* times)
+        : scene_(scene), model_(model), times_(times), runner_(model, states) {}
 
-    Evaluation evaluate(const BatchMember& member) {
-        const Progress settled = start(member.perturbation);
-        Progress progress = settled;
-        runner_.prepare(update_of(member.gait, progress));
-        std::vector<double> path{runner_.mean_x()};
+    /// At most as many as there are States.
+    void evaluate(const BatchMember* members, int count, std::vector<Evaluation>& evaluations) {
+        progress_.assign(runner_.states(), Progress{});
+        start(members, count);
+        const std::vector<Progress> settled = progress_;
+        typename Runner::Update update{0, scene_.time_step, scene_.solver.substeps, {}, false};
+        for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
+        runner_.prepare(update);
+        path_.assign(runner_.states(), {});
+        const std::vector<double> begin = runner_.mean_x();
+        for (int k = 0; k < runner_.states(); ++k) path_[k].push_back(begin[k]);
         const HostClock watch;
         const auto frames = static_cast<int>(std::lround(scene_.duration / scene_.time_step));
-        while (progress.stopped < 0 && progress.frames < frames) advance(member.gait, progress, path);
-        times_.kernel += watch.seconds();
-        const State<Real> end = runner_.download(initial_state<Real>(model_));
-        return evaluation_of(scene_, model_, runner_.model().particle_of(), progress,
-                             settled.stopped >= 0 ? nullptr : &member.gait, path.data(), end, runner_.densities());
+        for (int frame = 0; frame < frames && let_rest(count); ++frame) {
+            update.start_time = frame * scene_.time_step;
+            note(runner_.run(update, times_ ? times_->profile : nullptr), update);
+        }
+        if (times_) times_->kernel += watch.seconds();
+        const std::vector<Real> densities = runner_.densities();
+        const std::size_t fluid = runner_.model().view().fluid;
+        for (int k = 0; k < count; ++k) {
+            const auto own = densities.begin() + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : k * fluid);
+            evaluations.push_back(evaluation_of(
+                scene_, model_, runner_.model().particle_of(), progress_[k],
+                settled[k].stopped >= 0 ? nullptr : &members[k].gait, path_[k].data(),
+                runner_.download(k, initial_state<Real>(model_)),
+                std::vector<Real>(own, own + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : fluid))));
+        }
     }
-
-    /// Spent so far.
-    const BatchTimes& times() const { return times_; }
 
 private:
     using Runner = LargeRunner<Real>;
 
-    Progress start(const Perturbation& perturbation) {
-        if (perturbation.amplitude != 0) {
-            Model perturbed = model_;
-            perturb(perturbation, perturbed);
-            return settle(initial_state<Real>(perturbed));
+    /// Takes the members to their settled starts; those without a perturbation share one.
+    void start(const BatchMember* members, int count) {
+        const auto is_perturbed = [](const BatchMember& member) { return member.perturbation.amplitude != 0; };
+        const bool alike = std::none_of(members, members + count, is_perturbed);
+        if (!alike || !shared_start_) {
+            for (int k = 0; k < runner_.states(); ++k) {
+                Model own = model_;
+                perturb(members[std::min(k, count - 1)].perturbation, own);
+                runner_.upload(k, initial_state<Real>(own));
+            }
+            settle(alike ? 1 : count);
         }
-        const std::lock_guard lock(shared_.mutex);
-        if (!shared_.state) {
-            shared_.progress = settle(initial_state<Real>(model_));
-            shared_.state = runner_.download(initial_state<Real>(model_));
+        if (!alike) return;
+        if (!shared_start_) shared_start_ = {runner_.download(0, initial_state<Real>(model_)), progress_[0]};
+        for (int k = 0; k < runner_.states(); ++k) {
+            runner_.upload(k, shared_start_->first);
+            progress_[k] = shared_start_->second;
         }
-        runner_.upload(*shared_.state);
-        return shared_.progress;
     }
 
-    Progress settle(const State<Real>& state) {
-        runner_.upload(state);
+    void settle(int count) {
         const HostClock watch;
         const Settling& settling = scene_.settling;
-        const typename Runner::Update update{0, settling.time_step, settling.substeps, nullptr, true};
-        Progress progress;
-        for (int k = 0; k < settling.updates && progress.stopped < 0; ++k)
-            note_instability(runner_.run(update), update, progress);
-        times_.settling += watch.seconds();
-        return progress;
+        const typename Runner::Update update{0, settling.time_step, settling.substeps, {}, true};
+        for (int k = 0; k < settling.updates && let_rest(count); ++k) {
+            const auto ends = runner_.run(update);
+            for (int state = 0; state < runner_.states(); ++state)
+                if (progress_[state].stopped < 0) note_instability(ends[state], update, progress_[state]);
+        }
+        if (times_) times_->settling += watch.seconds();
     }
 
-    typename Runner::Update update_of(const Gait& gait, const Progress& progress) const {
-        return {progress.frames * scene_.time_step, scene_.time_step, scene_.solver.substeps, &gait, false};
+    /// What has stopped, and States without a member, stay as they are. False if all do.
+    bool let_rest(int count) {
+        std::vector<bool> idle(runner_.states(), true);
+        bool any = false;
+        for (int k = 0; k < count; ++k) {
+            idle[k] = progress_[k].stopped >= 0;
+            any |= !idle[k];
+        }
+        if (idle != idle_) runner_.set_idle(idle);
+        idle_ = idle;
+        return any;
     }
 
-    void advance(const Gait& gait, Progress& progress, std::vector<double>& path) {
-        const typename Runner::Update update = update_of(gait, progress);
-        const typename Runner::End end = runner_.run(update, profile_);
-        if (note_instability(end, update, progress)) return;
-        path.push_back(end.mean_x);
-        ++progress.frames;
+    void note(const std::vector<typename Runner::End>& ends, const typename Runner::Update& update) {
         const bool swims = !model_.body.particles.empty();
         const long window = swims ? std::lround(scene_.stopping.no_progress_after / scene_.time_step) : 0;
-        if (scene_.stopping.plane_contact && end.touches_plane)
-            progress.stopped = static_cast<int>(StopReason::touched_plane);
-        else if (physics::without_progress(path.data(), progress.frames, window))
-            progress.stopped = static_cast<int>(StopReason::no_progress);
+        for (int k = 0; k < runner_.states(); ++k) {
+            Progress& progress = progress_[k];
+            if (idle_[k] || note_instability(ends[k], update, progress)) continue;
+            path_[k].push_back(ends[k].mean_x);
+            ++progress.frames;
+            if (scene_.stopping.plane_contact && ends[k].touches_plane)
+                progress.stopped = static_cast<int>(StopReason::touched_plane);
+            else if (physics::without_progress(path_[k].data(), progress.frames, window))
+                progress.stopped = static_cast<int>(StopReason::no_progress);
+        }
     }
 
     static bool note_instability(const typename Runner::End& end, const typename Runner::Update& update,
@@ -115,47 +133,30 @@ private:
 
     const Scene& scene_;
     const Model& model_;
-    SharedStart<Real>& shared_;
-    StageProfile* profile_;
-    BatchTimes times_{};
+    BatchTimes* times_;
     Runner runner_;
+    std::vector<Progress> progress_;
+    std::vector<std::vector<double>> path_;
+    std::vector<bool> idle_;
+    std::optional<std::pair<State<Real>, Progress>> shared_start_;
 };
 
-constexpr int most_side_by_side = 16;
-constexpr int particles_that_fill_a_gpu = 200'000;
-
-template <class Real>
-int side_by_side(const Model& model, std::size_t members, const BatchTimes* times) {
-    if (times && times->profile) return 1;  // stages are timed one by one
-    const int fill = particles_that_fill_a_gpu / model.particles() + 1;
-    return std::min({most_side_by_side, fill, static_cast<int>(members)});
-}
+/// So many fill a GPU; more at a time only take more memory.
+constexpr int particles_at_a_time = 1'000'000;
 
 }  // namespace
 
 template <class Real>
 std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                        BatchTimes* times) {
-    SharedStart<Real> shared;
-    std::vector<Evaluation> evaluations(members.size());
-    std::atomic<std::size_t> next = 0;
-    int device = 0;
-    check(cudaGetDevice(&device), "current device");
-    const auto work = [&] {
-        check(cudaSetDevice(device), "choose device");
-        LargeScene<Real> large(scene, model, shared, times ? times->profile : nullptr);
-        for (std::size_t k = next++; k < members.size(); k = next++) evaluations[k] = large.evaluate(members[k]);
-        return large.times();
-    };
-    std::vector<std::future<BatchTimes>> workers;
-    const int count = side_by_side<Real>(model, members.size(), times);
-    for (int k = 0; k < count; ++k) workers.push_back(std::async(std::launch::async, work));
-    for (auto& worker : workers) {
-        const BatchTimes spent = worker.get();
-        if (!times) continue;
-        times->settling += spent.settling / count;  // side by side
-        times->kernel += spent.kernel / count;
-    }
+    const int all = static_cast<int>(members.size());
+    // Parts of the same size, as far as they go.
+    const int most = std::min(all, particles_at_a_time / model.particles() + 1);
+    const int parts = (all + most - 1) / most, states = (all + parts - 1) / parts;
+    LargeScene<Real> large(scene, model, states, times);
+    std::vector<Evaluation> evaluations;
+    for (int first = 0; first < all; first += states)
+        large.evaluate(members.data() + first, std::min(states, all - first), evaluations);
     return evaluations;
 }
 

@@ -1,5 +1,4 @@
 #include "conserving_launches.cuh"
-#include "scan.h"
 #include "water_kernels.cuh"
 
 namespace natator::cuda {
@@ -13,36 +12,39 @@ struct DfsphLaunches : ConservingLaunches<Real> {
 
     template <class Kernel>
     void each_particle(Kernel kernel) const {
-        kernel<<<blocks, large_threads, 0, launch.stream>>>(model, slots);
+        kernel<<<launch.grid(blocks), large_threads, 0, launch.stream>>>(model, slots);
+    }
+    template <class Kernel>
+    void each_pair(Kernel kernel, int block = large_threads) const {
+        kernel<<<launch.grid(blocks_for(model.particles * pair_lanes, block)), block, 0, launch.stream>>>(model, slots);
     }
     void predict() const {
         const int cells = model.water.grid.cells;
-        const WaterArrays<Real>& water = slots.at.water;
-        check(cudaMemsetAsync(water.table, 0, cells * sizeof(int), launch.stream), "clear");
+        const WaterArrays<Real>& water = slots.water;
+        launch.clear(water.table, cells);
         each_particle(begin_water<Real>);
-        exclusive_scan(water.table, cells, launch.scan_room, launch.scan_bytes, launch.stream);
+        launch.add_up(water.table, cells);
         each_particle(scatter_water<Real>);
         each_particle(order_water<Real>);
-        find_water_neighbours<<<blocks_for(model.particles, search_threads), search_threads, 0, launch.stream>>>(
-            model, slots);
-        each_particle(water_moments<Real>);
-        each_particle(water_gradients<Real>);
+        each_pair(find_water_neighbours<Real>, search_threads);
+        each_pair(water_moments<Real>);
+        each_pair(water_gradients<Real>);
         for (int pass = 0; pass < physics::divergence_passes; ++pass) {
-            each_particle(water_impulses<Real>);
-            each_particle(push_water_apart<false, Real>);
+            each_pair(water_impulses<Real>);
+            each_pair(push_water_apart<false, Real>);
         }
-        each_particle(push_water<Real>);
-        check(cudaMemsetAsync(slots.at.table, 0, 2 * model.grid.cells * sizeof(int), launch.stream), "clear");
+        each_pair(push_water<Real>);
+        launch.clear(slots.at.table, 2 * model.grid.cells);
         each_particle(predict_in_water<Real>);
     }
     void solve_density_constraint() const {
-        each_particle(water_impulses<Real>);
-        each_particle(push_water_apart<true, Real>);
+        each_pair(water_impulses<Real>);
+        each_pair(push_water_apart<true, Real>);
     }
     template <class AfterStage>
     void solve_solids_beside_free_fluid(const AfterStage& after) const {
         if (model.solids == 0) return;
-        solids_in_water<<<1, threads, 0, launch.stream>>>(model, slots);
+        solids_in_water<<<launch.grid(1), threads, 0, launch.stream>>>(model, slots);
         after(Stage::solids);
     }
     void update_velocities() {

@@ -8,12 +8,14 @@ namespace {
 
 template <class Real>
 __global__ void densities_large(const __grid_constant__ ModelView<Real> model,
-                                const __grid_constant__ Slots<Real> slots, Real* density) {
+                                const __grid_constant__ Slots<Real> states, Real* density) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.fluid) return;
+    density += static_cast<std::size_t>(blockIdx.y) * model.fluid;
     const Vec3<Real> x = xyz(slots.position()[s]);
     if (model.plan.water) {
-        density[s] = slots.at.water.density_of[s];
+        density[s] = slots.water.density_of[s];
         return;
     }
     const Real above = model.scheme != Scheme::flex
@@ -24,11 +26,13 @@ __global__ void densities_large(const __grid_constant__ ModelView<Real> model,
 
 template <class Real>
 __global__ void neighbour_counts_large(const __grid_constant__ ModelView<Real> model,
-                                       const __grid_constant__ Slots<Real> slots, int* counts) {
+                                       const __grid_constant__ Slots<Real> states, int* counts) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles) return;
+    counts += static_cast<std::size_t>(blockIdx.y) * model.particles;
     if (model.plan.water) {
-        counts[s] = slots.at.water.count_of[s];
+        counts[s] = slots.water.count_of[s];
         return;
     }
     counts[slots.number()[s]] =
@@ -37,29 +41,33 @@ __global__ void neighbour_counts_large(const __grid_constant__ ModelView<Real> m
 
 template <class Real>
 __global__ void measure_large(const __grid_constant__ ModelView<Real> model,
-                              const __grid_constant__ Slots<Real> slots) {
+                              const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     measure_path(model, slots, &slots.shared().mean_x);
     const bool touches = touches_plane(model, slots);
     if (threadIdx.x == 0) slots.shared().touches = touches;
 }
 
 template <class Real>
-__global__ void rest_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+__global__ void rest_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
-    if (s < model.particles) slots.at.state_velocity[s] = {0, 0, 0, slots.at.state_velocity[s].w};
+    if (s < model.particles && !*slots.at.idle) slots.at.state_velocity[s] = {0, 0, 0, slots.at.state_velocity[s].w};
 }
 
 template <class Real>
 __global__ void far_slot_large(const __grid_constant__ ModelView<Real> model,
-                               const __grid_constant__ Slots<Real> slots) {
+                               const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     for (Quad<Real>* const array : {slots.at.state_position, slots.position(), slots.next(), slots.start()})
         array[model.particles] = far_away<Real>();
     if (model.scheme != Scheme::flex) slots.lambda()[model.particles] = 0;
 }
 
 template <class Real>
-__global__ void record_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots,
+__global__ void record_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
                              Quad<Real>* to) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s < model.particles) to[s] = quad(xyz(slots.position()[s]), as_number<Real>(slots.number()[s]));
 }
@@ -103,31 +111,34 @@ void record_positions(const LargeLaunch<Real>& launch, Quad<Real>* to, int row) 
 
 template <class Real>
 void launch_densities(const LargeLaunch<Real>& launch, Real* density) {
-    densities_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, at_the_end(launch), density);
+    densities_large
+        <<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(
+            launch.model, at_the_end(launch), density);
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts) {
-    neighbour_counts_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, launch.slots, counts);
+    neighbour_counts_large
+        <<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(launch.model, launch.slots, counts);
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_measure(const LargeLaunch<Real>& launch) {
-    measure_large<<<1, threads, 0, launch.stream>>>(launch.model, at_the_end(launch));
+    measure_large<<<launch.grid(1), threads, 0, launch.stream>>>(launch.model, at_the_end(launch));
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_rest(const LargeLaunch<Real>& launch) {
-    rest_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, launch.slots);
+    rest_large<<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(launch.model, launch.slots);
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_far_slot(const LargeLaunch<Real>& launch) {
-    far_slot_large<<<1, 1, 0, launch.stream>>>(launch.model, launch.slots);
+    far_slot_large<<<launch.grid(1), 1, 0, launch.stream>>>(launch.model, launch.slots);
     check(cudaGetLastError(), "launch");
 }
 

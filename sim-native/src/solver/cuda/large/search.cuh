@@ -66,7 +66,8 @@ __device__ int list_contacts(const ModelView<Real>& model, const Slots<Real>& sl
 /// take longest.
 template <class Real>
 __global__ void __launch_bounds__(search_threads, 12)
-    find_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    find_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     __shared__ int staging[(staged_neighbours + 1) * search_threads];
     const int s = static_cast<int>((gridDim.x - 1 - blockIdx.x) * blockDim.x + threadIdx.x);
     if (s >= model.particles || slots.failed()) return;

@@ -1,6 +1,7 @@
 #pragma once
 
-// The water of scheme dfsph for a large State: a kernel per sum over neighbours. See cpu/dfsph/water.h.
+// The water of scheme dfsph for a large State: a kernel per sum over neighbours, which pair_lanes threads share. See
+// cpu/dfsph/water.h.
 #include "cells.cuh"
 #include "search.cuh"
 #include "solver/cuda/conserving.cuh"
@@ -47,10 +48,11 @@ __device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x,
 /// Puts what is behind planes before them, and counts particles and ghosts by cell.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    begin_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    begin_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const Quad<Real> before = slots.at.state_velocity[s];
     const int number = number_in(before.w);
     const bool fluid = number < model.fluid;
@@ -72,10 +74,11 @@ __global__ void __launch_bounds__(large_threads)
 /// Puts the particles and ghosts of each cell together, in no order. Turns the cells' begins in the table into their ends.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    scatter_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    scatter_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const auto number = static_cast<std::uint64_t>(number_in(slots.at.state_velocity[s].w));
     for_each_copy(model, xyz(water.position[s]), [&](unsigned planes, const Vec3<Real>& at) {
         water.keys[atomicAdd(water.table + model.water.grid.cell(at), 1)] =
@@ -86,9 +89,10 @@ __global__ void __launch_bounds__(large_threads)
 /// Lays out what searches read, in each cell by set of planes and then by particle: the order depends on positions alone.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    order_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    order_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const int copies = water.table[model.water.grid.cells - 1];
     for (int k = own_index(); k < copies; k += static_cast<int>(gridDim.x * blockDim.x)) {
         const std::uint64_t key = water.keys[k];
@@ -102,45 +106,84 @@ __global__ void __launch_bounds__(large_threads)
     }
 }
 
+/// Of the threads that share a slot.
+__device__ inline int own_lane() {
+    return static_cast<int>(threadIdx.x) % pair_lanes;
+}
+__device__ inline int own_slot() {
+    return own_index() / pair_lanes;
+}
 template <class Real>
-__device__ std::size_t first_entry(const WaterArrays<Real>& water, int s) {
-    return static_cast<std::size_t>(s / 32) * water.most * 32 + s % 32;
+__device__ Vec3<Real> sum_of_lanes(const Vec3<Real>& v) {
+    return {sum_of_lanes(v.x), sum_of_lanes(v.y), sum_of_lanes(v.z)};
+}
+template <class Real>
+__device__ Real largest_of_lanes(Real value) {
+    for (int step = pair_lanes / 2; step > 0; step /= 2) {
+        const Real other = __shfl_xor_sync(0xffffffff, value, step);
+        value = other > value ? other : value;
+    }
+    return value;
 }
 
-/// Lists what is within the kernel's support of each particle, solids and ghosts too.
+/// Lists what is within the kernel's support of each particle, solids and ghosts too, in the order of the cells.
 template <class Real>
 __global__ void __launch_bounds__(search_threads)
-    find_water_neighbours(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
-    const int s = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+    find_water_neighbours(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot(), lane = own_lane();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const Vec3<Real> x = xyz(water.position[s]);
     const Real distance_squared = model.water.radius * model.water.radius;
-    unsigned* const list = water.neighbour + first_entry(water, s);
+    const int first_lane = static_cast<int>(threadIdx.x) % 32 - lane;
+    const unsigned lanes = ((1u << pair_lanes) - 1) << first_lane;
+    unsigned* const list = water.neighbour + static_cast<std::size_t>(s) * slots.water_neighbours;
     int n = 0;
     model.water.grid.for_each_run(x, [&](int first, int last) {
         const int begin = first > 0 ? water.table[first - 1] : 0, end = water.table[last];
-        for (int k = begin; k < end; ++k) {
-            const Quad<Real> other = water.candidate[k];
-            const Real r2 = physics::squared_length(x - xyz(other));
-            if (!(r2 < distance_squared && r2 > 0)) continue;
-            if (n < water.most) list[static_cast<std::size_t>(n) * 32] = static_cast<unsigned>(number_in(other.w));
-            ++n;
+        for (int k = begin; k < end; k += pair_lanes) {
+            Quad<Real> other{};
+            bool near = k + lane < end;
+            if (near) {
+                other = water.candidate[k + lane];
+                const Real r2 = physics::squared_length(x - xyz(other));
+                near = r2 < distance_squared && r2 > 0;
+            }
+            const unsigned found = __ballot_sync(lanes, near) >> first_lane & ((1u << pair_lanes) - 1);
+            const int at = n + __popc(found & ((1u << lane) - 1));
+            if (near && at < slots.water_neighbours) list[at] = static_cast<unsigned>(number_in(other.w));
+            n += __popc(found);
         }
     });
-    if (n > water.most) atomicMax(&slots.shared().most_neighbours, n);
-    water.count[s] = min(n, water.most);
+    if (lane != 0) return;
+    if (n > slots.water_neighbours) atomicMax(&slots.shared().most_neighbours, n);
+    water.count[s] = min(n, slots.water_neighbours);
     water.count_of[number_in(slots.at.state_velocity[s].w)] = n;
 }
 
-/// Calls visit(its place, slot, planes) for the neighbours of slot s.
+/// Calls visit(its place, slot, planes) for this thread's share of the neighbours of slot s.
 template <class Real, class Visit>
-__device__ void for_each_water_neighbour(const WaterArrays<Real>& water, int s, const Visit& visit) {
+__device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit) {
+    const WaterArrays<Real>& water = slots.water;
+    const std::size_t first = static_cast<std::size_t>(s) * slots.water_neighbours;
     const int count = water.count[s];
-    std::size_t place = first_entry(water, s);
-    for (int k = 0; k < count; ++k, place += 32) {
-        const unsigned entry = water.neighbour[place];
-        visit(place, static_cast<int>(entry & slot_mask), entry >> most_slot_bits);
+    for (int k = own_lane(); k < count; k += pair_lanes) {
+        const unsigned entry = water.neighbour[first + k];
+        visit(first + k, static_cast<int>(entry & slot_mask), entry >> most_slot_bits);
+    }
+}
+
+/// Calls visit(G_ij, slot, planes) for the same, once gradients are known.
+template <class Real, class Visit>
+__device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit) {
+    const Quad<Real>* const first = slots.water.pair + static_cast<std::size_t>(s) * slots.water_neighbours;
+    const int count = slots.water.count[s];
+#pragma unroll 4
+    for (int k = own_lane(); k < count; k += pair_lanes) {
+        const Quad<Real> pair = first[k];
+        const auto entry = static_cast<unsigned>(number_in(pair.w));
+        visit(xyz(pair), static_cast<int>(entry & slot_mask), entry >> most_slot_bits);
     }
 }
 
@@ -152,26 +195,29 @@ __device__ Quad<Real> seen_velocity(const ModelView<Real>& model, const Quad<Rea
     return planes == 0 ? v : quad(turned(model.water.reflection[planes], xyz(v)), v.w);
 }
 
-template <class Real>
-__device__ Vec3<Real> gradient_at(const WaterArrays<Real>& water, std::size_t place) {
-    return {water.gradient[0][place], water.gradient[1][place], water.gradient[2][place]};
-}
-
 /// Density, correction, crowding.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    water_moments(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
-    const int s = own_index();
+    water_moments(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
     physics::MomentSums<Real> sums;
-    for_each_water_neighbour(water, s, [&](std::size_t, int other, unsigned planes) {
+    for_each_water_neighbour(slots, s, [&](std::size_t, int other, unsigned planes) {
         const Quad<Real> there = water.position[other];
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
         const Quad<Real> v = seen_velocity(model, water.velocity, other, planes);
         sums.add(difference, model.water.kernel, model.water.at_spacing, there.w, xyz(v) - xyz(moves));
     });
+    sums.density = sum_of_lanes(sums.density);
+    physics::Symmetric3<Real>& m = sums.moments;
+    m = {sum_of_lanes(m.xx), sum_of_lanes(m.yy), sum_of_lanes(m.zz),
+         sum_of_lanes(m.xy), sum_of_lanes(m.xz), sum_of_lanes(m.yz)};
+    sums.crowding = sum_of_lanes(sums.crowding);
+    sums.fastest_square = largest_of_lanes(sums.fastest_square);
+    if (own_lane() != 0) return;
     const Real density = sums.density + here.w * model.water.kernel.scale;
     const physics::Symmetric3<Real> l = sums.correction(density);
     water.density[s] = density;
@@ -190,42 +236,46 @@ __device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction,
 /// G_ij and the response.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    water_gradients(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
-    const int s = own_index();
+    water_gradients(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], own_shear = water.shear[s];
     const physics::Symmetric3<Real> own = correction_of(water.correction[s], own_shear);
     physics::ResponseSums<Real> sums;
-    for_each_water_neighbour(water, s, [&](std::size_t place, int other, unsigned planes) {
+    for_each_water_neighbour(slots, s, [&](std::size_t place, int other, unsigned planes) {
         const Quad<Real> there = water.position[other], shear = water.shear[other];
         physics::Symmetric3<Real> its = correction_of(water.correction[other], shear);
         if (planes != 0) its = turned(model.water.reflection[planes], its);
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
         const Vec3<Real> gradient =
             physics::pair_gradient(difference, model.water.kernel, here.w * there.w, own + its);
-        water.gradient[0][place] = gradient.x;
-        water.gradient[1][place] = gradient.y;
-        water.gradient[2][place] = gradient.z;
+        water.pair[place] = quad(gradient, as_number<Real>(static_cast<int>(water.neighbour[place])));
         sums.add(gradient, shear.z);
     });
-    water.response[s] = sums.response(own_shear.z);
+    sums.gradient = sum_of_lanes(sums.gradient);
+    sums.square = sum_of_lanes(sums.square);
+    if (own_lane() == 0) water.response[s] = sums.response(own_shear.z);
 }
 
 /// The impulses of a Jacobi pass.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    water_impulses(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
-    const int s = own_index();
+    water_impulses(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const Vec3<Real> v = xyz(water.velocity[s]);
     Real rate = 0;
-    for_each_water_neighbour(water, s, [&](std::size_t place, int other, unsigned planes) {
-        const Vec3<Real> u = xyz(seen_velocity(model, water.velocity, other, planes));
-        rate += dot(u - v, gradient_at(water, place));
+    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
+        rate += dot(xyz(seen_velocity(model, water.velocity, other, planes)) - v, gradient);
     });
-    water.impulse[s] = physics::pressure_impulse(water.target[s], rate, water.response[s], water.density[s]);
+    rate = sum_of_lanes(rate);
+    if (own_lane() == 0)
+        water.impulse[s] =
+            physics::pressure_impulse(water.target[s], rate, water.response[s], water.density[s]);
 }
 
 /// Moves a solid by a change of its velocity in this substep.
@@ -237,15 +287,18 @@ __device__ void move_solid(const Slots<Real>& slots, int solid, const Vec3<Real>
 /// v_i -= w_i sum (impulse_i + impulse_j) G_ij; solids are moved by it too once the substep has predicted them.
 template <bool moves_solids, class Real>
 __global__ void __launch_bounds__(large_threads)
-    push_water_apart(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
-    const int s = own_index();
+    push_water_apart(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const Real own = water.impulse[s];
     Vec3<Real> sum{0, 0, 0};
-    for_each_water_neighbour(water, s, [&](std::size_t place, int other, unsigned) {
-        sum += (own + water.impulse[other]) * gradient_at(water, place);
+    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned) {
+        sum += (own + water.impulse[other]) * gradient;
     });
+    sum = sum_of_lanes(sum);
+    if (own_lane() != 0) return;
     const Quad<Real> v = water.velocity[s];
     const Vec3<Real> push = -v.w * sum;
     water.velocity[s] = quad(xyz(v) + push, v.w);
@@ -258,21 +311,23 @@ __global__ void __launch_bounds__(large_threads)
 /// Viscosity and gravity, beside the velocities; what the density solve goes for.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    push_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
-    const int s = own_index();
+    push_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
     Vec3<Real> v = xyz(moves);
     if (model.water.dynamic_viscosity > 0) {
         physics::ViscousSums<Real> sums;
-        for_each_water_neighbour(water, s, [&](std::size_t place, int other, unsigned planes) {
+        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
             const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(water.position[other]), planes);
             const Vec3<Real> u = xyz(seen_velocity(model, water.velocity, other, planes));
-            sums.add(difference, u - xyz(moves), model.water.softening, gradient_at(water, place));
+            sums.add(difference, u - xyz(moves), model.water.softening, gradient);
         });
-        v += (10 * slots.h * model.water.dynamic_viscosity * moves.w) * sums.impulse;
+        v += (10 * slots.h * model.water.dynamic_viscosity * moves.w) * sum_of_lanes(sums.impulse);
     }
+    if (own_lane() != 0) return;
     const bool fluid = number_in(slots.at.state_velocity[s].w) < model.fluid;
     if (moves.w > 0) v += slots.h * (fluid ? model.fluid_gravity : model.gravity);
     water.pushed[s] = quad(v, moves.w);
@@ -282,10 +337,11 @@ __global__ void __launch_bounds__(large_threads)
 /// x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    predict_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    predict_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles || slots.failed()) return;
-    const WaterArrays<Real>& water = slots.at.water;
+    const WaterArrays<Real>& water = slots.water;
     const Quad<Real> x = slots.at.state_position[s], pushed = water.pushed[s], crowding = water.crowding[s];
     const Real number = slots.at.state_velocity[s].w;
     const bool fluid = number_in(number) < model.fluid;
@@ -306,7 +362,8 @@ __global__ void __launch_bounds__(large_threads)
 /// Contacts, springs, clusters and planes of the solids; tells the water how they move by then. One block.
 template <class Real>
 __global__ void __launch_bounds__(threads)
-    solids_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    solids_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (slots.failed()) return;
     if (model.plan.contacts) solve_contacts(model, slots);
     if (model.plan.springs) solve_springs(model, slots);
@@ -314,19 +371,20 @@ __global__ void __launch_bounds__(threads)
     for (int solid = threadIdx.x; solid < model.solids; solid += threads) {
         const int s = slots.slot_of_solid()[solid];
         solve_planes_of(model, slots, s);
-        slots.at.water.velocity[slots.at.water.slot_of_solid[solid]] = constrained_velocity<Real>(slots, s);
+        slots.water.velocity[slots.water.slot_of_solid[solid]] = constrained_velocity<Real>(slots, s);
     }
 }
 
 /// The fluid goes where its velocities take it.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    move_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    move_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.fluid || slots.failed()) return;
     const Quad<Real> base = slots.base()[s];
     if (!(base.w > 0)) return;
-    Vec3<Real> v = xyz(slots.at.water.velocity[slots.at.water.slot_before[s]]);
+    Vec3<Real> v = xyz(slots.water.velocity[slots.water.slot_before[s]]);
     if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
     const Vec3<Real> displacement = slots.h * (v - xyz(slots.drift()[s]));
     slots.displacement()[s] = quad(displacement, Real(0));
