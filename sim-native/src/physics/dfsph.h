@@ -135,16 +135,25 @@ struct ResponseSums {
     }
 };
 
+/// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it would
+/// overshoot. `own`, `other`: a particle's volume times its inverse mass; `most`: what that may be.
+template <class T>
+NATATOR_HD T viscous_share(T own, T other, Scalar<T> most) {
+    const T larger = smaller(-own, -other) * Scalar<T>(-1);
+    return larger > most ? most / larger : one<T>();
+}
+
 /// Viscous impulses on a particle, without its inverse mass and 10 h mu: Monaghan's form (2005, eq. 8.5), which acts
-/// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0.
+/// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0; `share`
+/// is viscous_share.
 template <class T>
 struct ViscousSums {
     Vec3<T> impulse{};
 
-    NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening,
+    NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening, T share,
                         const Vec3<T>& pair_gradient) {
         const T approach = dot(relative_velocity, difference);  // (v_j - v_i) (x_i - x_j)
-        impulse -= approach / (squared_length(difference) + softening) * pair_gradient;
+        impulse -= share * approach / (squared_length(difference) + softening) * pair_gradient;
     }
 };
 

@@ -59,4 +59,14 @@ std::vector<double> particle_volumes(const Model& model) {
     return volumes;
 }
 
+double fluid_density(const Model& model, const std::vector<double>& volumes) {
+    double mass = 0, volume = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i) || model.inverse_mass[i] == 0) continue;
+        mass += 1 / model.inverse_mass[i];
+        volume += volumes[i];
+    }
+    return volume > 0 ? mass / volume : 0;
+}
+
 }  // namespace natator::cpu

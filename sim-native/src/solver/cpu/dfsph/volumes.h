@@ -10,6 +10,9 @@ namespace natator::cpu {
 /// 1; of a solid one the cube of the distance to the nearest other of its group at rest, but no more than that.
 std::vector<double> particle_volumes(const Model& model);
 
+/// Mass density of the fluid, from the mean mass of its particles, mass/length^3; 0 without fluid.
+double fluid_density(const Model& model, const std::vector<double>& volumes);
+
 /// R: where the kernel of the water ends, length.
 double support(const Model& model);
 

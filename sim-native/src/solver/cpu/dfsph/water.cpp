@@ -13,21 +13,15 @@ namespace {
 constexpr double wet = 0.9;            ///< density from which a particle is held incompressible
 constexpr double relaxation = 0.5;     ///< of the Jacobi passes
 constexpr int divergence_passes = 1;   ///< on the velocities as they are
-constexpr double most_excess = 0.05;   ///< of rest density that a substep takes off
+constexpr double most_excess = 0.05;   ///< of rest density that the velocities take off in a substep
+constexpr double expansion = 1.0 / 6;  ///< rate at which they may, times the time in which gravity parts two particles
+constexpr double most_overlap = 0.5;   ///< of rest density that a substep takes off without them
+constexpr int parting_passes = 4;      ///< on overlaps
+constexpr double longest_parting = 0.5;  ///< of the rest distance, a substep
+constexpr double most_diffusion = 0.1; ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
 constexpr double shift_strength = 0.5; ///< of R h |dv| times where neighbours crowd
 constexpr double longest_shift = 0.05; ///< of the rest distance, a substep
 constexpr double shifted_density = 0.95;  ///< below it is the surface, which is left as it is
-
-/// Mass density of the fluid, from the mean mass of its particles.
-double fluid_density(const Model& model, const std::vector<double>& volumes) {
-    double mass = 0, volume = 0;
-    for (int i = 0; i < model.particles(); ++i) {
-        if (!model.is_fluid(i) || model.inverse_mass[i] == 0) continue;
-        mass += 1 / model.inverse_mass[i];
-        volume += volumes[i];
-    }
-    return volume > 0 ? mass / volume : 0;
-}
 
 }  // namespace
 
@@ -43,6 +37,9 @@ Water<Real>::Water(const Model& model)
       mirror_(model),
       particles_(model.particles()),
       image_begin_(round_up_to_block(model.particles())) {
+    const SolverParameters& p = model.parameters;
+    const double acceleration = std::min(std::max(p.maxAcceleration / 10, p.gravity.norm()), 1e30);
+    fastest_expansion_ = static_cast<Real>(expansion * std::sqrt(acceleration / p.fluidRestDistance));
     const std::vector<double> volumes = particle_volumes(model);
     dynamic_viscosity_ = static_cast<Real>(model.parameters.kinematicViscosity * fluid_density(model, volumes));
     for (const double v : volumes) volume_of_.push_back(static_cast<Real>(v));
@@ -60,9 +57,49 @@ Water<Real>::Water(const Model& model)
 template <class Real>
 Vec3<Real> Water<Real>::shift(int particle) const {
     const int slot = slot_of_[particle];
-    if (!model_.is_fluid(particle) || !(density_[slot] > Real(shifted_density))) return {};
+    const Vec3<Real> parting = parting_.empty() ? Vec3<Real>{} : parting_[slot];
+    if (!model_.is_fluid(particle) || !(density_[slot] > Real(shifted_density))) return parting;
     const Real strength = Real(shift_strength) * radius_ * h_ * std::sqrt(fastest_square_[slot]);
-    return clamped(strength * crowding_.at(slot), Real(longest_shift) * spacing_);
+    return clamped(strength * crowding_.at(slot), Real(longest_shift) * spacing_) + parting;
+}
+
+/// What the velocities take off of a density above rest in this substep; negative below it. The speed that this gives does
+/// not leave again, so it must be let out slowly.
+template <class Real>
+Real Water<Real>::excess_for_velocities(int slot) const {
+    return std::min(density_[slot] - 1, std::min(Real(most_excess), h_ * fastest_expansion_));
+}
+
+/// Where particles start too close, parts them without giving them a velocity: by passes on velocities that begin at 0 and
+/// are forgotten once they have moved the particles (Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking,
+/// 2003, and others call that split impulses). Bodies stay where they are, as pushing their particles would bend them.
+template <class Real>
+void Water<Real>::part_overlaps(ThreadTeam& team) {
+    parting_.clear();
+    bool any = false;
+    for (int slot = 0; slot < particles_; ++slot) {
+        const Real above = density_[slot] - 1;
+        any |= above > Real(physics::overlap_tolerance);
+        const Real taken = std::min(above, Real(most_overlap)) - excess_for_velocities(slot);
+        target_[slot] = volume_[slot] / h_ * std::max(taken, Real(0));
+    }
+    if (!any) return;
+    kept_velocity_ = velocity_;
+    for (int slot = 0; slot < particles_; ++slot) {
+        velocity_.set(slot, {});
+        if (!model_.is_fluid(particle_of_[slot])) inverse_mass_[slot] = 0;
+    }
+    on_all_threads(team, kernels_->pack);
+    mirror_velocities();
+    for (int pass = 0; pass < parting_passes; ++pass) push_apart(team);
+    parting_.resize(particles_);
+    for (int slot = 0; slot < particles_; ++slot) {
+        parting_[slot] = clamped(h_ * velocity_.at(slot), Real(longest_parting) * spacing_);
+        velocity_.set(slot, kept_velocity_.at(slot));
+        inverse_mass_[slot] = inverse_mass_of_[particle_of_[slot]];
+    }
+    on_all_threads(team, kernels_->pack);
+    mirror_velocities();
 }
 
 /// Numbers the slots by cell, first of the particles, then of the images.
@@ -242,19 +279,20 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     mirror_corrections();
     on_all_threads(team, kernels_->compute_gradients);
 
+    part_overlaps(team);
     std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
     for (int pass = 0; pass < divergence_passes; ++pass) push_apart(team);
-    if (dynamic_viscosity_ > 0)
-        on_all_threads(team, [&](const WaterView<Real>& part) {
-            kernels_->add_viscosity(part, 10 * h * dynamic_viscosity_);
-        });
+    if (dynamic_viscosity_ > 0) {
+        const Real strength = 10 * h * dynamic_viscosity_, most = 10 * Real(most_diffusion) * spacing_ * spacing_ / strength;
+        on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
+    }
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
     const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
     for (int slot = 0; slot < particles_; ++slot) {
         if (inverse_mass_[slot] > 0)
             velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
-        target_[slot] = volume_[slot] / h * std::min(density_[slot] - 1, Real(most_excess));
+        target_[slot] = volume_[slot] / h * excess_for_velocities(slot);
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();

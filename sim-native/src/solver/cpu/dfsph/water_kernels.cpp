@@ -75,17 +75,19 @@ void compute_gradients(const WaterView<Real>& water) {
 }
 
 template <class Group, class Real>
-void add_viscosity(const WaterView<Real>& water, Real strength) {
+void add_viscosity(const WaterView<Real>& water, Real strength, Real most) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Vec3<Lane> v = get3<Group>(water.velocity, first);
+        const Lane inverse_mass = Group::get(water.inverse_mass + first);
+        const Lane own = Group::get(water.volume + first) * inverse_mass;
         ViscousSums<Lane> sums;
-        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>&, const Vec3<Lane>& difference) {
+        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             sums.add(difference, Vec3<Lane>{moves.x, moves.y, moves.z} - v, water.softening,
-                     get3<Group>(water.gradient, entry));
+                     viscous_share(own, other.w * moves.w, most), get3<Group>(water.gradient, entry));
         });
-        const Lane scale = strength * Group::get(water.inverse_mass + first);
+        const Lane scale = strength * inverse_mass;
         put3<Group>(water.velocity, first, v + scale * sums.impulse);
     });
 }

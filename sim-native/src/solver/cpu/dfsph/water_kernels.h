@@ -52,8 +52,9 @@ struct WaterKernels {
     void (*compute_moments)(const WaterView<Real>& water);
     /// gradient and response.
     void (*compute_gradients)(const WaterView<Real>& water);
-    /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was.
-    void (*add_viscosity)(const WaterView<Real>& water, Real strength);
+    /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was. `most`: see
+    /// physics::viscous_share.
+    void (*add_viscosity)(const WaterView<Real>& water, Real strength, Real most);
     /// impulse of a Jacobi pass: what takes a rate of expansion below its target there, never above; in impulse_sum too.
     void (*compute_impulse)(const WaterView<Real>& water);
     /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, also laid out.
