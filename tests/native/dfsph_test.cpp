@@ -12,6 +12,7 @@
 #include "natator/scene.h"
 #include "natator/solver.h"
 #include "scene/scene_json.h"
+#include "stability.h"
 #include "water/water_case.h"
 
 namespace natator {
@@ -136,6 +137,47 @@ TEST(Dfsph, ANeutralBodyHovers) {
     const double before = height();
     advance(solver, model, state, 60);
     EXPECT_NEAR(height(), before, 0.1);  // in this time a stone falls by 5
+}
+
+/// A short swimmer in a small tank, with one thing made worse.
+bench::StabilityResult made_worse(const std::string& axis, double value, double viscosity = 0) {
+    bench::StabilityCase subject = bench::calm_case();
+    subject.scene.scheme = Scheme::dfsph;
+    subject.scene.duration = 0.3;
+    subject.scene.solver.kinematicViscosity = viscosity;
+    bench::stability_axis(axis).set(subject, value);
+    return bench::run_stability(subject, Precision::single_precision);
+}
+
+/// What starts too close is parted, not flung away.
+TEST(Dfsph, StartsThatOverlapAreBorne) {
+    for (const double factor : {0.8, 0.25, 0.01})
+        EXPECT_EQ(made_worse("overlap", factor).verdict, bench::Verdict::ok) << "spacing times " << factor;
+    EXPECT_EQ(made_worse("body-clearance", 0).verdict, bench::Verdict::ok);
+}
+
+/// A block squeezed to half its volume, without gravity: parting it gives less speed than pushing it apart would.
+TEST(Dfsph, OverlapsArePartedWithoutSpeed) {
+    Model model = box_of_water({8, 8, 8});
+    model.parameters.gravity.setZero();
+    model.parameters.substeps = 4;
+    for (auto& x : model.position) x *= 0.8;
+    State<double> state = initial_state<double>(model);
+    Solver<double> solver(model);
+    advance(solver, model, state, 15);
+    double fastest = 0;
+    for (const auto& v : state.velocity) fastest = std::max(fastest, v.norm());
+    EXPECT_LE(fastest, 2);  // not 0.8 at 12/s, which a twentieth of the density in a substep would be
+    for (const double density : solver.densities()) EXPECT_LE(density, 1.1);
+}
+
+TEST(Dfsph, LightBodiesAreBorne) {
+    EXPECT_EQ(made_worse("mass-ratio", 1e-4).verdict, bench::Verdict::ok);
+    EXPECT_EQ(made_worse("mass-ratio", 0.003, 0.2).verdict, bench::Verdict::ok) << "in viscous water";
+}
+
+TEST(Dfsph, LongTimeStepsAreBorne) {
+    EXPECT_EQ(made_worse("dt", 32).verdict, bench::Verdict::ok);
 }
 
 TEST(Dfsph, AnyNumberOfThreadsGivesTheSameBits) {

@@ -58,7 +58,12 @@ NATATOR_HD T unit_part(T v) {
 inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
 inline constexpr int divergence_passes = 1;    ///< on the velocities as they are, a substep
-inline constexpr double most_excess = 0.05;    ///< of rest density that a substep takes off
+inline constexpr double most_excess = 0.05;    ///< of rest density that the velocities take off in a substep
+inline constexpr double expansion = 1.0 / 6;   ///< rate at which they may, times the time in which gravity parts two particles
+inline constexpr double most_overlap = 0.5;    ///< of rest density that a substep takes off without them
+inline constexpr int parting_passes = 4;       ///< on overlaps
+inline constexpr double longest_parting = 0.5; ///< of the rest distance, a substep
+inline constexpr double most_diffusion = 0.1;  ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
 inline constexpr double shift_strength = 0.5;  ///< of R h |dv| times where neighbours crowd
 inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a substep
 inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
@@ -146,10 +151,26 @@ struct ResponseSums {
     }
 };
 
-/// What a solve goes for, times V_i: the rate of expansion that takes a particle to rest density within a substep.
+/// What the velocities take off of a density above rest in a substep; negative below it. The speed that this gives does not
+/// leave again, so it must be let out slowly: `most` is the smaller of most_excess and h times the fastest expansion.
 template <class T>
-NATATOR_HD T density_target(T volume, T density, Scalar<T> h) {
-    return volume / h * smaller(density - 1, T{} + Scalar<T>(most_excess));
+NATATOR_HD T velocity_excess(T density, Scalar<T> most) {
+    return smaller(density - 1, T{} + most);
+}
+
+/// The rate of expansion, times V_i, that a density solve goes for: what takes a particle to rest density in a substep.
+template <class T>
+NATATOR_HD T density_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
+    return volume / h * velocity_excess(density, most);
+}
+
+/// The same of what is more than the velocities take off: overlaps are parted by passes on velocities that begin at 0 and
+/// are forgotten once they have moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies
+/// with Stacking, 2003, and others).
+template <class T>
+NATATOR_HD T parting_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
+    const T above = smaller(density - 1, T{} + Scalar<T>(most_overlap));
+    return volume / h * positive_part(above - velocity_excess(density, most));
 }
 
 /// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.
@@ -168,16 +189,25 @@ NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square
     return clamped(strength * crowding, T(longest_shift) * spacing);
 }
 
+/// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it would
+/// overshoot. `own`, `other`: a particle's volume times its inverse mass; `most`: what that may be.
+template <class T>
+NATATOR_HD T viscous_share(T own, T other, Scalar<T> most) {
+    const T larger = smaller(-own, -other) * Scalar<T>(-1);
+    return larger > most ? most / larger : one<T>();
+}
+
 /// Viscous impulses on a particle, without its inverse mass and 10 h mu: Monaghan's form (2005, eq. 8.5), which acts
-/// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0.
+/// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0; `share`
+/// is viscous_share.
 template <class T>
 struct ViscousSums {
     Vec3<T> impulse{};
 
-    NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening,
+    NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening, T share,
                         const Vec3<T>& pair_gradient) {
         const T approach = dot(relative_velocity, difference);  // (v_j - v_i) (x_i - x_j)
-        impulse -= approach / (squared_length(difference) + softening) * pair_gradient;
+        impulse -= share * approach / (squared_length(difference) + softening) * pair_gradient;
     }
 };
 

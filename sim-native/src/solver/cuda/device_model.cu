@@ -130,8 +130,10 @@ void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
     water.spacing = static_cast<Real>(spacing);
     water.at_spacing = static_cast<Real>(1 / cpu::wendland(spacing, radius));
     water.softening = Real(0.01) * water.spacing * water.spacing;
-    water.dynamic_viscosity =
-        static_cast<Real>(model.parameters.kinematicViscosity * cpu::fluid_density(model, volumes));
+    const double density = cpu::fluid_density(model, volumes);
+    water.density = static_cast<Real>(density);
+    water.dynamic_viscosity = static_cast<Real>(model.parameters.kinematicViscosity * density);
+    water.fastest_expansion = static_cast<Real>(cpu::fastest_expansion(model.parameters));
     const auto scale = static_cast<Real>(cpu::wendland(0, radius));
     water.kernel = {1 / water.radius, scale, 20 * scale / (water.radius * water.radius)};
     std::vector<Real> volume(model.particles());

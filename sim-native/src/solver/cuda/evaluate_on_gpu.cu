@@ -132,7 +132,7 @@ private:
         const bool swims = !model_.body.particles.empty();
         BatchView<Real> batch = runner_.view_of(states, frames);
         batch.time_step = scene_.time_step;
-        batch.substeps = scene_.solver.substeps;
+        batch.substeps = model_.parameters.substeps;
         batch.gait = {frequencies.data(), powers.data(), amplitudes.data(), phases.data()};
         batch.density = density.data();
         batch.stop_at_planes = scene_.stopping.plane_contact;

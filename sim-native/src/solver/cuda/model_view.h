@@ -90,6 +90,8 @@ struct Reflection {
 template <class Real>
 struct WaterModel {
     Real radius, spacing, at_spacing, softening, dynamic_viscosity;
+    Real density;            ///< mass/length^3 at rest
+    Real fastest_expansion;  ///< 1/s, see physics::velocity_excess
     physics::WendlandKernel<Real> kernel;
     GridView<Real> grid;
     const Real* volume;                  ///< by particle

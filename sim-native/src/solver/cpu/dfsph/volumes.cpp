@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "physics/dfsph.h"
+
 namespace natator::cpu {
 namespace {
 
@@ -67,6 +69,16 @@ double fluid_density(const Model& model, const std::vector<double>& volumes) {
         volume += volumes[i];
     }
     return volume > 0 ? mass / volume : 0;
+}
+
+double fastest_expansion(const SolverParameters& parameters) {
+    const double acceleration = std::min(std::max(parameters.maxAcceleration / 10, parameters.gravity.norm()), 1e30);
+    return physics::expansion * std::sqrt(acceleration / parameters.fluidRestDistance);
+}
+
+double mobility(double inverse_mass, double volume, double fluid_density) {
+    if (inverse_mass > 0 || !(fluid_density > 0)) return inverse_mass;
+    return 1 / (fluid_density * volume);
 }
 
 }  // namespace natator::cpu

@@ -34,7 +34,7 @@ public:
         progress_.assign(runner_.states(), Progress{});
         start(members, count);
         const std::vector<Progress> settled = progress_;
-        typename Runner::Update update{0, scene_.time_step, scene_.solver.substeps, {}, false};
+        typename Runner::Update update{0, scene_.time_step, model_.parameters.substeps, {}, false};
         for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
         runner_.prepare(update);
         path_.assign(runner_.states(), {});

@@ -18,6 +18,11 @@ struct DfsphLaunches : ConservingLaunches<Real> {
     void each_pair(Kernel kernel, int block = large_threads) const {
         kernel<<<launch.grid(blocks_for(model.particles * pair_lanes, block)), block, 0, launch.stream>>>(model, slots);
     }
+    template <Pass which>
+    void pass() const {
+        each_pair(water_impulses<which, Real>);
+        each_pair(push_water_apart<which, Real>);
+    }
     void predict() const {
         const int cells = model.water.grid.cells;
         const WaterArrays<Real>& water = slots.water;
@@ -29,18 +34,14 @@ struct DfsphLaunches : ConservingLaunches<Real> {
         each_pair(find_water_neighbours<Real>, search_threads);
         each_pair(water_moments<Real>);
         each_pair(water_gradients<Real>);
-        for (int pass = 0; pass < physics::divergence_passes; ++pass) {
-            each_pair(water_impulses<Real>);
-            each_pair(push_water_apart<false, Real>);
-        }
+        pass<Pass::first_parting>();
+        for (int k = 1; k < physics::parting_passes; ++k) pass<Pass::parting>();
+        for (int k = 0; k < physics::divergence_passes; ++k) pass<Pass::divergence>();
         each_pair(push_water<Real>);
         launch.clear(slots.at.table, 2 * model.grid.cells);
         each_particle(predict_in_water<Real>);
     }
-    void solve_density_constraint() const {
-        each_pair(water_impulses<Real>);
-        each_pair(push_water_apart<true, Real>);
-    }
+    void solve_density_constraint() const { pass<Pass::density>(); }
     template <class AfterStage>
     void solve_solids_beside_free_fluid(const AfterStage& after) const {
         if (model.solids == 0) return;

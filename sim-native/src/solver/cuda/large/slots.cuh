@@ -10,7 +10,7 @@ namespace natator::cuda {
 template <class Real>
 struct LargeShared : Shared<Real> {
     unsigned long long bad;  ///< substep << 32 | particle of the first that is not finite; `none_bad` if all are
-    int high;                ///< scheme conserving: some density of this iteration is far above rest
+    int high;                ///< some density is far above rest: of this iteration, or of this substep in scheme dfsph
     int overlapping;         ///< scheme conserving: some particles began this substep overlapping
     int full;                ///< scheme conserving: some neighbour list is full
     int touches;             ///< the body touches a plane
@@ -87,11 +87,11 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Quad<Real>, velocity, water)   /* w: inverse mass */                                                            \
     X(Quad<Real>, pushed, water)     /* the same with the viscosity and gravity of the substep */                     \
     X(Quad<Real>, correction, water) /* L: xx, yy, zz, xy */                                                          \
-    X(Quad<Real>, shear, water)      /* xz, yz; inverse mass */                                                       \
+    X(Quad<Real>, shear, water)      /* xz, yz; mobility, see cpu::mobility */                                        \
+    X(Quad<Real>, parting, water)    /* velocities that part overlaps; w: inverse mass, 0 for solids */               \
     X(Quad<Real>, crowding, water)   /* w: largest |v_j - v_i|^2 */                                                   \
     X(Real, density, water)                                                                                           \
     X(Real, response, water)                                                                                          \
-    X(Real, target, water)                                                                                            \
     X(Real, impulse, water)                                                                                           \
     X(Real, density_of, water) /* by number */                                                                        \
     X(int, count_of, water)    /* by number */                                                                        \

@@ -52,6 +52,7 @@ __global__ void __launch_bounds__(large_threads)
     const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles || slots.failed()) return;
+    if (s == 0) slots.shared().high = 0;
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> before = slots.at.state_velocity[s];
     const int number = number_in(before.w);
@@ -223,9 +224,10 @@ __global__ void __launch_bounds__(large_threads)
     water.density[s] = density;
     water.density_of[number_in(slots.at.state_velocity[s].w)] = density;
     water.correction[s] = {l.xx, l.yy, l.zz, l.xy};
-    water.shear[s] = {l.xz, l.yz, moves.w, 0};
+    const Real mobility = moves.w > 0 ? moves.w : 1 / (model.water.density * here.w);
+    water.shear[s] = {l.xz, l.yz, mobility, 0};
     water.crowding[s] = quad(sums.crowding, sums.fastest_square);
-    water.target[s] = 0;
+    if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
 }
 
 template <class Real>
@@ -259,38 +261,54 @@ __global__ void __launch_bounds__(large_threads)
     if (own_lane() == 0) water.response[s] = sums.response(own_shear.z);
 }
 
-/// The impulses of a Jacobi pass.
+/// What the passes of a substep are for, see cpu/dfsph/water.cpp.
+enum class Pass {
+    first_parting,  ///< of overlaps, on velocities that begin at 0 and are forgotten; only where there are any
+    parting,
+    divergence,
+    density,  ///< moves the solids, too
+};
+constexpr bool parts(Pass pass) {
+    return pass == Pass::first_parting || pass == Pass::parting;
+}
+
 template <class Real>
+__device__ Real most_excess(const ModelView<Real>& model, Real h) {
+    return min(Real(physics::most_excess), h * model.water.fastest_expansion);
+}
+
+/// The impulses of a Jacobi pass.
+template <Pass pass, class Real>
 __global__ void __launch_bounds__(large_threads)
     water_impulses(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
     const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_slot();
-    if (s >= model.particles || slots.failed()) return;
+    if (s >= model.particles || slots.failed() || (parts(pass) && !slots.shared().high)) return;
     const WaterArrays<Real>& water = slots.water;
-    const Vec3<Real> v = xyz(water.velocity[s]);
     Real rate = 0;
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
-        rate += dot(xyz(seen_velocity(model, water.velocity, other, planes)) - v, gradient);
-    });
-    rate = sum_of_lanes(rate);
-    if (own_lane() == 0)
-        water.impulse[s] =
-            physics::pressure_impulse(water.target[s], rate, water.response[s], water.density[s]);
+    if (pass != Pass::first_parting) {
+        const Quad<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
+        const Vec3<Real> v = xyz(velocity[s]);
+        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
+            rate += dot(xyz(seen_velocity(model, velocity, other, planes)) - v, gradient);
+        });
+        rate = sum_of_lanes(rate);
+    }
+    if (own_lane() != 0) return;
+    const Real volume = water.position[s].w, density = water.density[s], most = most_excess(model, slots.h);
+    Real target = 0;
+    if (parts(pass)) target = physics::parting_target(volume, density, most, slots.h);
+    if (pass == Pass::density) target = physics::density_target(volume, density, most, slots.h);
+    water.impulse[s] = physics::pressure_impulse(target, rate, water.response[s], density);
 }
 
-/// Moves a solid by a change of its velocity in this substep.
-template <class Real>
-__device__ void move_solid(const Slots<Real>& slots, int solid, const Vec3<Real>& push) {
-    move(slots, slots.slot_of_solid()[solid], slots.h * push);
-}
-
-/// v_i -= w_i sum (impulse_i + impulse_j) G_ij; solids are moved by it too once the substep has predicted them.
-template <bool moves_solids, class Real>
+/// v_i -= w_i sum (impulse_i + impulse_j) G_ij.
+template <Pass pass, class Real>
 __global__ void __launch_bounds__(large_threads)
     push_water_apart(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
     const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_slot();
-    if (s >= model.particles || slots.failed()) return;
+    if (s >= model.particles || slots.failed() || (parts(pass) && !slots.shared().high)) return;
     const WaterArrays<Real>& water = slots.water;
     const Real own = water.impulse[s];
     Vec3<Real> sum{0, 0, 0};
@@ -299,16 +317,21 @@ __global__ void __launch_bounds__(large_threads)
     });
     sum = sum_of_lanes(sum);
     if (own_lane() != 0) return;
+    const int number = number_in(slots.at.state_velocity[s].w);
     const Quad<Real> v = water.velocity[s];
+    if constexpr (parts(pass)) {
+        const Real w = number < model.fluid ? v.w : Real(0);  // to push a body's particles would bend it
+        const Vec3<Real> before = pass == Pass::parting ? xyz(water.parting[s]) : Vec3<Real>{0, 0, 0};
+        water.parting[s] = quad(before - w * sum, w);
+        return;
+    }
     const Vec3<Real> push = -v.w * sum;
     water.velocity[s] = quad(xyz(v) + push, v.w);
-    if constexpr (moves_solids) {
-        const int number = number_in(slots.at.state_velocity[s].w);
-        if (number >= model.fluid && v.w > 0) move_solid(slots, number - model.fluid, push);
-    }
+    if (pass == Pass::density && number >= model.fluid && v.w > 0)
+        move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
 }
 
-/// Viscosity and gravity, beside the velocities; what the density solve goes for.
+/// Viscosity and gravity, beside the velocities.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
     push_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
@@ -319,19 +342,22 @@ __global__ void __launch_bounds__(large_threads)
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
     Vec3<Real> v = xyz(moves);
     if (model.water.dynamic_viscosity > 0) {
+        const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
+        const Real most = 10 * Real(physics::most_diffusion) * model.water.spacing * model.water.spacing / strength;
         physics::ViscousSums<Real> sums;
         for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
-            const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(water.position[other]), planes);
-            const Vec3<Real> u = xyz(seen_velocity(model, water.velocity, other, planes));
-            sums.add(difference, u - xyz(moves), model.water.softening, gradient);
+            const Quad<Real> there = water.position[other];
+            const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+            const Quad<Real> u = seen_velocity(model, water.velocity, other, planes);
+            const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
+            sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
         });
-        v += (10 * slots.h * model.water.dynamic_viscosity * moves.w) * sum_of_lanes(sums.impulse);
+        v += (strength * moves.w) * sum_of_lanes(sums.impulse);
     }
     if (own_lane() != 0) return;
     const bool fluid = number_in(slots.at.state_velocity[s].w) < model.fluid;
     if (moves.w > 0) v += slots.h * (fluid ? model.fluid_gravity : model.gravity);
     water.pushed[s] = quad(v, moves.w);
-    water.target[s] = physics::density_target(here.w, water.density[s], slots.h);
 }
 
 /// x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
@@ -352,6 +378,8 @@ __global__ void __launch_bounds__(large_threads)
     if (fluid)
         there += physics::shift_of(water.density[s], xyz(crowding), crowding.w, model.water.radius,
                                    model.water.spacing, slots.h);
+    if (slots.shared().high)
+        there += clamped(slots.h * xyz(water.parting[s]), Real(physics::longest_parting) * model.water.spacing);
     const int cell = model.grid.cell(there) + (fluid ? 0 : model.grid.cells);
     slots.at.predicted[s] = quad(there, x.w);
     slots.at.drift_before[s] = quad(v, number);
