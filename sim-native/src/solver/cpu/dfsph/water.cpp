@@ -275,7 +275,7 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     for (int slot = 0; slot < particles_; ++slot) {
         if (inverse_mass_[slot] > 0)
             velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
-        target_[slot] = physics::density_target(volume_[slot], density_[slot], h);
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], most_excess(), h);
         target_[slot] = physics::density_target(volume_[slot], density_[slot], most_excess(), h);
     }
     on_all_threads(team, kernels_->pack);
