@@ -38,6 +38,7 @@ Water<Real>::Water(const Model& model)
       particles_(model.particles()),
       image_begin_(round_up_to_block(model.particles())) {
     const SolverParameters& p = model.parameters;
+    effect_radius_ = std::min(static_cast<Real>(p.radius), radius_);
     const double acceleration = std::min(std::max(p.maxAcceleration / 10, p.gravity.norm()), 1e30);
     fastest_expansion_ = static_cast<Real>(expansion * std::sqrt(acceleration / p.fluidRestDistance));
     const std::vector<double> volumes = particle_volumes(model);
@@ -287,6 +288,7 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
         const Real strength = 10 * h * dynamic_viscosity_, most = 10 * Real(most_diffusion) * spacing_ * spacing_ / strength;
         on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
     }
+    add_effects(team);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
     const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
     for (int slot = 0; slot < particles_; ++slot) {
