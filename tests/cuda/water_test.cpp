@@ -71,14 +71,16 @@ TEST_F(GpuWater, ACrowdGetsRoomForItsNeighbours) {
     Solver<double> cpu(model);
     GpuSolver<double> gpu(model);
     State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu;
+    ASSERT_FALSE(cpu.update(on_cpu, substep, 1));
+    ASSERT_FALSE(gpu.update(on_gpu, substep, 1));
+    const std::vector<int> counts = gpu.neighbour_counts();
+    EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 300);
+    EXPECT_EQ(counts, cpu.neighbour_counts());
     for (int k = 0; k < 3; ++k) {
         ASSERT_FALSE(cpu.update(on_cpu, 2 * substep, 2));
         ASSERT_FALSE(gpu.update(on_gpu, 2 * substep, 2));
     }
-    const std::vector<int> counts = gpu.neighbour_counts();
-    EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 300);
-    EXPECT_EQ(counts, cpu.neighbour_counts());
-    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-10);
+    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-9);
 }
 
 }  // namespace

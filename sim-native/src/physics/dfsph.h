@@ -151,26 +151,28 @@ struct ResponseSums {
     }
 };
 
-/// What the velocities take off of a density above rest in a substep; negative below it. The speed that this gives does not
-/// leave again, so it must be let out slowly: `most` is the smaller of most_excess and h times the fastest expansion.
+/// What the velocities take off of a density above rest in a substep; negative below it. Of an overlap it is no more than
+/// `slow`, the smaller of most_excess and h times the fastest expansion: the speed that this gives does not leave again.
 template <class T>
-NATATOR_HD T velocity_excess(T density, Scalar<T> most) {
-    return smaller(density - 1, T{} + most);
+NATATOR_HD T velocity_excess(T density, Scalar<T> slow) {
+    using R = Scalar<T>;
+    const T above = density - 1;
+    return smaller(above, above > R(overlap_tolerance) ? T{} + slow : T{} + R(most_excess));
 }
 
 /// The rate of expansion, times V_i, that a density solve goes for: what takes a particle to rest density in a substep.
 template <class T>
-NATATOR_HD T density_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
-    return volume / h * velocity_excess(density, most);
+NATATOR_HD T density_target(T volume, T density, Scalar<T> slow, Scalar<T> h) {
+    return volume / h * velocity_excess(density, slow);
 }
 
 /// The same of what is more than the velocities take off: overlaps are parted by passes on velocities that begin at 0 and
 /// are forgotten once they have moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies
 /// with Stacking, 2003, and others).
 template <class T>
-NATATOR_HD T parting_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
+NATATOR_HD T parting_target(T volume, T density, Scalar<T> slow, Scalar<T> h) {
     const T above = smaller(density - 1, T{} + Scalar<T>(most_overlap));
-    return volume / h * positive_part(above - velocity_excess(density, most));
+    return volume / h * positive_part(above - velocity_excess(density, slow));
 }
 
 /// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.

@@ -22,6 +22,7 @@ Water<Real>::Water(const Model& model)
       mirror_(model),
       particles_(model.particles()),
       image_begin_(round_up_to_block(model.particles())) {
+    effect_radius_ = std::min(static_cast<Real>(model.parameters.radius), radius_);
     fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
@@ -270,6 +271,7 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
         const Real most = 10 * Real(physics::most_diffusion) * spacing_ * spacing_ / strength;
         on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
     }
+    add_effects(team);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
     const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
     for (int slot = 0; slot < particles_; ++slot) {

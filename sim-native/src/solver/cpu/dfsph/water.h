@@ -22,8 +22,8 @@ class Water {
 public:
     explicit Water(const Model& model);
 
-    /// Takes the state at the start of a substep of length h (s): takes off part of what compresses, then adds viscosity and
-    /// gravity. Overlaps go into shift().
+    /// Takes the state at the start of a substep of length h (s): takes off part of what compresses, then adds viscosity, the
+    /// forces that the thesis leaves off, and gravity. Overlaps go into shift().
     void begin(const State<Real>& state, Real h, ThreadTeam& team);
     /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after begin() is where
     /// they lead to more than rest density.
@@ -58,6 +58,23 @@ private:
     void part_overlaps(ThreadTeam& team);
     WaterView<Real> view();
 
+    void add_effects(ThreadTeam& team);
+    void drag_free_surface(ThreadTeam& team);
+    void add_cohesion(ThreadTeam& team);
+    void add_surface_tension(ThreadTeam& team);
+    void add_vorticity_confinement(ThreadTeam& team);
+    bool is_fluid_slot(int slot) const;
+    /// Not for particles of infinite mass.
+    void push(int slot, const Vec3<Real>& velocity_change) {
+        if (inverse_mass_[slot] > 0) velocity_.add(slot, velocity_change);
+    }
+    template <class Visit>
+    void for_each_neighbour_of(int slot, const Visit& visit) const;
+    template <class Visit>
+    void for_each_fluid_within_radius(int slot, const Visit& visit) const;
+    template <class Work>
+    void for_fluid_slots(ThreadTeam& team, const Work& work);
+
     template <class Work>
     void on_all_threads(ThreadTeam& team, const Work& work) {
         const WaterView<Real> all = view();
@@ -75,6 +92,7 @@ private:
     const NeighbourKernels<Real>* neighbour_kernels_;
     Real radius_, spacing_, kernel_scale_, at_spacing_, dynamic_viscosity_;
     Real fastest_expansion_;  ///< by the velocities, of what is compressed, 1/s
+    Real effect_radius_;      ///< R of physics/water_effects.h
     std::vector<Real> volume_of_, inverse_mass_of_, mobility_of_;  ///< by particle
     Mirror<Real> mirror_;
     CellGrid<Real> grid_;
@@ -88,6 +106,8 @@ private:
 
     Vector3Array<Real> position_, velocity_, crowding_;
     Vector3Array<Real> kept_velocity_;  ///< room for part_overlaps
+    Vector3Array<Real> field_;          ///< of add_effects, also of images: normals, then vorticity
+    std::vector<Real> strength_;        ///< of the vorticity, also of images
     std::vector<Vec3<Real>> parting_;   ///< displacement by part_overlaps, by slot; empty where nothing overlaps
     AlignedVector<Real> volume_, inverse_mass_, mobility_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
     std::array<AlignedVector<Real>, 6> correction_;
