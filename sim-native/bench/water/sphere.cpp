@@ -6,11 +6,10 @@
 namespace natator::bench {
 namespace {
 
-constexpr double radius = 0.3;
-
 /// What a sphere of this density (of the water's) does in a tank so many lengths high once it is let go.
 struct Fall {
     double density = 1;
+    double radius = 0.3;
     double start = 1;   ///< height of the centre
     double height = 2;  ///< of the water
     double viscosity = 0;
@@ -18,7 +17,7 @@ struct Fall {
 };
 
 /// Particles within the sphere become a rigid body that displaces just the water that was there.
-void immerse_sphere(const Eigen::Vector3d& centre, Model& model) {
+void immerse_sphere(const Eigen::Vector3d& centre, double radius, Model& model) {
     Cluster sphere;
     sphere.stiffness = 1;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -55,7 +54,7 @@ WaterRun let_go(const Fall& fall, const WaterSetting& setting, double& sphere_di
     const auto layers = static_cast<int>(std::lround(fall.height / water_length * setting.resolution));
     const Eigen::Vector3d centre(water_length / 2, fall.start, water_length / 2);
     WaterTank<Real> tank({setting.resolution, layers, setting.resolution}, setting,
-                         [&](Model& model) { immerse_sphere(centre, model); });
+                         [&](Model& model) { immerse_sphere(centre, fall.radius, model); });
     sphere_diameter = diameter(tank.model());
     tank.change([&](Model& model) {
         model.parameters.kinematicViscosity = fall.viscosity;
@@ -123,19 +122,17 @@ WaterRun run_added_mass(const WaterSetting& setting) {
 
 /// The drag at the speed that a sphere falls with in the end.
 WaterRun run_falling_sphere(const WaterSetting& setting) {
-    const Fall fall{.density = 1.05, .start = 3.2, .height = 4, .viscosity = 0.02, .duration = 6};
+    const Fall fall{
+        .density = 1.05, .radius = 0.2, .start = 2.5, .height = 3, .viscosity = 0.02, .duration = 8};
     double sphere_diameter = 0;
     WaterRun run = let_go(fall, setting, sphere_diameter);
     if (run.instability) return run;
-    // Between the second and the third of four parts of the way: no longer at rest, not yet near the floor.
-    const double way = fall.start - radius;
-    const auto passes = [&](double part) {
-        for (const WaterSample& sample : run.curve)
-            if (sample.value >= part * way) return sample;
-        return run.curve.back();
-    };
-    const WaterSample from = passes(0.4), to = passes(0.7);
-    const double speed = (to.value - from.value) / std::max(to.time - from.time, 1e-9);
+    // Over the last two fifths of the time in which it is not near the floor.
+    const double free_way = 0.75 * (fall.start - fall.radius);
+    auto end = run.curve.begin();
+    while (end + 1 != run.curve.end() && end->value < free_way) ++end;
+    const auto begin = run.curve.begin() + (end - run.curve.begin()) * 3 / 5;
+    const double speed = (end->value - begin->value) / (end->time - begin->time);
     const double drag = 4.0 / 3 * (fall.density - 1) * gravity * sphere_diameter / (speed * speed);
     const double reynolds = speed * sphere_diameter / fall.viscosity, reference = drag_coefficient(reynolds);
     run.figures = {{.value = drag, .reference = reference, .least = 0.9 * reference, .greatest = 1.1 * reference},

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "physics/dfsph.h"
 #include "solver/cpu/dfsph/volumes.h"
 
 namespace natator {
@@ -11,6 +13,7 @@ namespace {
 
 constexpr double least_density = 0.02;  ///< of a solid, in units of the water's
 constexpr double longest_fall = 0.1;    ///< from rest in a substep, in rest distances
+constexpr double most_weight = 0.05;    ///< g H h^2 / s^2 of water of depth H that a pass holds up
 
 void raise_light_solids(Model& model) {
     const std::vector<double> volumes = cpu::particle_volumes(model);
@@ -21,11 +24,26 @@ void raise_light_solids(Model& model) {
             model.inverse_mass[i] = std::min(model.inverse_mass[i], 1 / (least_density * density * volumes[i]));
 }
 
+/// Of the fluid along gravity, length.
+double depth(const Model& model) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    const Eigen::Vector3d down = model.parameters.gravity.normalized();
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i)) continue;
+        low = std::min(low, down.dot(model.position[i]));
+        high = std::max(high, down.dot(model.position[i]));
+    }
+    return std::max(high - low, 0.0);
+}
+
 void raise_substeps(Model& model) {
     SolverParameters& p = model.parameters;
     const double gravity = p.gravity.norm() * std::max(1.0, std::abs(p.buoyancy));
     if (!(gravity > 0)) return;
-    const double longest = std::sqrt(longest_fall * p.fluidRestDistance / gravity);
+    const double spacing = p.fluidRestDistance;
+    const double passes = physics::divergence_passes + p.numIterations;
+    const double for_depth = spacing * std::sqrt(most_weight * passes / (gravity * std::max(depth(model), spacing)));
+    const double longest = std::min(std::sqrt(longest_fall * spacing / gravity), for_depth);
     constexpr double rounding = 1e-9;
     p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));
 }

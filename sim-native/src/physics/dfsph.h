@@ -151,13 +151,14 @@ struct ResponseSums {
     }
 };
 
-/// What the velocities take off of a density above rest in a substep; negative below it. Of an overlap it is no more than
+/// What the velocities take off of a density above rest in a substep; negative below it. Of an overlap it is less, down to
 /// `slow`, the smaller of most_excess and h times the fastest expansion: the speed that this gives does not leave again.
 template <class T>
 NATATOR_HD T velocity_excess(T density, Scalar<T> slow) {
     using R = Scalar<T>;
-    const T above = density - 1;
-    return smaller(above, above > R(overlap_tolerance) ? T{} + slow : T{} + R(most_excess));
+    const T above = density - 1, overlap = positive_part(above - R(overlap_tolerance));
+    const T most = R(-1) * smaller(overlap - R(most_excess), T{} - slow);
+    return smaller(above, most);
 }
 
 /// The rate of expansion, times V_i, that a density solve goes for: what takes a particle to rest density in a substep.
@@ -166,13 +167,12 @@ NATATOR_HD T density_target(T volume, T density, Scalar<T> slow, Scalar<T> h) {
     return volume / h * velocity_excess(density, slow);
 }
 
-/// The same of what is more than the velocities take off: overlaps are parted by passes on velocities that begin at 0 and
-/// are forgotten once they have moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies
-/// with Stacking, 2003, and others).
+/// The same of an overlap. It is parted by passes on velocities that begin at 0 and are forgotten once they have moved the
+/// particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003, and others).
 template <class T>
-NATATOR_HD T parting_target(T volume, T density, Scalar<T> slow, Scalar<T> h) {
-    const T above = smaller(density - 1, T{} + Scalar<T>(most_overlap));
-    return volume / h * positive_part(above - velocity_excess(density, slow));
+NATATOR_HD T parting_target(T volume, T density, Scalar<T> h) {
+    using R = Scalar<T>;
+    return volume / h * positive_part(smaller(density - 1, T{} + R(most_overlap)) - R(overlap_tolerance));
 }
 
 /// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.

@@ -272,8 +272,9 @@ constexpr bool parts(Pass pass) {
     return pass == Pass::first_parting || pass == Pass::parting;
 }
 
+/// See physics::velocity_excess.
 template <class Real>
-__device__ Real most_excess(const ModelView<Real>& model, Real h) {
+__device__ Real slow_excess(const ModelView<Real>& model, Real h) {
     return min(Real(physics::most_excess), h * model.water.fastest_expansion);
 }
 
@@ -295,10 +296,11 @@ __global__ void __launch_bounds__(large_threads)
         rate = sum_of_lanes(rate);
     }
     if (own_lane() != 0) return;
-    const Real volume = water.position[s].w, density = water.density[s], most = most_excess(model, slots.h);
+    const Real volume = water.position[s].w, density = water.density[s];
     Real target = 0;
-    if (parts(pass)) target = physics::parting_target(volume, density, most, slots.h);
-    if (pass == Pass::density) target = physics::density_target(volume, density, most, slots.h);
+    if (parts(pass)) target = physics::parting_target(volume, density, slots.h);
+    if (pass == Pass::density)
+        target = physics::density_target(volume, density, slow_excess(model, slots.h), slots.h);
     water.impulse[s] = physics::pressure_impulse(target, rate, water.response[s], density);
 }
 
