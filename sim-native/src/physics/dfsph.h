@@ -58,7 +58,7 @@ NATATOR_HD T unit_part(T v) {
 inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
 inline constexpr int divergence_passes = 1;    ///< on the velocities as they are, a substep
-inline constexpr double most_excess = 0.05;    ///< of rest density that the velocities take off in a substep
+inline constexpr double most_excess = 0.05;    ///< of rest density that the velocities take off in a substep; more is an overlap
 inline constexpr double expansion = 1.0 / 6;   ///< rate at which they may, times the time in which gravity parts two particles
 inline constexpr double most_overlap = 0.5;    ///< of rest density that a substep takes off without them
 inline constexpr int parting_passes = 4;       ///< on overlaps
@@ -156,7 +156,7 @@ struct ResponseSums {
 template <class T>
 NATATOR_HD T velocity_excess(T density, Scalar<T> slow) {
     using R = Scalar<T>;
-    const T above = density - 1, overlap = positive_part(above - R(overlap_tolerance));
+    const T above = density - 1, overlap = positive_part(above - R(most_excess));
     const T most = R(-1) * smaller(overlap - R(most_excess), T{} - slow);
     return smaller(above, most);
 }
@@ -172,7 +172,7 @@ NATATOR_HD T density_target(T volume, T density, Scalar<T> slow, Scalar<T> h) {
 template <class T>
 NATATOR_HD T parting_target(T volume, T density, Scalar<T> h) {
     using R = Scalar<T>;
-    return volume / h * positive_part(smaller(density - 1, T{} + R(most_overlap)) - R(overlap_tolerance));
+    return volume / h * positive_part(smaller(density - 1, T{} + R(most_overlap)) - R(most_excess));
 }
 
 /// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.

@@ -63,7 +63,7 @@ void Water<Real>::part_overlaps(ThreadTeam& team) {
     parting_.clear();
     bool any = false;
     for (int slot = 0; slot < particles_; ++slot) {
-        any |= density_[slot] - 1 > Real(physics::overlap_tolerance);
+        any |= density_[slot] - 1 > Real(physics::most_excess);
         target_[slot] = physics::parting_target(volume_[slot], density_[slot], h_);
     }
     if (!any) return;

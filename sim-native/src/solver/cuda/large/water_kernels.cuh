@@ -227,7 +227,7 @@ __global__ void __launch_bounds__(large_threads)
     const Real mobility = moves.w > 0 ? moves.w : 1 / (model.water.density * here.w);
     water.shear[s] = {l.xz, l.yz, mobility, 0};
     water.crowding[s] = quad(sums.crowding, sums.fastest_square);
-    if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
+    if (density - 1 > Real(physics::most_excess)) slots.shared().high = 1;
 }
 
 template <class Real>
