@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bare_particles.h"
+#include "energy.h"
 #include "natator/evaluate.h"
 #include "natator/plan.h"
 #include "scene/scene_json.h"

@@ -16,8 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::string gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
-
 /// A path in the temporary folder, freed at the end.
 struct TemporaryPath {
     explicit TemporaryPath(const std::string& name)
