@@ -147,7 +147,7 @@ TEST(RunTest, ASnapshotThatNeverComesIsSaid) {
 
 TEST(RunTest, AShiftedStartTakesAnotherCourse) {
     const auto run = [](const char* seed) {
-        return run_simulator({"run", "thesis/creature-1", "--gait", gait, "--duration", "0.1", "--perturbation", "1e-4",
+        return run_simulator({"run", "bench/small-tank", "--gait", gait, "--duration", "0.1", "--perturbation", "1e-4",
                               "--perturbation-seed", seed})
             .out;
     };
