@@ -39,12 +39,12 @@ class ProcessGroupTest {
                 left = ProcessHandle.of(Long.parseLong(output.readLine())).orElseThrow();
             }
             inner.waitFor();
-            assertThat(left.isAlive()).isTrue();
+            assertThat(left.info().commandLine()).isPresent();
             group.end(inner);
         }
 
         try {
-            assertThat(left.onExit().completeOnTimeout(null, 10, TimeUnit.SECONDS).join()).isNotNull();
+            assertThat(left.info().commandLine()).as("none, maybe of a zombie").isEmpty();
         } finally {
             left.destroyForcibly();
         }
