@@ -259,6 +259,7 @@ void add_water(CLI::App* bench, int& status) {
         Common common;
         std::vector<std::string> cases, settings{"4x4"};
         std::vector<int> resolutions{20, 40};
+        BackendChoice backend;
     };
     const auto options = std::make_shared<Options>();
     std::vector<std::string> names;
@@ -267,6 +268,7 @@ void add_water(CLI::App* bench, int& status) {
     CLI::App* command = bench->add_subcommand(
         "water", "How far a scheme is from being a fluid: cases whose outcome is known, with targets.");
     add_common(command, options->common, {"float"});
+    add_backend_options(command, options->backend);
     command->add_option("--case", options->cases, "Cases.")->check(CLI::IsMember(names))->capture_default_str();
     command->add_option("--resolution", options->resolutions, "Particles along a case's length.")
         ->check(CLI::Range(8, 200))
@@ -275,6 +277,7 @@ void add_water(CLI::App* bench, int& status) {
     command->callback([options, &status] {
         const Common& common = options->common;
         WaterStudy study{options->cases, options->resolutions, settings_of(common, options->settings)};
+        study.gpu = on_gpu(options->backend, {});
         if (common.quick) study.resolutions = {10};
         ResultTable table(common.output, water_columns(), water_key_columns);
         ResultTable curves = table_beside(common, "curves", water_curve_columns(), water_curve_key_columns);

@@ -19,7 +19,8 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
     return "Creature" + std::to_string(std::get<0>(info.param)) + name_of(std::get<1>(info.param));
 }
 
-const auto all_cases = testing::Combine(testing::Values(1, 2, 3, 4), testing::Values(Scheme::flex, Scheme::conserving));
+const auto all_cases = testing::Combine(testing::Values(1, 2, 3, 4),
+                                        testing::Values(Scheme::flex, Scheme::conserving, Scheme::dfsph));
 
 class GpuAgreement : public OnGpu<testing::TestWithParam<Case>> {
 protected:

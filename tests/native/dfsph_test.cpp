@@ -12,6 +12,7 @@
 #include "natator/scene.h"
 #include "natator/solver.h"
 #include "scene/scene_json.h"
+#include "stability.h"
 #include "water/water_case.h"
 
 namespace natator {
@@ -136,6 +137,70 @@ TEST(Dfsph, ANeutralBodyHovers) {
     const double before = height();
     advance_frames(solver, model, state, 60);
     EXPECT_NEAR(height(), before, 0.1);  // in this time a stone falls by 5
+}
+
+/// A short swimmer in a small tank, with one thing made worse.
+bench::StabilityResult made_worse(const std::string& axis, double value, double viscosity = 0) {
+    bench::StabilityCase subject = bench::calm_case();
+    subject.scene.scheme = Scheme::dfsph;
+    subject.scene.duration = 0.3;
+    subject.scene.solver.kinematicViscosity = viscosity;
+    bench::stability_axis(axis).set(subject, value);
+    return bench::run_stability(subject, Precision::single_precision);
+}
+
+/// What starts too close is parted, not flung away.
+TEST(Dfsph, StartsThatOverlapAreBorne) {
+    for (const double factor : {0.8, 0.25, 0.01})
+        EXPECT_EQ(made_worse("overlap", factor).verdict, bench::Verdict::ok) << "spacing times " << factor;
+    EXPECT_EQ(made_worse("body-clearance", 0).verdict, bench::Verdict::ok);
+}
+
+/// A block squeezed to half its volume, in weightlessness: it is parted, and hardly flies apart.
+TEST(Dfsph, OverlapsArePartedWithoutSpeed) {
+    Model model = box_of_water({8, 8, 8});
+    model.planes.clear();
+    model.parameters.gravity.setZero();
+    model.parameters.substeps = 4;
+    for (auto& x : model.position) x *= 0.8;
+    State<double> state = initial_state<double>(model);
+    Solver<double> solver(model);
+    advance_frames(solver, model, state, 15);
+    double squares = 0;
+    for (const auto& v : state.velocity) squares += v.squaredNorm();
+    EXPECT_LE(std::sqrt(squares / model.particles()), 0.6);
+    for (const double density : solver.densities()) EXPECT_LE(density, 1.1);
+}
+
+TEST(Dfsph, LightBodiesAreBorne) {
+    EXPECT_EQ(made_worse("mass-ratio", 1e-4).verdict, bench::Verdict::ok);
+    EXPECT_EQ(made_worse("mass-ratio", 0.003, 0.2).verdict, bench::Verdict::ok) << "in viscous water";
+}
+
+TEST(Dfsph, LongTimeStepsAreBorne) {
+    EXPECT_EQ(made_worse("dt", 32).verdict, bench::Verdict::ok);
+}
+
+/// Images of the water behind walls take part in its forces: what walls do is along their normals.
+TEST(Dfsph, WallsPullTheWaterAlongTheirNormalsOnly) {
+    Model model = box_of_water({6, 4, 5});
+    model.planes.resize(1);  // the floor
+    model.parameters.gravity.setZero();
+    model.parameters.cohesion = 0.002;
+    model.parameters.surfaceTension = 20;
+    for (std::size_t i = 0; i < model.position.size(); i += 3) model.inverse_mass[i] = 0.5;
+    State<double> state = initial_state<double>(model);
+    Solver<double> solver(model);
+    advance_frames(solver, model, state, 10);
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+    double size = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        momentum += state.velocity[i] / model.inverse_mass[i];
+        size += state.velocity[i].norm() / model.inverse_mass[i];
+    }
+    EXPECT_GT(size, 1);
+    EXPECT_LE(std::hypot(momentum.x(), momentum.z()), 1e-12 * size);
+    EXPECT_GE(std::abs(momentum.y()), 1e-6 * size);
 }
 
 TEST(Dfsph, AnyNumberOfThreadsGivesTheSameBits) {

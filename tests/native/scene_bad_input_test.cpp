@@ -60,7 +60,6 @@ const BadScene bad_scenes[] = {
     {R"({"solver":{"kinematicViscosity":-1}})", "solver.kinematicViscosity = -1", "[0, 1000] (length^2/s)"},
     {R"({"scheme":"dfsph","solver":{"kinematicViscosity":0.3}})", "solver.kinematicViscosity = 0.3",
      "at most 0.24 (0.1 fluidRestDistance^2 / longest substep, settling included)"},
-    {R"({"scheme":"dfsph","solver":{"cohesion":0.1}})", "solver.cohesion = 0.1", "0 in scheme dfsph"},
     {R"({"scheme":"dfsph","planes":[[0,1,0,0],[0.6,0.8,0,0]]})", "planes[1] = [0.6,0.8,0.0,0.0]",
      "at a right angle to planes[0] or facing it"},
     {R"({"solver":{"radius":0}})", "solver.radius = 0", "(0, 1000]"},

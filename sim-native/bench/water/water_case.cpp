@@ -14,6 +14,9 @@ const std::vector<WaterCase>& water_cases() {
          "slope of the surface (degrees)",
          {"slope under 1 degree (degrees)", "slope afterwards (degrees)"},
          run_tilted_gravity},
+        {"neutral-sphere", "depth fallen (length)", {"error of buoyancy (of the weight)"}, run_neutral_sphere},
+        {"added-mass", "depth fallen (length)", {"added mass (of the displaced)"}, run_added_mass},
+        {"falling-sphere", "depth fallen (length)", {"drag coefficient", "Reynolds number"}, run_falling_sphere},
     };
     return cases;
 }

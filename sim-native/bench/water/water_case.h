@@ -56,5 +56,8 @@ WaterRun run_vortex(const WaterSetting& setting);
 WaterRun run_viscous_vortex(const WaterSetting& setting);
 WaterRun run_standing_wave(const WaterSetting& setting);
 WaterRun run_tilted_gravity(const WaterSetting& setting);
+WaterRun run_neutral_sphere(const WaterSetting& setting);
+WaterRun run_added_mass(const WaterSetting& setting);
+WaterRun run_falling_sphere(const WaterSetting& setting);
 
 }  // namespace natator::bench

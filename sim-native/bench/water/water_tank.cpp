@@ -13,7 +13,7 @@ namespace {
 
 constexpr double settling = 2;  ///< s
 
-Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting) {
+Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const std::function<void(Model&)>& immerse) {
     const double spacing = water_length / setting.resolution;
     Model model;
     model.scheme = setting.solver.scheme;
@@ -30,6 +30,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting) {
                            .gradient = MassGradient::uniform,
                            .bottom_mass = 1};
     add_fluid(block, model);
+    if (immerse) immerse(model);
     if (model.scheme == Scheme::dfsph) disorder_fluid(spacing, model);
     model.planes = {{{0, 1, 0}, 0},
                     {{1, 0, 0}, 0},
@@ -42,9 +43,9 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting) {
 }  // namespace
 
 template <class Real>
-WaterTank<Real>::WaterTank(const Eigen::Vector3i& count, const WaterSetting& setting)
+WaterTank<Real>::WaterTank(const Eigen::Vector3i& count, const WaterSetting& setting, const Change& immerse)
     : setting_(setting),
-      model_(std::make_shared<Model>(model_of(count, setting))),
+      model_(std::make_shared<Model>(model_of(count, setting, immerse))),
       state_(initial_state<Real>(*model_)) {
     settle();
     step_ = step_of(*model_);
@@ -95,21 +96,21 @@ double WaterTank<Real>::depth() const {
 }
 
 template <class Real>
-void WaterTank<Real>::change(const std::function<void(SolverParameters&)>& how) {
+void WaterTank<Real>::change(const Change& how) {
     auto changed = std::make_shared<Model>(*model_);
-    how(changed->parameters);
+    how(*changed);
     step_ = step_of(*changed);
     model_ = changed;
 }
 
 template <class Real>
 void WaterTank<Real>::set_gravity(const Eigen::Vector3d& gravity) {
-    change([&](SolverParameters& p) { p.gravity = gravity; });
+    change([&](Model& model) { model.parameters.gravity = gravity; });
 }
 
 template <class Real>
 void WaterTank<Real>::set_kinematic_viscosity(double viscosity) {
-    change([&](SolverParameters& p) { p.kinematicViscosity = viscosity; });
+    change([&](Model& model) { model.parameters.kinematicViscosity = viscosity; });
 }
 
 template <class Real>

@@ -18,8 +18,11 @@ inline constexpr double water_length = 2;
 template <class Real>
 class WaterTank {
 public:
-    /// `count` particles along x, y and z, at the spacing water_length / resolution.
-    WaterTank(const Eigen::Vector3i& count, const WaterSetting& setting);
+    using Change = std::function<void(Model&)>;
+
+    /// `count` particles along x, y and z, at the spacing water_length / resolution; `immerse` puts bodies in their
+    /// lattice.
+    WaterTank(const Eigen::Vector3i& count, const WaterSetting& setting, const Change& immerse = {});
 
     const Model& model() const { return *model_; }
     State<Real>& state() { return state_; }
@@ -28,6 +31,8 @@ public:
 
     /// Advances by one frame. False if the water is unstable; then there are no more frames.
     bool frame();
+    /// Of the model, from now on.
+    void change(const Change& how);
     void set_gravity(const Eigen::Vector3d& gravity);
     /// length^2/s; means nothing to the schemes that take none.
     void set_kinematic_viscosity(double viscosity);
@@ -39,7 +44,6 @@ private:
     using Step = std::function<std::optional<Instability>(State<Real>&)>;
 
     Step step_of(const Model& model) const;
-    void change(const std::function<void(SolverParameters&)>& how);
     void settle();
 
     WaterSetting setting_;

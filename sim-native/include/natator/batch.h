@@ -42,7 +42,7 @@ struct BatchTimes {
 struct BatchOptions {
     Precision precision = Precision::single_precision;
     int device = 0;               ///< number of the GPU, see cuda_devices
-    bool whole_gpu = false;       ///< one member after another, each by the whole GPU; has bits of its own
+    bool whole_gpu = false;       ///< members by kernels of the whole GPU, some side by side; has bits of its own
     BatchTimes* times = nullptr;  ///< gets the batch's times added, if there is one
 };
 

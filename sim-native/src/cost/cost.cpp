@@ -194,12 +194,12 @@ void check_cost(const Model& model, double substeps, double more_bytes, const st
 
 void check_evaluation_cost(const Scene& scene, const Model& model) {
     const double frames = std::round(scene.duration / scene.time_step);
-    check_cost(model, substeps_of_settling(scene) + frames * scene.solver.substeps, 2 * sizeof(double) * frames,
+    check_cost(model, substeps_of_settling(scene) + frames * model.parameters.substeps, 2 * sizeof(double) * frames,
                "scene " + quoted(scene.name));
 }
 
 void check_live_cost(const Scene& scene, const Model& model) {
-    check_cost(model, substeps_of_settling(scene) + limits::live_frames * scene.solver.substeps, 0,
+    check_cost(model, substeps_of_settling(scene) + limits::live_frames * model.parameters.substeps, 0,
                "scene " + quoted(scene.name));
 }
 

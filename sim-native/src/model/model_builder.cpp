@@ -6,6 +6,7 @@
 
 #include "body.h"
 #include "disorder_fluid.h"
+#include "fit_to_water.h"
 #include "fluid_block.h"
 #include "io/strict_json.h"
 #include "muscles.h"
@@ -109,8 +110,10 @@ Model build_model(const Scene& scene) {
         add_fluid(*scene.fluid, model);
     }
     check_inside_tank(scene, model);
-    if (scene.scheme == Scheme::dfsph && scene.fluid)
+    if (scene.scheme == Scheme::dfsph && scene.fluid) {
         disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluidRestDistance), model);
+        fit_to_water(model);
+    }
     return model;
 }
 

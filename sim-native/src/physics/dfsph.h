@@ -54,6 +54,21 @@ NATATOR_HD T unit_part(T v) {
     return smaller(positive_part(v), one<T>());
 }
 
+// The numbers of the method.
+inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
+inline constexpr double jacobi_relaxation = 0.5;
+inline constexpr int divergence_passes = 1;    ///< on the velocities as they are, a substep
+inline constexpr double most_excess = 0.05;    ///< of rest density that the velocities take off in a substep
+inline constexpr double expansion = 1.0 / 6;   ///< rate at which they may, times the time in which gravity parts two particles
+inline constexpr double most_overlap = 0.5;    ///< of rest density that a substep takes off without them
+inline constexpr int parting_passes = 4;       ///< on overlaps
+inline constexpr double longest_parting = 0.5; ///< of the rest distance, a substep
+inline constexpr double most_diffusion = 0.1;  ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
+inline constexpr double shift_strength = 0.5;  ///< of R h |dv| times where neighbours crowd
+inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a substep
+inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
+inline constexpr double least_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its image
+
 // How far gradients are corrected: in full at this density and this determinant of the moments, not at all at half the
 // determinant or the lower density. Near a free surface half of the neighbours lack, and the inverse is ill-conditioned.
 inline constexpr double corrected_density = 0.7, uncorrected_density = 0.5;
@@ -84,7 +99,8 @@ struct MomentSums {
         moments.yz += weight * difference.y * difference.z;
         const T close = value * at_spacing, square = close * close;
         crowding += weight * (1 + R(0.2) * square * square) * difference;
-        const T speed_square = dot(relative_velocity, relative_velocity);
+        const T square_of_speed = dot(relative_velocity, relative_velocity);
+        const T speed_square = weight > 0 ? square_of_speed : T{};  // what ends a list has no weight
         fastest_square = smaller(-fastest_square, -speed_square) * R(-1);
     }
 
@@ -135,16 +151,65 @@ struct ResponseSums {
     }
 };
 
+/// What the velocities take off of a density above rest in a substep; negative below it. Of an overlap it is no more than
+/// `slow`, the smaller of most_excess and h times the fastest expansion: the speed that this gives does not leave again.
+template <class T>
+NATATOR_HD T velocity_excess(T density, Scalar<T> slow) {
+    using R = Scalar<T>;
+    const T above = density - 1;
+    return smaller(above, above > R(overlap_tolerance) ? T{} + slow : T{} + R(most_excess));
+}
+
+/// The rate of expansion, times V_i, that a density solve goes for: what takes a particle to rest density in a substep.
+template <class T>
+NATATOR_HD T density_target(T volume, T density, Scalar<T> slow, Scalar<T> h) {
+    return volume / h * velocity_excess(density, slow);
+}
+
+/// The same of what is more than the velocities take off: overlaps are parted by passes on velocities that begin at 0 and
+/// are forgotten once they have moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies
+/// with Stacking, 2003, and others).
+template <class T>
+NATATOR_HD T parting_target(T volume, T density, Scalar<T> slow, Scalar<T> h) {
+    const T above = smaller(density - 1, T{} + Scalar<T>(most_overlap));
+    return volume / h * positive_part(above - velocity_excess(density, slow));
+}
+
+/// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.
+template <class T>
+NATATOR_HD T pressure_impulse(T target, T rate, T response, T density) {
+    using R = Scalar<T>;
+    const T all = R(jacobi_relaxation) * positive_part(target - rate) * response;
+    return density > R(wet_density) ? all : T{};
+}
+
+/// What keeps a particle of the fluid evenly spread in its substep, length; no velocity comes with it.
+template <class T>
+NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square, T radius, T spacing, T h) {
+    if (!(density > T(shifted_density))) return {};
+    const T strength = T(shift_strength) * radius * h * square_root(fastest_square);
+    return clamped(strength * crowding, T(longest_shift) * spacing);
+}
+
+/// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it would
+/// overshoot. `own`, `other`: a particle's volume times its inverse mass; `most`: what that may be.
+template <class T>
+NATATOR_HD T viscous_share(T own, T other, Scalar<T> most) {
+    const T larger = smaller(-own, -other) * Scalar<T>(-1);
+    return larger > most ? most / larger : one<T>();
+}
+
 /// Viscous impulses on a particle, without its inverse mass and 10 h mu: Monaghan's form (2005, eq. 8.5), which acts
-/// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0.
+/// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0; `share`
+/// is viscous_share.
 template <class T>
 struct ViscousSums {
     Vec3<T> impulse{};
 
-    NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening,
+    NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening, T share,
                         const Vec3<T>& pair_gradient) {
         const T approach = dot(relative_velocity, difference);  // (v_j - v_i) (x_i - x_j)
-        impulse -= approach / (squared_length(difference) + softening) * pair_gradient;
+        impulse -= share * approach / (squared_length(difference) + softening) * pair_gradient;
     }
 };
 

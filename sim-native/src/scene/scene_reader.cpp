@@ -107,13 +107,6 @@ void check_mirrors(const Scene& scene, const Place& place) {
 
 void check_water(const Scene& scene, const Place& place) {
     if (scene.scheme != Scheme::dfsph) return;
-    const SolverParameters& p = scene.solver;
-    const std::pair<const char*, double> unsupported[] = {{"cohesion", p.cohesion},
-                                                          {"surfaceTension", p.surfaceTension},
-                                                          {"vorticityConfinement", p.vorticityConfinement},
-                                                          {"freeSurfaceDrag", p.freeSurfaceDrag}};
-    for (const auto& [key, value] : unsupported)
-        if (value != 0) fields::refuse(place.key("solver").key(key), value, "0 in scheme dfsph");
     check_viscosity(scene, place);
     check_mirrors(scene, place);
 }

@@ -89,6 +89,7 @@ Plan make_unskipped_plan(const Model& model) {
 }
 
 std::vector<std::string> describe_plan(const Model& model) {
+    const SolverParameters& p = model.parameters;
     const Plan plan = make_plan(model);
     const bool flex = model.scheme == Scheme::flex;
     std::vector<std::string> lines;
@@ -102,6 +103,10 @@ std::vector<std::string> describe_plan(const Model& model) {
         return std::to_string(model.parameters.numIterations) + " x per substep: " + kind + name(stage);
     };
     add(plan.water, once("divergence and viscosity of the water"));
+    add(plan.water && p.freeSurfaceDrag > 0, once(name(Stage::free_surface_drag)));
+    add(plan.water && p.cohesion > 0, once("cohesion"));
+    add(plan.water && p.surfaceTension > 0, once("surface tension"));
+    add(plan.water && p.vorticityConfinement > 0, once("vorticity confinement"));
     add(true, once(name(Stage::predict)));
     add(plan.fluid || plan.contacts, once("sort into cells"));
     add(plan.fluid, once(std::string("find fluid neighbours") + (plan.uniform_fluid ? "" : " (test per pair)")));

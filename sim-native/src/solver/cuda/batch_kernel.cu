@@ -17,7 +17,7 @@ const void* kernel_of(const ModelView<Real>& model, bool on_chip) {
 
 template <class Real>
 const void* kernel(const ModelView<Real>& model, bool on_chip) {
-    return model.scheme == Scheme::conserving ? kernel_of<Real, Scheme::conserving>(model, on_chip)
+    return model.scheme != Scheme::flex ? kernel_of<Real, Scheme::conserving>(model, on_chip)
                                               : kernel_of<Real, Scheme::flex>(model, on_chip);
 }
 

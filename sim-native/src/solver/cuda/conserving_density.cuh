@@ -140,7 +140,7 @@ __device__ void push_solids_by_pressure(const ModelView<Real>& model, Block& blo
         Vec3<Real> push{0, 0, 0};
         if (solid) {
             const Vec3<Real> x = xyz(block.next()[s]);
-            for_each_contact_of(model, block, s, lane, contact_lanes, [&](int other) {
+            for_each_contact_of(model, block, s, lane, pair_lanes, [&](int other) {
                 if (other >= model.fluid) return;
                 const Quad<Real> there = block.next()[other];
                 push = push + solid_pressure_push(model, x - xyz(there), there.w);

@@ -6,10 +6,10 @@
 
 namespace natator::cuda {
 
-/// Puts what starts behind a plane on it.
+/// Puts what starts behind a plane, or nearer to one than `distance`, there: see physics::put_before.
 template <class Real>
-__device__ Vec3<Real> put_before_planes(const ModelView<Real>& model, Vec3<Real> x) {
-    for (int k = 0; k < model.planes; ++k) x = put_before(model.plane[k].surface, model.collision_distance, x);
+__device__ Vec3<Real> put_before_planes(const ModelView<Real>& model, Vec3<Real> x, Real distance) {
+    for (int k = 0; k < model.planes; ++k) x = put_before(model.plane[k].surface, distance, x);
     return x;
 }
 

@@ -16,7 +16,7 @@ __device__ void solve_contacts(const ModelView<Real>& model, Block& block) {
         work_on_touched(block, unit, [&](int s, int lane) {
             int active = 0;
             if (s >= 0)
-                for_each_contact_of(model, block, s, lane, contact_lanes,
+                for_each_contact_of(model, block, s, lane, pair_lanes,
                                     [&](int other) { active += contact_depth<Real>(model, block, s, other) > 0; });
             active = sum_of_lanes(active);
             if (s >= 0 && lane == 0) block.active()[s] = static_cast<std::uint16_t>(active);
@@ -29,7 +29,7 @@ __device__ void solve_contacts(const ModelView<Real>& model, Block& block) {
             const int active = s >= 0 ? block.active()[s] : 0;
             Vec3<Real> sum{0, 0, 0};
             if (active > 0 && inverse_mass > 0)
-                for_each_contact_of(model, block, s, lane, contact_lanes, [&](int other) {
+                for_each_contact_of(model, block, s, lane, pair_lanes, [&](int other) {
                     const Real depth = contact_depth<Real>(model, block, s, other);
                     if (!(depth > 0)) return;
                     const Real share = physics::split_share(inverse_mass, static_cast<Real>(active),

@@ -49,25 +49,25 @@ __device__ Quad<Real> far_away() {
     return {Real(physics::far_away), Real(physics::far_away), Real(physics::far_away), Real(0)};
 }
 
-constexpr int contact_lanes = 8;  ///< threads that share the contacts of a slot
+constexpr int pair_lanes = 8;  ///< threads that share the pairs of a slot
 
-/// The sum over the threads that share a slot's contacts, the same in all of them.
+/// The sum over the threads that share a slot, the same in all of them.
 template <class Real>
 __device__ Real sum_of_lanes(Real value) {
-    for (int step = contact_lanes / 2; step > 0; step /= 2) value += __shfl_xor_sync(0xffffffff, value, step);
+    for (int step = pair_lanes / 2; step > 0; step /= 2) value += __shfl_xor_sync(0xffffffff, value, step);
     return value;
 }
 
-/// Calls work(slot, lane) for the slots that have contacts, `contact_lanes` threads each, all lanes of a warp together;
+/// Calls work(slot, lane) for the slots that have contacts, `pair_lanes` threads each, all lanes of a warp together;
 /// slot is -1 for those beyond the last. Units of for_each_unit from 0 on.
 template <class Real, class Block>
 __device__ int touched_units(const ModelView<Real>& model, const Block& block) {
-    return model.plan.contacts ? (block.shared().touched * contact_lanes + 31) / 32 : 0;
+    return model.plan.contacts ? (block.shared().touched * pair_lanes + 31) / 32 : 0;
 }
 template <class Block, class Work>
 __device__ void work_on_touched(const Block& block, int unit, const Work& work) {
-    const int lane = threadIdx.x % 32, k = unit * (32 / contact_lanes) + lane / contact_lanes;
-    work(k < block.shared().touched ? static_cast<int>(block.touched()[k]) : -1, lane % contact_lanes);
+    const int lane = threadIdx.x % 32, k = unit * (32 / pair_lanes) + lane / pair_lanes;
+    work(k < block.shared().touched ? static_cast<int>(block.touched()[k]) : -1, lane % pair_lanes);
 }
 
 /// Of contacts of particles, and of planes.

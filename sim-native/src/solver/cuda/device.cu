@@ -18,10 +18,19 @@ void choose_device(int device) {
 }
 
 std::optional<std::string> refusal(const Model& model) {
-    if (model.scheme == Scheme::dfsph) return "scheme dfsph runs on the CPU only";
     if (model.particles() == 0) return "the scene has no particles; must have some";
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
+    if (!make_plan(model).water) return std::nullopt;
+    const SolverParameters& p = model.parameters;
+    if (p.cohesion > 0 || p.surfaceTension > 0 || p.vorticityConfinement > 0 || p.freeSurfaceDrag > 0)
+        return "cohesion, surface tension, vorticity confinement and free-surface drag of scheme dfsph run on the CPU only";
+    if (model.planes.size() > most_mirrors)
+        return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_mirrors) +
+               " in scheme dfsph";
+    if (model.particles() >= 1 << most_slot_bits)
+        return std::to_string(model.particles()) + " particles; must be fewer than " +
+               std::to_string(1 << most_slot_bits) + " in scheme dfsph";
     return std::nullopt;
 }
 
@@ -30,7 +39,7 @@ Instability located(const Model& model, State<Real> before, const Gait* gait, do
                     double frame_time, const Instability& found) {
     Solver<Real> solver(model);
     const double h = time_step / substeps;
-    if (gait) actuate(model, *gait, model.scheme == Scheme::conserving ? before.time + h : frame_time, before);
+    if (gait) actuate(model, *gait, model.scheme != Scheme::flex ? before.time + h : frame_time, before);
     const auto on_cpu = solver.update(before, h, 1);
     return on_cpu ? *on_cpu : found;
 }

@@ -1,11 +1,13 @@
 #include "device_model.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "natator/error.h"
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/conserving/constants.h"
+#include "solver/cpu/dfsph/volumes.h"
 #include "solver/cpu/substep.h"
 
 namespace natator::cuda {
@@ -100,9 +102,64 @@ DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
     view_.inverse_mass = keep(inverse_mass_, inverse_mass);
     view_.phase = keep(phase_, phase);
     view_.rest_position = keep(rest_position_, rest);
-    if (model.scheme == Scheme::conserving) set_conserving(model);
+    if (model.scheme != Scheme::flex) set_conserving(model);
     upload_solids(model);
-    lay_grid(model, most_cells);
+    view_.grid = grid_over(model, view_.search_distance, 0, most_cells > 0 ? most_cells : cells_on_chip(model));
+    if (view_.plan.water) set_water(model, most_cells);
+}
+
+namespace {
+
+/// `mirror` behind `first`.
+template <class Real>
+Reflection<Real> reflected(const Reflection<Real>& first, const physics::PlaneSurface<Real>& mirror) {
+    const Vec3<Real>& n = mirror.normal;
+    const Vec3<Real> along = n.x * first.turn[0] + n.y * first.turn[1] + n.z * first.turn[2];
+    return {{first.turn[0] - 2 * n.x * along, first.turn[1] - 2 * n.y * along, first.turn[2] - 2 * n.z * along},
+            first.shift - 2 * (dot(n, first.shift) + mirror.offset) * n};
+}
+
+}  // namespace
+
+template <class Real>
+void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
+    WaterModel<Real>& water = view_.water;
+    const double radius = cpu::support(model), spacing = model.parameters.fluidRestDistance;
+    const std::vector<double> volumes = cpu::particle_volumes(model);
+    water.radius = static_cast<Real>(radius);
+    water.spacing = static_cast<Real>(spacing);
+    water.at_spacing = static_cast<Real>(1 / cpu::wendland(spacing, radius));
+    water.softening = Real(0.01) * water.spacing * water.spacing;
+    const double density = cpu::fluid_density(model, volumes);
+    water.density = static_cast<Real>(density);
+    water.dynamic_viscosity = static_cast<Real>(model.parameters.kinematicViscosity * density);
+    water.fastest_expansion = static_cast<Real>(cpu::fastest_expansion(model.parameters));
+    const auto scale = static_cast<Real>(cpu::wendland(0, radius));
+    water.kernel = {1 / water.radius, scale, 20 * scale / (water.radius * water.radius)};
+    std::vector<Real> volume(model.particles());
+    for (int i = 0; i < model.particles(); ++i) volume[number_of_[i]] = static_cast<Real>(volumes[i]);
+    water.volume = keep(volume_, volume);
+
+    std::vector<Reflection<Real>> reflections(std::size_t(1) << view_.planes);
+    reflections[0] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+    for (int planes = 1; planes < 1 << view_.planes; ++planes) {
+        const int last = std::bit_width(static_cast<unsigned>(planes)) - 1;
+        reflections[planes] = reflected(reflections[planes ^ 1 << last], view_.plane[last].surface);
+    }
+    water.reflection = keep(reflection_, reflections);
+    water.most_copies = 1;
+    for (int k = 0; k < view_.planes; ++k) {
+        const physics::PlaneSurface<Real>& plane = view_.plane[k].surface;
+        bool faces = false;  // one of those before: a particle may be near both
+        for (int e = 0; e < k; ++e) {
+            const physics::PlaneSurface<Real>& other = view_.plane[e].surface;
+            if (!(dot(other.normal, plane.normal) < 0)) continue;
+            faces = true;
+            if (plane.offset + other.offset < 2 * water.radius) water.most_copies *= 2;
+        }
+        if (!faces) water.most_copies *= 2;
+    }
+    water.grid = grid_over(model, water.radius, water.radius, most_cells);
 }
 
 template <class Real>
@@ -155,7 +212,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     std::vector<int> members;
     std::vector<Vec3<Real>> offsets;
     std::vector<Real> masses;
-    const bool split = model.scheme == Scheme::conserving;
+    const bool split = model.scheme != Scheme::flex;
     const std::vector<cpu::SplitCluster<Real>> splits =
         split ? cpu::split_clusters<Real>(model) : std::vector<cpu::SplitCluster<Real>>();
     for (const Cluster& cluster : model.clusters) {
@@ -200,10 +257,8 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     view_.body_particle = keep(body_particle_, body);
 }
 
-/// Over the box of the start positions, extended to the planes that face an axis. The tables of the fluid's and the
-/// solids' cells, 4 bytes a cell, must fit on the chip beside two buffers of positions where these do.
 template <class Real>
-void DeviceModel<Real>::lay_grid(const Model& model, int most_cells) {
+GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, Real margin, int most_cells) const {
     std::array<Real, 3> low{}, high{};
     for (int axis = 0; axis < 3; ++axis) {
         low[axis] = std::numeric_limits<Real>::max();
@@ -216,19 +271,29 @@ void DeviceModel<Real>::lay_grid(const Model& model, int most_cells) {
             if (plane.normal[axis] == 1) low[axis] = std::max(low[axis] - view_.radius, Real(-plane.offset));
             if (plane.normal[axis] == -1) high[axis] = std::min(high[axis] + 100 * view_.radius, Real(plane.offset));
         }
+        low[axis] -= margin;
+        high[axis] += margin;
     }
+    cpu::CellGrid<Real> grid;
+    grid.cover(low, high, distance, most_cells);
+    const auto box = grid.box();
+    GridView<Real> view{};
+    for (int axis = 0; axis < 3; ++axis) {
+        view.low[axis] = box.low[axis];
+        view.inverse_size[axis] = box.inverse_size[axis];
+        view.count[axis] = box.count[axis];
+    }
+    view.cells = grid.cells();
+    return view;
+}
+
+/// The tables of the fluid's and the solids' cells, 4 bytes a cell, must fit on the chip beside two buffers of positions
+/// where these do.
+template <class Real>
+int DeviceModel<Real>::cells_on_chip(const Model& model) const {
     constexpr int chip = 223 << 10, elsewhere = 1 << 20;
     const int positions = 2 * model.particles() * static_cast<int>(sizeof(Quad<Real>));
-    if (most_cells == 0) most_cells = positions < chip - (8 << 10) ? (chip - positions) / 4 : elsewhere / 4;
-    cpu::CellGrid<Real> grid;
-    grid.cover(low, high, view_.search_distance, most_cells);
-    const auto box = grid.box();
-    for (int axis = 0; axis < 3; ++axis) {
-        view_.grid.low[axis] = box.low[axis];
-        view_.grid.inverse_size[axis] = box.inverse_size[axis];
-        view_.grid.count[axis] = box.count[axis];
-    }
-    view_.grid.cells = grid.cells();
+    return positions < chip - (8 << 10) ? (chip - positions) / 4 : elsewhere / 4;
 }
 
 template class DeviceModel<float>;

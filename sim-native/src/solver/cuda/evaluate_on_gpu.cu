@@ -132,7 +132,7 @@ private:
         const bool swims = !model_.body.particles.empty();
         BatchView<Real> batch = runner_.view_of(states, frames);
         batch.time_step = scene_.time_step;
-        batch.substeps = scene_.solver.substeps;
+        batch.substeps = model_.parameters.substeps;
         batch.gait = {frequencies.data(), powers.data(), amplitudes.data(), phases.data()};
         batch.density = density.data();
         batch.stop_at_planes = scene_.stopping.plane_contact;
@@ -189,7 +189,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     const bool in_double = options.precision == Precision::double_precision;
-    if (options.whole_gpu || model.particles() > cuda::most_particles_of_a_block)
+    if (options.whole_gpu || make_plan(model).water || model.particles() > cuda::most_particles_of_a_block)
         return in_double ? cuda::evaluate_large<double>(scene, model, members, options.times)
                          : cuda::evaluate_large<float>(scene, model, members, options.times);
     if (in_double) {

@@ -23,7 +23,7 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
         before.time = progress.bad_time;
         const int bad = progress.bad_particle < model.particles() ? particle_of[progress.bad_particle] : 0;
         const double step = gait ? scene.time_step : scene.settling.time_step;
-        const int substeps = gait ? scene.solver.substeps : scene.settling.substeps;
+        const int substeps = gait ? model.parameters.substeps : scene.settling.substeps;
         evaluation.instability =
             located(model, before, gait, step, substeps, evaluation.simulated, {bad, "velocities", progress.bad_time});
         return evaluation;

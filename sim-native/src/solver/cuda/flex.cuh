@@ -63,7 +63,7 @@ __device__ void push_touched(const ModelView<Real>& model, const Block& block, i
         Correction<Real> push;
         if (s >= 0) {
             const Quad<Real> here = block.position()[s];
-            for_each_contact_of(model, block, s, lane, contact_lanes, [&](int other) {
+            for_each_contact_of(model, block, s, lane, pair_lanes, [&](int other) {
                 const Quad<Real> there = block.position()[other];
                 const Vec3<Real> difference = xyz(here) - xyz(there);
                 const Real r = norm(difference);

@@ -137,15 +137,16 @@ private:
 template <class Real>
 class GpuSolver<Real>::ByWholeGpu : public Implementation {
 public:
-    ByWholeGpu(const Model& model, cuda::ContactRoom room) : Implementation(model), runner_(model, room) {}
+    ByWholeGpu(const Model& model, cuda::ContactRoom room) : Implementation(model), runner_(model, 1, room) {}
 
 private:
     const cuda::DeviceModel<Real>& device_model() const override { return runner_.model(); }
     cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
                        const cuda::Trace<Real>& trace) override {
-        runner_.upload(state);
-        const auto end = runner_.run({state.time, time_step, substeps, gait, false}, nullptr, trace);
-        state = runner_.download(state);
+        runner_.upload(0, state);
+        const std::vector<const Gait*> gaits(gait ? 1 : 0, gait);
+        const auto end = runner_.run({state.time, time_step, substeps, gaits, false}, nullptr, trace).front();
+        state = runner_.download(0, state);
         cuda::Progress progress;
         if (!end.finite) {
             progress.stopped = static_cast<int>(StopReason::unstable);
@@ -166,8 +167,11 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     cuda::choose_device(options.device);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
+    const bool water = make_plan(model).water;
     if (path == GpuPath::by_size)
-        path = model.particles() > cuda::most_particles_of_a_block ? GpuPath::whole_gpu : GpuPath::block;
+        path = water || model.particles() > cuda::most_particles_of_a_block ? GpuPath::whole_gpu : GpuPath::block;
+    if (path == GpuPath::block && water)
+        throw InputError("backend cuda: scheme dfsph in one block; must be on the whole GPU");
     if (path == GpuPath::block && model.particles() > 65535)
         throw InputError("backend cuda: " + std::to_string(model.particles()) +
                          " particles in one block; must be at most 65535");

@@ -35,7 +35,7 @@ Layout layout_of(const ModelView<Real>& model, bool on_chip) {
     at.next = large.take<Quad<Real>>(next);
     const std::size_t cells =
         static_cast<std::size_t>(model.grid.cells) * sizeof(std::uint32_t);  // of fluid and solids
-    const std::size_t lambdas = model.scheme == Scheme::conserving ? (particles + 1) * sizeof(Real) : 0;
+    const std::size_t lambdas = model.scheme != Scheme::flex ? (particles + 1) * sizeof(Real) : 0;
     at.table = large.take<char>(std::max(cells, lambdas));
     at.slot_of_solid = chip.take<std::uint16_t>(solids);
     at.rest_length = chip.take<Real>(model.springs);
@@ -64,7 +64,7 @@ Layout layout_of(const ModelView<Real>& model, bool on_chip) {
     at.change = scratch.take<Quad<Real>>(plan.dissipation ? particles : 0);
     at.normal = scratch.take<Quad<Real>>(plan.surface_tension ? fluid : 0);
     at.curl = scratch.take<Quad<Real>>(plan.vorticity ? fluid : 0);
-    if (model.scheme == Scheme::conserving) {
+    if (model.scheme != Scheme::flex) {
         at.active = scratch.take<std::uint16_t>(particles);
         at.base = scratch.take<Quad<Real>>(particles);
         at.displacement = scratch.take<Quad<Real>>(particles);

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "natator/plan.h"
+#include "physics/dfsph.h"
 #include "physics/pbf_density.h"
 #include "physics/plane.h"
 #include "physics/velocity.h"
@@ -77,6 +78,29 @@ struct Share {
 
 inline constexpr int most_planes = 16;
 
+/// x -> turn x + shift: one or more mirrors, one behind the other.
+template <class Real>
+struct Reflection {
+    Vec3<Real> turn[3];  ///< rows
+    Vec3<Real> shift;
+};
+
+/// The water of scheme `dfsph`. Mirrors are planes without friction: what is beyond is the ghost of what is before them.
+/// A ghost is known by its particle and the set of planes that it was reflected at, in their order: bit k for plane k.
+template <class Real>
+struct WaterModel {
+    Real radius, spacing, at_spacing, softening, dynamic_viscosity;
+    Real density;            ///< mass/length^3 at rest
+    Real fastest_expansion;  ///< 1/s, see physics::velocity_excess
+    physics::WendlandKernel<Real> kernel;
+    GridView<Real> grid;
+    const Real* volume;                  ///< by particle
+    const Reflection<Real>* reflection;  ///< by set of planes
+    int most_copies;                     ///< of a particle: itself and its ghosts
+};
+inline constexpr int most_mirrors = 6;      ///< of a set, three at once
+inline constexpr int most_slot_bits = 26;   ///< the rest of 32 bits is a set of planes
+
 /// A Model in device memory. Particles are numbered anew: first the fluid, then the solids, each in the Model's order.
 template <class Real>
 struct ModelView {
@@ -101,6 +125,8 @@ struct ModelView {
     physics::FluidKernel<Real> fluid_kernel;
     Real plane_scale, plane_gap, overlap_acceleration;
     Real fluid_inverse_mass;  ///< of every fluid particle; negative if they differ
+
+    WaterModel<Real> water;  ///< scheme `dfsph`
 
     GridView<Real> grid;
     int planes;

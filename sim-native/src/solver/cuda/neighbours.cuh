@@ -28,7 +28,7 @@ __device__ void predict(const ModelView<Real>& model, Block& block) {
         Quad<Real> x = block.position()[s];
         const Real inverse_mass = x.w;
         if (scheme == Scheme::conserving && inverse_mass > 0) {
-            x = quad(put_before_planes(model, xyz(x)), x.w);
+            x = quad(put_before_planes(model, xyz(x), model.collision_distance), x.w);
             block.position()[s] = x;
         }
         const Vec3<Real> v = drift_velocity(model, xyz(block.velocity[s]), inverse_mass, s < model.fluid, block.h);

@@ -1,16 +1,14 @@
 #include "dfsph_stages.h"
 
-namespace natator::cpu {
+#include "physics/dfsph.h"
 
-/// Nearer to a mirror than this, in rest distances, a particle and its image overlap, and the kernel no longer parts
-/// them.
-constexpr double least_wall_distance = 0.3;
+namespace natator::cpu {
 
 /// Water does not touch planes otherwise: their mirror images hold it.
 template <class Real>
 Real DfsphStages<Real>::wall_distance(int particle) const {
     return this->model_.is_fluid(particle)
-               ? static_cast<Real>(least_wall_distance * this->model_.parameters.fluidRestDistance)
+               ? static_cast<Real>(physics::least_wall_distance * this->model_.parameters.fluidRestDistance)
                : this->constants_.collision_distance;
 }
 

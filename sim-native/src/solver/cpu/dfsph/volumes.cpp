@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "physics/dfsph.h"
+
 namespace natator::cpu {
 namespace {
 
@@ -57,6 +59,26 @@ std::vector<double> particle_volumes(const Model& model) {
         volumes[i] = whole * std::pow(nearest / p.fluidRestDistance, 3);
     }
     return volumes;
+}
+
+double fluid_density(const Model& model, const std::vector<double>& volumes) {
+    double mass = 0, volume = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i) || model.inverse_mass[i] == 0) continue;
+        mass += 1 / model.inverse_mass[i];
+        volume += volumes[i];
+    }
+    return volume > 0 ? mass / volume : 0;
+}
+
+double fastest_expansion(const SolverParameters& parameters) {
+    const double acceleration = std::min(std::max(parameters.maxAcceleration / 10, parameters.gravity.norm()), 1e30);
+    return physics::expansion * std::sqrt(acceleration / parameters.fluidRestDistance);
+}
+
+double mobility(double inverse_mass, double volume, double fluid_density) {
+    if (inverse_mass > 0 || !(fluid_density > 0)) return inverse_mass;
+    return 1 / (fluid_density * volume);
 }
 
 }  // namespace natator::cpu

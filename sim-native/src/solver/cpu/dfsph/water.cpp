@@ -5,31 +5,10 @@
 
 #include "../workspace.h"
 #include "physics/constants.h"
+#include "physics/dfsph.h"
 #include "volumes.h"
 
 namespace natator::cpu {
-namespace {
-
-constexpr double wet = 0.9;            ///< density from which a particle is held incompressible
-constexpr double relaxation = 0.5;     ///< of the Jacobi passes
-constexpr int divergence_passes = 1;   ///< on the velocities as they are
-constexpr double most_excess = 0.05;   ///< of rest density that a substep takes off
-constexpr double shift_strength = 0.5; ///< of R h |dv| times where neighbours crowd
-constexpr double longest_shift = 0.05; ///< of the rest distance, a substep
-constexpr double shifted_density = 0.95;  ///< below it is the surface, which is left as it is
-
-/// Mass density of the fluid, from the mean mass of its particles.
-double fluid_density(const Model& model, const std::vector<double>& volumes) {
-    double mass = 0, volume = 0;
-    for (int i = 0; i < model.particles(); ++i) {
-        if (!model.is_fluid(i) || model.inverse_mass[i] == 0) continue;
-        mass += 1 / model.inverse_mass[i];
-        volume += volumes[i];
-    }
-    return volume > 0 ? mass / volume : 0;
-}
-
-}  // namespace
 
 template <class Real>
 Water<Real>::Water(const Model& model)
@@ -43,10 +22,15 @@ Water<Real>::Water(const Model& model)
       mirror_(model),
       particles_(model.particles()),
       image_begin_(round_up_to_block(model.particles())) {
+    effect_radius_ = std::min(static_cast<Real>(model.parameters.radius), radius_);
+    fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters));
     const std::vector<double> volumes = particle_volumes(model);
-    dynamic_viscosity_ = static_cast<Real>(model.parameters.kinematicViscosity * fluid_density(model, volumes));
+    const double density = fluid_density(model, volumes);
+    dynamic_viscosity_ = static_cast<Real>(model.parameters.kinematicViscosity * density);
     for (const double v : volumes) volume_of_.push_back(static_cast<Real>(v));
     for (const double w : model.inverse_mass) inverse_mass_of_.push_back(static_cast<Real>(w));
+    for (int i = 0; i < particles_; ++i)
+        mobility_of_.push_back(static_cast<Real>(mobility(model.inverse_mass[i], volumes[i], density)));
     slot_of_.resize(particles_);
     cell_of_.resize(particles_);
     particle_of_.assign(image_begin_, -1);
@@ -60,9 +44,45 @@ Water<Real>::Water(const Model& model)
 template <class Real>
 Vec3<Real> Water<Real>::shift(int particle) const {
     const int slot = slot_of_[particle];
-    if (!model_.is_fluid(particle) || !(density_[slot] > Real(shifted_density))) return {};
-    const Real strength = Real(shift_strength) * radius_ * h_ * std::sqrt(fastest_square_[slot]);
-    return clamped(strength * crowding_.at(slot), Real(longest_shift) * spacing_);
+    const Vec3<Real> parting = parting_.empty() ? Vec3<Real>{} : parting_[slot];
+    if (!model_.is_fluid(particle)) return parting;
+    return parting +
+           physics::shift_of(density_[slot], crowding_.at(slot), fastest_square_[slot], radius_, spacing_, h_);
+}
+
+/// See physics::velocity_excess.
+template <class Real>
+Real Water<Real>::most_excess() const {
+    return std::min(Real(physics::most_excess), h_ * fastest_expansion_);
+}
+
+/// Where particles start too close, see physics::parting_target. Bodies stay where they are, as pushing their particles
+/// would bend them.
+template <class Real>
+void Water<Real>::part_overlaps(ThreadTeam& team) {
+    parting_.clear();
+    bool any = false;
+    for (int slot = 0; slot < particles_; ++slot) {
+        any |= density_[slot] - 1 > Real(physics::overlap_tolerance);
+        target_[slot] = physics::parting_target(volume_[slot], density_[slot], most_excess(), h_);
+    }
+    if (!any) return;
+    kept_velocity_ = velocity_;
+    for (int slot = 0; slot < particles_; ++slot) {
+        velocity_.set(slot, {});
+        if (!model_.is_fluid(particle_of_[slot])) inverse_mass_[slot] = 0;
+    }
+    on_all_threads(team, kernels_->pack);
+    mirror_velocities();
+    for (int pass = 0; pass < physics::parting_passes; ++pass) push_apart(team);
+    parting_.resize(particles_);
+    for (int slot = 0; slot < particles_; ++slot) {
+        parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::longest_parting) * spacing_);
+        velocity_.set(slot, kept_velocity_.at(slot));
+        inverse_mass_[slot] = inverse_mass_of_[particle_of_[slot]];
+    }
+    on_all_threads(team, kernels_->pack);
+    mirror_velocities();
 }
 
 /// Numbers the slots by cell, first of the particles, then of the images.
@@ -97,7 +117,7 @@ void Water<Real>::lay_out(const State<Real>& state) {
     if (position_.x.size() < all) {
         const std::size_t room = round_up_to_block(static_cast<int>(all + all / 8));
         for (auto* array : {&position_, &velocity_}) array->resize(room);
-        for (auto* array : {&volume_, &inverse_mass_, &impulse_}) array->resize(room);
+        for (auto* array : {&volume_, &inverse_mass_, &mobility_, &impulse_}) array->resize(room);
         for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_}) array->resize(4 * room);
     }
     const auto put = [this](int slot, int particle, const auto& x, const auto& v) {
@@ -105,11 +125,12 @@ void Water<Real>::lay_out(const State<Real>& state) {
         velocity_.set(slot, vec3<Real>(v));
         volume_[slot] = volume_of_[particle];
         inverse_mass_[slot] = inverse_mass_of_[particle];
+        mobility_[slot] = mobility_of_[particle];
     };
     const auto put_nothing = [this](int slot) {
         position_.set(slot, {Real(physics::far_away), Real(physics::far_away), Real(physics::far_away)});
         velocity_.set(slot, {});
-        volume_[slot] = inverse_mass_[slot] = impulse_[slot] = 0;
+        volume_[slot] = inverse_mass_[slot] = mobility_[slot] = impulse_[slot] = 0;
     };
     std::vector<int> next(cell_begin_.begin(), cell_begin_.end() - 1);
     for (int i = 0; i < particles_; ++i) {
@@ -195,11 +216,10 @@ WaterView<Real> Water<Real>::view() {
                         .slope_scale = 20 * kernel_scale_ / (radius_ * radius_),
                         .at_spacing = at_spacing_,
                         .softening = Real(0.01) * spacing_ * spacing_,
-                        .wet = Real(wet),
-                        .relaxation = Real(relaxation),
                         .position = {position[0], position[1], position[2]},
                         .volume = volume_.data(),
                         .inverse_mass = inverse_mass_.data(),
+                        .mobility = mobility_.data(),
                         .velocity = {velocity[0], velocity[1], velocity[2]},
                         .density = density_.data(),
                         .correction = {},
@@ -234,7 +254,7 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     on_all_threads(team, kernels_->pack);
     for (int slot = image_begin_; slot <= far_slot_; ++slot) {
         const Real quadruples[8] = {position_.x[slot], position_.y[slot], position_.z[slot], volume_[slot],
-                                    velocity_.x[slot], velocity_.y[slot], velocity_.z[slot], inverse_mass_[slot]};
+                                    velocity_.x[slot], velocity_.y[slot], velocity_.z[slot], mobility_[slot]};
         std::copy_n(quadruples, 4, packed_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
         std::copy_n(quadruples + 4, 4, packed_velocity_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
     }
@@ -242,19 +262,23 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     mirror_corrections();
     on_all_threads(team, kernels_->compute_gradients);
 
+    part_overlaps(team);
     std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
-    for (int pass = 0; pass < divergence_passes; ++pass) push_apart(team);
-    if (dynamic_viscosity_ > 0)
-        on_all_threads(team, [&](const WaterView<Real>& part) {
-            kernels_->add_viscosity(part, 10 * h * dynamic_viscosity_);
-        });
+    for (int pass = 0; pass < physics::divergence_passes; ++pass) push_apart(team);
+    if (dynamic_viscosity_ > 0) {
+        const Real strength = 10 * h * dynamic_viscosity_;
+        const Real most = 10 * Real(physics::most_diffusion) * spacing_ * spacing_ / strength;
+        on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
+    }
+    add_effects(team);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
     const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
     for (int slot = 0; slot < particles_; ++slot) {
         if (inverse_mass_[slot] > 0)
             velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
-        target_[slot] = volume_[slot] / h * std::min(density_[slot] - 1, Real(most_excess));
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], most_excess(), h);
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], most_excess(), h);
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();

@@ -22,8 +22,8 @@ class Water {
 public:
     explicit Water(const Model& model);
 
-    /// Takes the state at the start of a substep of length h (s): takes off part of what compresses, then adds viscosity and
-    /// gravity.
+    /// Takes the state at the start of a substep of length h (s): takes off part of what compresses, then adds viscosity, the
+    /// forces that the thesis leaves off, and gravity. Overlaps go into shift().
     void begin(const State<Real>& state, Real h, ThreadTeam& team);
     /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after begin() is where
     /// they lead to more than rest density.
@@ -41,7 +41,7 @@ public:
     }
     /// Gives the images the velocities of what they are images of.
     void mirror_velocities();
-    /// What keeps particles evenly spread, by particle, length; no velocity comes with it.
+    /// What keeps particles evenly spread and takes off overlaps, by particle, length; no velocity comes with it.
     Vec3<Real> shift(int particle) const;
 
     /// In units of rest density, at the last substep's start, by particle.
@@ -54,7 +54,26 @@ private:
     void lay_out(const State<Real>& state);
     void find_neighbours(ThreadTeam& team);
     void mirror_corrections();
+    Real most_excess() const;
+    void part_overlaps(ThreadTeam& team);
     WaterView<Real> view();
+
+    void add_effects(ThreadTeam& team);
+    void drag_free_surface(ThreadTeam& team);
+    void add_cohesion(ThreadTeam& team);
+    void add_surface_tension(ThreadTeam& team);
+    void add_vorticity_confinement(ThreadTeam& team);
+    bool is_fluid_slot(int slot) const;
+    /// Not for particles of infinite mass.
+    void push(int slot, const Vec3<Real>& velocity_change) {
+        if (inverse_mass_[slot] > 0) velocity_.add(slot, velocity_change);
+    }
+    template <class Visit>
+    void for_each_neighbour_of(int slot, const Visit& visit) const;
+    template <class Visit>
+    void for_each_fluid_within_radius(int slot, const Visit& visit) const;
+    template <class Work>
+    void for_fluid_slots(ThreadTeam& team, const Work& work);
 
     template <class Work>
     void on_all_threads(ThreadTeam& team, const Work& work) {
@@ -72,7 +91,9 @@ private:
     const WaterKernels<Real>* kernels_;
     const NeighbourKernels<Real>* neighbour_kernels_;
     Real radius_, spacing_, kernel_scale_, at_spacing_, dynamic_viscosity_;
-    std::vector<Real> volume_of_, inverse_mass_of_;  ///< by particle
+    Real fastest_expansion_;  ///< by the velocities, of what is compressed, 1/s
+    Real effect_radius_;      ///< R of physics/water_effects.h
+    std::vector<Real> volume_of_, inverse_mass_of_, mobility_of_;  ///< by particle
     Mirror<Real> mirror_;
     CellGrid<Real> grid_;
     Real h_ = 1;
@@ -84,7 +105,11 @@ private:
     std::vector<int> cell_of_;  ///< by particle
 
     Vector3Array<Real> position_, velocity_, crowding_;
-    AlignedVector<Real> volume_, inverse_mass_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
+    Vector3Array<Real> kept_velocity_;  ///< room for part_overlaps
+    Vector3Array<Real> field_;          ///< of add_effects, also of images: normals, then vorticity
+    std::vector<Real> strength_;        ///< of the vorticity, also of images
+    std::vector<Vec3<Real>> parting_;   ///< displacement by part_overlaps, by slot; empty where nothing overlaps
+    AlignedVector<Real> volume_, inverse_mass_, mobility_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
     std::array<AlignedVector<Real>, 6> correction_;
     AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_;
     std::vector<int> row_begin_, neighbour_count_;

@@ -23,7 +23,7 @@ template <class Group, class Real>
 void pack(const WaterView<Real>& water) {
     pack_arrays<Group>(water, water.position, water.volume, water.packed);
     const Real* const velocity[3] = {water.velocity[0], water.velocity[1], water.velocity[2]};
-    pack_arrays<Group>(water, velocity, water.inverse_mass, water.packed_velocity);
+    pack_arrays<Group>(water, velocity, water.mobility, water.packed_velocity);
 }
 
 template <class Group, class Real>
@@ -70,22 +70,24 @@ void compute_gradients(const WaterView<Real>& water) {
             put3<Group>(water.gradient, entry, gradient);
             sums.add(gradient, moves.w);
         });
-        Group::put(water.response + first, sums.response(Group::get(water.inverse_mass + first)));
+        Group::put(water.response + first, sums.response(Group::get(water.mobility + first)));
     });
 }
 
 template <class Group, class Real>
-void add_viscosity(const WaterView<Real>& water, Real strength) {
+void add_viscosity(const WaterView<Real>& water, Real strength, Real most) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Vec3<Lane> v = get3<Group>(water.velocity, first);
+        const Lane inverse_mass = Group::get(water.inverse_mass + first);
+        const Lane own = Group::get(water.volume + first) * Group::get(water.mobility + first);
         ViscousSums<Lane> sums;
-        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>&, const Vec3<Lane>& difference) {
+        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             sums.add(difference, Vec3<Lane>{moves.x, moves.y, moves.z} - v, water.softening,
-                     get3<Group>(water.gradient, entry));
+                     viscous_share(own, other.w * moves.w, most), get3<Group>(water.gradient, entry));
         });
-        const Lane scale = strength * Group::get(water.inverse_mass + first);
+        const Lane scale = strength * inverse_mass;
         put3<Group>(water.velocity, first, v + scale * sums.impulse);
     });
 }
@@ -100,9 +102,8 @@ void compute_impulse(const WaterView<Real>& water) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             rate += dot(Vec3<Lane>{moves.x, moves.y, moves.z} - v, get3<Group>(water.gradient, entry));
         });
-        const Lane lacks = positive_part(Group::get(water.target + first) - rate);
-        const Lane all = water.relaxation * lacks * Group::get(water.response + first);
-        const Lane impulse = Group::get(water.density + first) > water.wet ? all : Lane{};
+        const Lane impulse = pressure_impulse(Group::get(water.target + first), rate,
+                                              Group::get(water.response + first), Group::get(water.density + first));
         Group::put(water.impulse + first, impulse);
         Group::put(water.impulse_sum + first, Group::get(water.impulse_sum + first) + impulse);
     });
@@ -121,7 +122,7 @@ void apply_impulse(const WaterView<Real>& water) {
         const Lane inverse_mass = Group::get(water.inverse_mass + first);
         const Vec3<Lane> v = get3<Group>(water.velocity, first) - inverse_mass * sum;
         put3<Group>(water.velocity, first, v);
-        Group::put_quadruples(water.packed_velocity + 4 * first, {v.x, v.y, v.z, inverse_mass});
+        Group::put_quadruples(water.packed_velocity + 4 * first, {v.x, v.y, v.z, Group::get(water.mobility + first)});
     });
 }
 

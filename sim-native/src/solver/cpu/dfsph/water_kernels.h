@@ -18,12 +18,11 @@ struct WaterView {
     Real inverse_radius, kernel_scale, slope_scale;  ///< see physics::WendlandKernel
     Real at_spacing;                                 ///< 1 / W at the rest spacing
     Real softening;                                  ///< of r^2 in the viscosity
-    Real wet;                                        ///< density above which a particle is held incompressible
-    Real relaxation;                                 ///< of the Jacobi passes
 
     const Real* position[3];
     const Real* volume;
     const Real* inverse_mass;
+    const Real* mobility;  ///< see cpu::mobility
     Real* velocity[3];
     Real* density;
     Real* correction[6];    ///< L_i: xx, yy, zz, xy, xz, yz
@@ -36,7 +35,7 @@ struct WaterView {
 
     // By slot, four at a time, also for images: what neighbours gather.
     Real* packed;             ///< position and volume
-    Real* packed_velocity;    ///< velocity and inverse mass
+    Real* packed_velocity;    ///< velocity and mobility
     Real* packed_correction;  ///< L: xx, yy, zz, xy
     Real* packed_shear;       ///< L: xz, yz
 
@@ -46,14 +45,15 @@ struct WaterView {
 /// Each particle's sums are computed apart, so blocks may be worked on side by side.
 template <class Real>
 struct WaterKernels {
-    /// Lays positions with volumes, and velocities with inverse masses, out for the rest.
+    /// Lays positions with volumes, and velocities with mobilities, out for the rest.
     void (*pack)(const WaterView<Real>& water);
     /// Density, correction (also laid out), crowding, fastest_square.
     void (*compute_moments)(const WaterView<Real>& water);
     /// gradient and response.
     void (*compute_gradients)(const WaterView<Real>& water);
-    /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was.
-    void (*add_viscosity)(const WaterView<Real>& water, Real strength);
+    /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was. `most`: see
+    /// physics::viscous_share.
+    void (*add_viscosity)(const WaterView<Real>& water, Real strength, Real most);
     /// impulse of a Jacobi pass: what takes a rate of expansion below its target there, never above; in impulse_sum too.
     void (*compute_impulse)(const WaterView<Real>& water);
     /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, also laid out.

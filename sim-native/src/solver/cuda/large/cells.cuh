@@ -11,14 +11,15 @@ __device__ inline int own_index() {
 /// v* = v + h g, |v*| <= maxSpeed, x* = x + h v*; counts the particles of each cell, the fluid's first.
 template <Scheme scheme, class Real>
 __global__ void __launch_bounds__(large_threads)
-    predict_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    predict_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles || slots.failed()) return;
     Quad<Real> x = slots.at.state_position[s];
     const Quad<Real> before = slots.at.state_velocity[s];
     const bool fluid = number_in(before.w) < model.fluid;
     if (scheme == Scheme::conserving && x.w > 0) {
-        x = quad(put_before_planes(model, xyz(x)), x.w);
+        x = quad(put_before_planes(model, xyz(x), model.collision_distance), x.w);
         slots.at.state_position[s] = x;
     }
     const Vec3<Real> v = drift_velocity(model, xyz(before), x.w, fluid, slots.h);
@@ -33,7 +34,8 @@ __global__ void __launch_bounds__(large_threads)
 /// Puts the particles of each cell together, in no order. Turns the cells' begins in the table into their ends.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    scatter_into_cells(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    scatter_into_cells(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles || slots.failed()) return;
     const auto number = static_cast<std::uint64_t>(number_in(slots.at.drift_before[s].w));
@@ -44,10 +46,11 @@ __global__ void __launch_bounds__(large_threads)
 /// alone.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    order_in_cells(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    order_in_cells(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int k = own_index();
     if (k >= model.particles || slots.failed()) return;
-    const SlotArrays<Real>& at = slots.at;
+    const StateArrays<Real>& at = slots.at;
     const std::uint64_t key = at.keys[k];
     const int before = static_cast<int>(key & 0xffffffffu), number = static_cast<int>(key >> 32);
     const int cell = at.cell[before];
@@ -59,13 +62,15 @@ __global__ void __launch_bounds__(large_threads)
     at.drift[s] = quad(xyz(at.drift_before[before]), there.w);
     at.position[s] = at.base[s] = there;
     at.number[s] = number;
+    if (model.plan.water) slots.water.slot_before[s] = before;
     if (s >= model.fluid) at.slot_of_solid[number - model.fluid] = s;
 }
 
 /// One block, which finds the box around the solids.
 template <class Real>
 __global__ void prepare_search(const __grid_constant__ ModelView<Real> model,
-                               const __grid_constant__ Slots<Real> slots) {
+                               const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (slots.failed()) return;
     bound_solids(model, slots);
     if (threadIdx.x > 0) return;

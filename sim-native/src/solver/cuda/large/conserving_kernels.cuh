@@ -8,7 +8,8 @@ namespace natator::cuda {
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    begin_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    begin_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const Quad<Real> zero{0, 0, 0, 0};
     const int first = own_index(), step = static_cast<int>(gridDim.x * blockDim.x);
     for (int s = first; s < model.particles; s += step) {
@@ -26,7 +27,8 @@ inline constexpr unsigned dropped = 0xffffffff;
 /// Marks, where lists are full, the neighbours that do not have the slot in their own list. As keep_mutual_neighbours.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    mark_one_sided(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    mark_one_sided(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.fluid || !slots.shared().full || slots.failed()) return;
     for (int k = 0; k < slots.neighbour_count()[s]; ++k) {
@@ -41,7 +43,8 @@ __global__ void __launch_bounds__(large_threads)
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    drop_marked(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    drop_marked(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.fluid || !slots.shared().full || slots.failed()) return;
     const int count = slots.neighbour_count()[s];
@@ -63,7 +66,8 @@ __device__ Slots<Real> with_overlap(const Slots<Real>& slots) {
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    lambda_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    lambda_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (slots.failed()) return;
     const Slots<Real> own = with_overlap(slots);
     if (compute_lambda(model, own)) slots.shared().high = 1;
@@ -72,7 +76,8 @@ __global__ void __launch_bounds__(large_threads)
 /// After the first lambdas of a substep: looks for particles that began it overlapping where some density is high.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    find_overlap_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    find_overlap_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.fluid || !slots.shared().high || slots.failed()) return;
     if (note_overlap(model, slots, s)) slots.shared().overlapping = 1;
@@ -81,7 +86,8 @@ __global__ void __launch_bounds__(large_threads)
 /// The first lambdas once more, where particles overlap. Every thread has one slot, the same in both of its parts.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    limit_lambda_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    limit_lambda_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (!slots.shared().overlapping || slots.failed()) return;
     if (own_index() < model.fluid) slots.lambda_sum()[own_index()] = 0;
     const Slots<Real> own = with_overlap(slots);
@@ -91,7 +97,8 @@ __global__ void __launch_bounds__(large_threads)
 /// Pressure on what has contacts.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    touched_pressure_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    touched_pressure_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (slots.failed()) return;
     if (model.plan.solid_pressure)
         for_each_unit(slots, touched_units<Real>(model, slots),
@@ -103,7 +110,8 @@ __global__ void __launch_bounds__(large_threads)
 /// Pressure, and planes at once, on the fluid that has no contacts: nothing of other slots comes between.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    free_pressure_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    free_pressure_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.fluid || slots.failed() || (model.plan.contacts && slots.contact_count()[s] > 0)) return;
     push_fluid_by_pressure(model, slots, s);
@@ -113,7 +121,8 @@ __global__ void __launch_bounds__(large_threads)
 /// Contacts, springs, clusters, and planes of what is left. One block.
 template <class Real>
 __global__ void __launch_bounds__(threads)
-    solids_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    solids_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (slots.failed()) return;
     if (model.plan.contacts) solve_contacts(model, slots);
     if (model.plan.springs) solve_springs(model, slots);
@@ -126,7 +135,8 @@ __global__ void __launch_bounds__(threads)
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    constrained_velocities(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    constrained_velocities(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s < model.particles && !slots.failed()) slots.next()[s] = constrained_velocity<Real>(slots, s);
 }
@@ -134,25 +144,29 @@ __global__ void __launch_bounds__(large_threads)
 /// One block.
 template <class Real>
 __global__ void __launch_bounds__(threads)
-    body_momentum_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    body_momentum_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (!slots.failed()) keep_body_momentum(model, slots);
 }
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    rate_lambda_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    rate_lambda_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (!slots.failed()) compute_rate_lambda(model, slots);
 }
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    rate_push_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    rate_push_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (!slots.failed()) push_by_rate_lambda(model, slots);
 }
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    velocities_in_turn_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    velocities_in_turn_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s < model.particles && !slots.failed()) commit_large(slots, s, velocity_in_turn(model, slots, s));
 }

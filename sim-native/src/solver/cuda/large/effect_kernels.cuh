@@ -22,7 +22,8 @@ enum class Effect {
 /// Does one of them to every slot.
 template <Effect effect, Scheme scheme, class Real>
 __global__ void __launch_bounds__(large_threads)
-    effect_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    effect_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     constexpr bool of_fluid = effect == Effect::drag || effect == Effect::measure_fluid || effect == Effect::push_fluid;
     const int s = own_index();
     if (s >= (of_fluid ? model.fluid : model.particles) || slots.failed()) return;
@@ -45,7 +46,7 @@ struct LaunchEffects : LaunchStages<scheme, Real> {
     template <Effect effect>
     void launch_effect() const {
         effect_large<effect, scheme>
-            <<<this->blocks, large_threads, 0, this->launch.stream>>>(this->model, this->slots);
+            <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
     }
     void begin_iterations() {
         if (this->model.plan.dissipation) launch_effect<Effect::count_overlaps>();

@@ -1,7 +1,9 @@
 #include "evaluate_large.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "evaluate/perturb.h"
 #include "large_runner.h"
@@ -20,69 +22,104 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
+/// Evaluates as many members at a time as there are States side by side.
 template <class Real>
 class LargeScene {
 public:
-    LargeScene(const Scene& scene, const Model& model, BatchTimes* times)
-        : scene_(scene), model_(model), times_(times), runner_(model) {}
+    LargeScene(const Scene& scene, const Model& model, int states, BatchTimes* times)
+        : scene_(scene), model_(model), times_(times), runner_(model, states) {}
 
-    Evaluation evaluate(const BatchMember& member) {
-        const Progress settled = start(member.perturbation);
-        Progress progress = settled;
-        runner_.prepare(update_of(member.gait, progress));
-        std::vector<double> path{runner_.mean_x()};
+    /// At most as many as there are States.
+    void evaluate(const BatchMember* members, int count, std::vector<Evaluation>& evaluations) {
+        progress_.assign(runner_.states(), Progress{});
+        start(members, count);
+        const std::vector<Progress> settled = progress_;
+        typename Runner::Update update{0, scene_.time_step, model_.parameters.substeps, {}, false};
+        for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
+        runner_.prepare(update);
+        path_.assign(runner_.states(), {});
+        const std::vector<double> begin = runner_.mean_x();
+        for (int k = 0; k < runner_.states(); ++k) path_[k].push_back(begin[k]);
         const HostClock watch;
         const auto frames = static_cast<int>(std::lround(scene_.duration / scene_.time_step));
-        while (progress.stopped < 0 && progress.frames < frames) advance(member.gait, progress, path);
+        for (int frame = 0; frame < frames && let_rest(count); ++frame) {
+            update.start_time = frame * scene_.time_step;
+            note(runner_.run(update, times_ ? times_->profile : nullptr), update);
+        }
         if (times_) times_->kernel += watch.seconds();
-        const State<Real> end = runner_.download(initial_state<Real>(model_));
-        return evaluation_of(scene_, model_, runner_.model().particle_of(), progress,
-                             settled.stopped >= 0 ? nullptr : &member.gait, path.data(), end, runner_.densities());
+        const std::vector<Real> densities = runner_.densities();
+        const std::size_t fluid = runner_.model().view().fluid;
+        for (int k = 0; k < count; ++k) {
+            const auto own = densities.begin() + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : k * fluid);
+            evaluations.push_back(evaluation_of(
+                scene_, model_, runner_.model().particle_of(), progress_[k],
+                settled[k].stopped >= 0 ? nullptr : &members[k].gait, path_[k].data(),
+                runner_.download(k, initial_state<Real>(model_)),
+                std::vector<Real>(own, own + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : fluid))));
+        }
     }
 
 private:
     using Runner = LargeRunner<Real>;
 
-    /// Settles; members without a perturbation share their start.
-    Progress start(const Perturbation& perturbation) {
-        const bool shared = perturbation.amplitude == 0;
-        if (shared && shared_start_) {
-            runner_.restore_kept();
-            return *shared_start_;
+    /// Takes the members to their settled starts; those without a perturbation share one.
+    void start(const BatchMember* members, int count) {
+        const auto is_perturbed = [](const BatchMember& member) { return member.perturbation.amplitude != 0; };
+        const bool alike = std::none_of(members, members + count, is_perturbed);
+        if (!alike || !shared_start_) {
+            for (int k = 0; k < runner_.states(); ++k) {
+                Model own = model_;
+                perturb(members[std::min(k, count - 1)].perturbation, own);
+                runner_.upload(k, initial_state<Real>(own));
+            }
+            settle(alike ? 1 : count);
         }
-        Model perturbed = model_;
-        perturb(perturbation, perturbed);
-        runner_.upload(initial_state<Real>(perturbed));
+        if (!alike) return;
+        if (!shared_start_) shared_start_ = {runner_.download(0, initial_state<Real>(model_)), progress_[0]};
+        for (int k = 0; k < runner_.states(); ++k) {
+            runner_.upload(k, shared_start_->first);
+            progress_[k] = shared_start_->second;
+        }
+    }
+
+    void settle(int count) {
         const HostClock watch;
         const Settling& settling = scene_.settling;
-        const typename Runner::Update update{0, settling.time_step, settling.substeps, nullptr, true};
-        Progress progress;
-        for (int k = 0; k < settling.updates && progress.stopped < 0; ++k)
-            note_instability(runner_.run(update), update, progress);
-        if (times_) times_->settling += watch.seconds();
-        if (shared) {
-            runner_.keep();
-            shared_start_ = progress;
+        const typename Runner::Update update{0, settling.time_step, settling.substeps, {}, true};
+        for (int k = 0; k < settling.updates && let_rest(count); ++k) {
+            const auto ends = runner_.run(update);
+            for (int state = 0; state < runner_.states(); ++state)
+                if (progress_[state].stopped < 0) note_instability(ends[state], update, progress_[state]);
         }
-        return progress;
+        if (times_) times_->settling += watch.seconds();
     }
 
-    typename Runner::Update update_of(const Gait& gait, const Progress& progress) const {
-        return {progress.frames * scene_.time_step, scene_.time_step, scene_.solver.substeps, &gait, false};
+    /// What has stopped, and States without a member, stay as they are. False if all do.
+    bool let_rest(int count) {
+        std::vector<bool> idle(runner_.states(), true);
+        bool any = false;
+        for (int k = 0; k < count; ++k) {
+            idle[k] = progress_[k].stopped >= 0;
+            any |= !idle[k];
+        }
+        if (idle != idle_) runner_.set_idle(idle);
+        idle_ = idle;
+        return any;
     }
 
-    void advance(const Gait& gait, Progress& progress, std::vector<double>& path) {
-        const typename Runner::Update update = update_of(gait, progress);
-        const typename Runner::End end = runner_.run(update, times_ ? times_->profile : nullptr);
-        if (note_instability(end, update, progress)) return;
-        path.push_back(end.mean_x);
-        ++progress.frames;
+    void note(const std::vector<typename Runner::End>& ends, const typename Runner::Update& update) {
         const bool swims = !model_.body.particles.empty();
         const long window = swims ? std::lround(scene_.stopping.no_progress_after / scene_.time_step) : 0;
-        if (scene_.stopping.plane_contact && end.touches_plane)
-            progress.stopped = static_cast<int>(StopReason::touched_plane);
-        else if (physics::without_progress(path.data(), progress.frames, window))
-            progress.stopped = static_cast<int>(StopReason::no_progress);
+        for (int k = 0; k < runner_.states(); ++k) {
+            Progress& progress = progress_[k];
+            if (idle_[k] || note_instability(ends[k], update, progress)) continue;
+            path_[k].push_back(ends[k].mean_x);
+            ++progress.frames;
+            if (scene_.stopping.plane_contact && ends[k].touches_plane)
+                progress.stopped = static_cast<int>(StopReason::touched_plane);
+            else if (physics::without_progress(path_[k].data(), progress.frames, window))
+                progress.stopped = static_cast<int>(StopReason::no_progress);
+        }
     }
 
     static bool note_instability(const typename Runner::End& end, const typename Runner::Update& update,
@@ -98,17 +135,28 @@ private:
     const Model& model_;
     BatchTimes* times_;
     Runner runner_;
-    std::optional<Progress> shared_start_;
+    std::vector<Progress> progress_;
+    std::vector<std::vector<double>> path_;
+    std::vector<bool> idle_;
+    std::optional<std::pair<State<Real>, Progress>> shared_start_;
 };
+
+/// So many fill a GPU; more at a time only take more memory.
+constexpr int particles_at_a_time = 1'000'000;
 
 }  // namespace
 
 template <class Real>
 std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                        BatchTimes* times) {
-    LargeScene<Real> large(scene, model, times);
+    const int all = static_cast<int>(members.size());
+    // Parts of the same size, as far as they go.
+    const int most = std::min(all, particles_at_a_time / model.particles() + 1);
+    const int parts = (all + most - 1) / most, states = (all + parts - 1) / parts;
+    LargeScene<Real> large(scene, model, states, times);
     std::vector<Evaluation> evaluations;
-    for (const BatchMember& member : members) evaluations.push_back(large.evaluate(member));
+    for (int first = 0; first < all; first += states)
+        large.evaluate(members.data() + first, std::min(states, all - first), evaluations);
     return evaluations;
 }
 

@@ -9,19 +9,22 @@ namespace natator::cuda {
 /// Compressions, fits of clusters, pushes of contacts.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    density_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    density_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (!slots.failed()) compute_density(model, slots, Real(0));
 }
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads, 6)
-    corrections_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    corrections_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     if (!slots.failed()) apply_corrections(model, slots);
 }
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    movements_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    movements_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s < model.fluid && !slots.failed()) slots.next()[s] = quad(moved_per_second<Real>(slots, s), Real(0));
 }
@@ -45,7 +48,8 @@ __device__ void commit_large(const Slots<Real>& slots, int s, const Vec3<Real>& 
 
 template <class Real>
 __global__ void __launch_bounds__(large_threads, 6)
-    velocities_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    velocities_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles || slots.failed()) return;
     commit_large(slots, s, new_velocity(model, slots, s));

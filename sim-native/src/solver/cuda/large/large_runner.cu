@@ -1,5 +1,6 @@
 #include "large_runner.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -35,9 +36,10 @@ Real as_quad_number(int i) {
 }  // namespace
 
 template <class Real>
-LargeRunner<Real>::LargeRunner(const Model& model, ContactRoom room)
-    : host_model_(model), device_model_(model, most_cells(model)) {
+LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room)
+    : host_model_(model), device_model_(model, most_cells(model)), muscles_(states), idle_(states, 0) {
     base_.model = device_model_.view();
+    base_.states = states;
     base_.slots.room = room;
     check(cudaStreamCreateWithFlags(&base_.stream, cudaStreamNonBlocking), "stream");
     int least = 0, greatest = 0;
@@ -46,8 +48,11 @@ LargeRunner<Real>::LargeRunner(const Model& model, ContactRoom room)
     check(cudaEventCreateWithFlags(&base_.fork, cudaEventDisableTiming), "event");
     check(cudaEventCreateWithFlags(&base_.joint, cudaEventDisableTiming), "event");
     allocate();
-    check(cudaMallocHost(&end_, sizeof *end_), "host memory");
-    before_ = room_for_copy();
+    check(cudaMallocHost(&end_, states * sizeof *end_), "host memory");
+    const std::size_t particles = base_.model.particles;
+    before_.position = DeviceBuffer<Quad<Real>>(states * particles);
+    before_.velocity = DeviceBuffer<Quad<Real>>(states * particles);
+    before_.fit = DeviceBuffer<ClusterFit<Real>>(states * std::size_t(base_.model.clusters));
     launch_far_slot(base_);
     check(cudaDeviceSynchronize(), "upload");  // the stream does not wait for the Model's uploads by itself
 }
@@ -63,59 +68,58 @@ LargeRunner<Real>::~LargeRunner() {
     cudaStreamDestroy(base_.stream);
 }
 
-template <class Real>
-template <class T>
-void LargeRunner<Real>::give(T*& array, std::size_t size) {
-    memory_.emplace_back(size * sizeof(T));
-    array = reinterpret_cast<T*>(memory_.back().data());
-}
-
+/// The arrays of a State one behind the other, and so for each State.
 template <class Real>
 void LargeRunner<Real>::allocate() {
-    const ModelView<Real>& model = base_.model;
-    const std::size_t particles = model.particles, fluid = model.fluid, solids = model.solids, all = particles + 1;
+    const StateSize<Real> size{base_.model, base_.slots.room, std::size_t(base_.model.most_neighbours + 3) / 4};
+    const Plan& plan = size.plan;
+    const bool turns = size.scheme != Scheme::flex;
+    const std::size_t all = size.particles + 1, water = plan.water ? size.particles : 0;
     Slots<Real>& slots = base_.slots;
-    SlotArrays<Real>& at = slots.at;
-    slots.chunks = (model.most_neighbours + 3) / 4;
-    for (auto* const array : {&at.state_position, &at.state_velocity, &at.predicted, &at.drift_before, &at.position,
-                              &at.next, &at.start, &at.base, &at.drift, &at.contact_push})
-        give(*array, all);
-    for (auto* const array : {&at.cell, &at.number, &at.contact_count, &at.plane_contact, &at.touched})
-        give(*array, all);
-    give(at.fit, model.clusters);
-    give(at.keys, particles);
-    give(at.table, std::size_t(2) * model.grid.cells);
-    give(at.slot_of_solid, solids);
-    give(at.neighbour, (fluid + 31) / 32 * 32 * slots.chunks);
-    give(at.neighbour_count, fluid);
-    give(at.fluid_contact, model.plan.contacts ? fluid * slots.room.fluid : 0);
-    give(at.solid_contact, model.plan.contacts ? solids * slots.room.solid : 0);
-    give(at.shared, 1);
-    base_.scan_bytes = scan_bytes(2 * model.grid.cells);
-    memory_.emplace_back(base_.scan_bytes);
-    base_.scan_room = memory_.back().data();
-    const Plan& plan = model.plan;
-    give(at.density, plan.free_surface_drag ? fluid : 0);
-    give(at.overlaps, plan.dissipation ? all : 0);
-    give(at.change, plan.dissipation ? all : 0);
-    give(at.normal, plan.surface_tension ? fluid : 0);
-    give(at.curl, plan.vorticity ? fluid : 0);
-    if (model.scheme != Scheme::conserving) return;
-    give(at.active, all);
-    for (auto* const array : {&at.displacement, &at.boundary}) give(*array, all);
-    for (auto* const array : {&at.lambda, &at.lambda_sum, &at.overlap, &at.overlap_lambda}) give(*array, all);
-    give(at.internal, solids);
-    give(at.spring_push, model.springs);
-    give(at.spring_lambda, model.springs);
-    give(at.member_displacement, model.members);
-    give(at.member_push, model.members);
-    give(at.motion, model.free_bodies);
+    std::vector<std::pair<void**, std::size_t>> places;
+    std::size_t bytes = 0;
+    const auto give = [&](auto*& array, std::size_t count) {
+        constexpr std::size_t alignment = 256;
+        places.emplace_back(reinterpret_cast<void**>(&array), bytes);
+        bytes += (count * sizeof *array + alignment - 1) / alignment * alignment;
+    };
+#define NATATOR_GIVE(type, name, count) give(slots.at.name, count);
+    NATATOR_STATE_ARRAYS(NATATOR_GIVE)
+#undef NATATOR_GIVE
+#define NATATOR_GIVE(type, name, count) give(slots.water.name, count);
+    NATATOR_WATER_ARRAYS(NATATOR_GIVE)
+#undef NATATOR_GIVE
+    memory_ = DeviceBuffer<char>(bytes * base_.states);
+    for (const auto& [array, place] : places) *array = memory_.data() + place;
+    slots.stride = bytes;
+    slots.chunks = static_cast<int>(size.neighbour_chunks);
+    shared_ = DeviceBuffer<LargeShared<Real>>(base_.states);
+    slots.at.shared = shared_.data();
+    device_idle_ = DeviceBuffer<int>(idle_);
+    slots.at.idle = device_idle_.data();
+    base_.scan_bytes = scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells));
+    scan_room_ = DeviceBuffer<char>(base_.scan_bytes);
+    base_.scan_room = scan_room_.data();
+    // A lattice has 4/3 pi (R/s)^3; solids and crowds have more, and then there is made more room.
+    if (plan.water) make_room(static_cast<int>(5 * std::pow(host_model_.parameters.kernelSupport, 3)));
 }
 
+/// For at least so many neighbours in the water's lists.
 template <class Real>
-typename LargeRunner<Real>::Copy LargeRunner<Real>::room_for_copy() const {
-    return {DeviceBuffer<Quad<Real>>(base_.model.particles), DeviceBuffer<Quad<Real>>(base_.model.particles),
-            DeviceBuffer<ClusterFit<Real>>(base_.model.clusters)};
+void LargeRunner<Real>::make_room(int neighbours) {
+    neighbours = (neighbours + pair_lanes - 1) / pair_lanes * pair_lanes;
+    WaterArrays<Real>& water = base_.slots.water;
+    const std::size_t of_state = static_cast<std::size_t>(base_.model.particles) * neighbours;
+    const std::size_t entries = of_state * base_.states;
+    graphs_.clear();  // they know the old place
+    neighbour_room_ = {};
+    base_.slots.water_neighbours = neighbours;
+    base_.slots.water_entries = of_state;
+    neighbour_room_ = DeviceBuffer<unsigned>(entries);
+    water.neighbour = neighbour_room_.data();
+    pair_room_ = {};
+    pair_room_ = DeviceBuffer<Quad<Real>>(entries);
+    water.pair = pair_room_.data();
 }
 
 namespace {
@@ -125,37 +129,39 @@ void copy(T* to, const T* from, std::size_t count, cudaStream_t stream) {
     if (count > 0) check(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDefault, stream), "copy");
 }
 
+/// Rows of `count`, whose begins are so many bytes apart.
+template <class T>
+void copy_rows(T* to, std::size_t to_stride, const T* from, std::size_t from_stride, std::size_t count, int rows,
+               cudaStream_t stream) {
+    if (count == 0) return;
+    check(cudaMemcpy2DAsync(to, to_stride, from, from_stride, count * sizeof(T), rows, cudaMemcpyDeviceToDevice, stream),
+          "copy");
+}
+
 }  // namespace
 
+/// Of all States, beside them.
 template <class Real>
-void LargeRunner<Real>::copy_to(const Copy& to) const {
-    const SlotArrays<Real>& at = base_.slots.at;
-    copy(to.position.data(), at.state_position, to.position.size(), base_.stream);
-    copy(to.velocity.data(), at.state_velocity, to.velocity.size(), base_.stream);
-    copy(to.fit.data(), at.fit, to.fit.size(), base_.stream);
+void LargeRunner<Real>::keep_before() const {
+    const auto keep = [&](const auto& to, const auto* from, std::size_t count) {
+        copy_rows(to.data(), count * sizeof *from, from, base_.slots.stride, count, base_.states, base_.stream);
+    };
+    const StateArrays<Real>& at = base_.slots.at;
+    keep(before_.position, at.state_position, base_.model.particles);
+    keep(before_.velocity, at.state_velocity, base_.model.particles);
+    keep(before_.fit, at.fit, base_.model.clusters);
 }
 
+/// Of State k; what else there is of it is made anew in every substep.
 template <class Real>
-void LargeRunner<Real>::copy_back(const Copy& from) const {
-    const SlotArrays<Real>& at = base_.slots.at;
-    copy(at.state_position, from.position.data(), from.position.size(), base_.stream);
-    copy(at.state_velocity, from.velocity.data(), from.velocity.size(), base_.stream);
-    copy(at.fit, from.fit.data(), from.fit.size(), base_.stream);
-}
-
-template <class Real>
-void LargeRunner<Real>::keep() {
-    if (kept_.position.size() == 0) kept_ = room_for_copy();
-    copy_to(kept_);
-    kept_rest_length_ = muscles_.spring_rest_length;
-    wait();
-}
-
-template <class Real>
-void LargeRunner<Real>::restore_kept() {
-    copy_back(kept_);
-    muscles_.spring_rest_length = kept_rest_length_;
-    wait();
+void LargeRunner<Real>::restore_before(int k) const {
+    const Slots<Real> slots = base_.slots.state(k);
+    const auto restore = [&](auto* to, const auto& from, std::size_t count) {
+        copy(to, from.data() + k * count, count, base_.stream);
+    };
+    restore(slots.at.state_position, before_.position, base_.model.particles);
+    restore(slots.at.state_velocity, before_.velocity, base_.model.particles);
+    restore(slots.at.fit, before_.fit, base_.model.clusters);
 }
 
 template <class Real>
@@ -164,7 +170,7 @@ void LargeRunner<Real>::wait() const {
 }
 
 template <class Real>
-void LargeRunner<Real>::upload(const State<Real>& state) {
+void LargeRunner<Real>::upload(int k, const State<Real>& state) {
     const std::vector<int>& number_of = device_model_.number_of();
     const std::size_t particles = number_of.size();
     std::vector<Quad<Real>> position(particles), velocity(particles);
@@ -182,21 +188,23 @@ void LargeRunner<Real>::upload(const State<Real>& state) {
     }
     std::vector<int> slot_of_solid(base_.model.solids);
     for (std::size_t k = 0; k < slot_of_solid.size(); ++k) slot_of_solid[k] = base_.model.fluid + static_cast<int>(k);
-    const SlotArrays<Real>& at = base_.slots.at;
+    const Slots<Real> slots = base_.slots.state(k);
+    const StateArrays<Real>& at = slots.at;
     copy(at.state_position, position.data(), particles, base_.stream);
     copy(at.state_velocity, velocity.data(), particles, base_.stream);
     copy(at.fit, fits.data(), fits.size(), base_.stream);
     copy(at.slot_of_solid, slot_of_solid.data(), slot_of_solid.size(), base_.stream);
-    muscles_.spring_rest_length = state.spring_rest_length;
+    muscles_[k].spring_rest_length = state.spring_rest_length;
     wait();
 }
 
 template <class Real>
-State<Real> LargeRunner<Real>::download(const State<Real>& like) const {
+State<Real> LargeRunner<Real>::download(int k, const State<Real>& like) const {
     const std::size_t particles = base_.model.particles;
     std::vector<Quad<Real>> position(particles), velocity(particles);
     std::vector<ClusterFit<Real>> fits(base_.model.clusters);
-    const SlotArrays<Real>& at = base_.slots.at;
+    const Slots<Real> slots = base_.slots.state(k);
+    const StateArrays<Real>& at = slots.at;
     copy(position.data(), at.state_position, particles, base_.stream);
     copy(velocity.data(), at.state_velocity, particles, base_.stream);
     copy(fits.data(), at.fit, fits.size(), base_.stream);
@@ -211,10 +219,17 @@ State<Real> LargeRunner<Real>::download(const State<Real>& like) const {
     return state;
 }
 
-/// Scheme flex sets the muscles once for a frame, scheme conserving for the end of every substep.
+template <class Real>
+void LargeRunner<Real>::set_idle(const std::vector<bool>& idle) {
+    idle_.assign(idle.begin(), idle.end());
+    device_idle_.upload(idle_);
+}
+
+/// Scheme flex sets the muscles once for a frame, the others for the end of every substep.
 template <class Real>
 void LargeRunner<Real>::set_muscles(const Update& update) {
-    const std::size_t springs = base_.model.springs, size = springs * update.substeps;
+    const std::size_t springs = base_.model.springs, of_state = springs * update.substeps;
+    const std::size_t size = of_state * base_.states;
     if (size > rest_lengths_size_) {
         graphs_.clear();  // they know the old place
         cudaFreeHost(rest_lengths_);
@@ -223,12 +238,16 @@ void LargeRunner<Real>::set_muscles(const Update& update) {
         device_rest_lengths_ = DeviceBuffer<Real>(size);
         rest_lengths_size_ = size;
     }
-    const bool by_substep = base_.model.scheme == Scheme::conserving;
-    for (int k = 0; k < update.substeps; ++k) {
-        const double end = update.start_time + update.time_step * (k + 1) / update.substeps;
-        if (update.gait && (by_substep || k == 0))
-            actuate(host_model_, *update.gait, by_substep ? end : update.start_time, muscles_);
-        std::copy(muscles_.spring_rest_length.begin(), muscles_.spring_rest_length.end(), rest_lengths_ + k * springs);
+    const bool by_substep = base_.model.scheme != Scheme::flex;
+    for (int state = 0; state < base_.states; ++state) {
+        const Gait* const gait = update.gaits.empty() ? nullptr : update.gaits[state];
+        for (int k = 0; k < update.substeps; ++k) {
+            const double end = update.start_time + update.time_step * (k + 1) / update.substeps;
+            if (gait && (by_substep || k == 0))
+                actuate(host_model_, *gait, by_substep ? end : update.start_time, muscles_[state]);
+            const std::vector<Real>& lengths = muscles_[state].spring_rest_length;
+            std::copy(lengths.begin(), lengths.end(), rest_lengths_ + state * of_state + k * springs);
+        }
     }
 }
 
@@ -237,29 +256,34 @@ LargeLaunch<Real> LargeRunner<Real>::launch_of(const Update& update, int substep
     LargeLaunch<Real> launch = base_;
     launch.slots.substep = substep;
     launch.slots.h = static_cast<Real>(update.time_step) / static_cast<Real>(update.substeps);
-    launch.slots.at.rest_length = device_rest_lengths_.data() + std::size_t(substep) * base_.model.springs;
+    launch.slots.rest_lengths = device_rest_lengths_.data() + std::size_t(substep) * base_.model.springs;
+    launch.slots.rest_length_stride = std::size_t(update.substeps) * base_.model.springs;
     return launch;
 }
 
-/// The first `substeps` of an update, and its end if these are all.
+/// The first substeps of an update, whose rest lengths are there.
 template <class Real>
-void LargeRunner<Real>::launch(const Update& update, int substeps, StageClock* clock, const Trace<Real>& trace) const {
-    const cudaStream_t stream = base_.stream;
-    LargeShared<Real>* const shared = base_.slots.at.shared;
-    copy(device_rest_lengths_.data(), rest_lengths_, std::size_t(update.substeps) * base_.model.springs, stream);
-    check(cudaMemsetAsync(shared, 0xff, sizeof *shared, stream), "clear");
-    copy_to(before_);
+void LargeRunner<Real>::launch_substeps(const Update& update, int substeps, StageClock* clock,
+                                        const Trace<Real>& trace) const {
+    check(cudaMemsetAsync(base_.slots.at.shared, 0xff, base_.states * sizeof(LargeShared<Real>), base_.stream), "clear");
     if (clock) clock->mark(Stage::load);
-    LargeLaunch<Real> last = base_;
     for (int k = 0; k < substeps; ++k) {
-        last = launch_of(update, k);
-        last.clock = clock;
-        last.trace = trace;
-        launch_substep(last);
+        LargeLaunch<Real> substep = launch_of(update, k);
+        substep.clock = clock;
+        substep.trace = trace;
+        launch_substep(substep);
     }
+}
+
+template <class Real>
+void LargeRunner<Real>::launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const {
+    const std::size_t of_state = std::size_t(update.substeps) * base_.model.springs;
+    copy(device_rest_lengths_.data(), rest_lengths_, of_state * base_.states, base_.stream);
+    keep_before();
+    launch_substeps(update, update.substeps, clock, trace);
     if (update.settling) launch_rest(base_);
     launch_measure(base_);
-    copy(end_, shared, 1, stream);
+    copy(end_, base_.slots.at.shared, base_.states, base_.stream);
     if (clock) clock->mark(Stage::measure);
 }
 
@@ -270,7 +294,7 @@ cudaGraphExec_t LargeRunner<Real>::graph_of(const Update& update) {
         graph = std::make_unique<Graph>();
         cudaGraph_t captured = nullptr;
         check(cudaStreamBeginCapture(base_.stream, cudaStreamCaptureModeThreadLocal), "capture");
-        launch(update, update.substeps, nullptr, {});
+        launch(update, nullptr, {});
         check(cudaStreamEndCapture(base_.stream, &captured), "capture");
         check(cudaGraphInstantiate(&graph->exec, captured, 0), "graph");
         cudaGraphDestroy(captured);
@@ -286,44 +310,73 @@ void LargeRunner<Real>::prepare(const Update& update) {
 }
 
 template <class Real>
-typename LargeRunner<Real>::End LargeRunner<Real>::run(const Update& update, StageProfile* profile,
-                                                       const Trace<Real>& trace) {
-    set_muscles(update);
-    std::optional<StageClock> clock;
-    if (profile) clock.emplace(base_.stream);
-    if (profile || trace.predicted)
-        launch(update, update.substeps, clock ? &*clock : nullptr, trace);
-    else
-        check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
-    wait();
-    if (clock) clock->add_to(*profile);
+typename LargeRunner<Real>::End LargeRunner<Real>::end_of(int k) const {
     End end;
-    end.mean_x = end_->mean_x;
-    end.touches_plane = end_->touches != 0;
-    if (end_->bad == none_bad) return end;
+    end.mean_x = end_[k].mean_x;
+    end.touches_plane = end_[k].touches != 0;
+    if (end_[k].bad == none_bad) return end;
     end.finite = false;
-    end.bad_substep = static_cast<int>(end_->bad >> 32);
-    end.bad_particle = static_cast<int>(end_->bad & 0xffffffffu);
-    copy_back(before_);
-    Update good = update;
-    good.settling = false;
-    if (end.bad_substep > 0) launch(good, end.bad_substep, nullptr, {});
-    wait();
+    end.bad_substep = static_cast<int>(end_[k].bad >> 32);
+    end.bad_particle = static_cast<int>(end_[k].bad & 0xffffffffu);
     return end;
 }
 
 template <class Real>
-double LargeRunner<Real>::mean_x() {
-    launch_measure(base_);
-    copy(end_, base_.slots.at.shared, 1, base_.stream);
+std::vector<typename LargeRunner<Real>::End> LargeRunner<Real>::run(const Update& update, StageProfile* profile,
+                                                                    const Trace<Real>& trace) {
+    set_muscles(update);
+    std::optional<StageClock> clock;
+    for (;;) {
+        clock.reset();
+        if (profile) clock.emplace(base_.stream);
+        if (profile || trace.predicted)
+            launch(update, clock ? &*clock : nullptr, trace);
+        else
+            check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
+        wait();
+        int most = 0;
+        for (int k = 0; k < base_.states; ++k) most = std::max(most, end_[k].most_neighbours);
+        if (most <= base_.slots.water_neighbours) break;
+        for (int k = 0; k < base_.states; ++k) restore_before(k);  // and once more, with room for all neighbours
+        make_room(most + most / 4);
+    }
+    if (clock) clock->add_to(*profile);
+    std::vector<End> ends;
+    for (int k = 0; k < base_.states; ++k) ends.push_back(end_of(k));
+    for (int k = 0; k < base_.states; ++k)
+        if (!ends[k].finite) go_to(k, ends[k].bad_substep, update);
+    return ends;
+}
+
+/// Takes State k, which `update` has changed, to the start of a substep of it.
+template <class Real>
+void LargeRunner<Real>::go_to(int k, int substep, const Update& update) {
+    restore_before(k);
     wait();
-    return end_->mean_x;
+    if (substep == 0) return;
+    const std::vector<bool> idle(idle_.begin(), idle_.end());
+    std::vector<bool> others(idle.size(), true);
+    others[k] = false;
+    set_idle(others);
+    launch_substeps(update, substep, nullptr, {});
+    wait();
+    set_idle(idle);
+}
+
+template <class Real>
+std::vector<double> LargeRunner<Real>::mean_x() {
+    launch_measure(base_);
+    copy(end_, base_.slots.at.shared, base_.states, base_.stream);
+    wait();
+    std::vector<double> means;
+    for (int k = 0; k < base_.states; ++k) means.push_back(end_[k].mean_x);
+    return means;
 }
 
 template <class Real>
 std::vector<Real> LargeRunner<Real>::densities() const {
-    if (!base_.model.plan.fluid) return {};
-    const DeviceBuffer<Real> densities(base_.model.fluid);
+    if (!base_.model.plan.fluid && !base_.model.plan.water) return {};
+    const DeviceBuffer<Real> densities(std::size_t(base_.states) * base_.model.fluid);
     launch_densities(base_, densities.data());
     wait();
     return densities.download();
@@ -331,7 +384,7 @@ std::vector<Real> LargeRunner<Real>::densities() const {
 
 template <class Real>
 std::vector<int> LargeRunner<Real>::neighbour_counts() const {
-    const DeviceBuffer<int> counts(base_.model.particles);
+    const DeviceBuffer<int> counts(std::size_t(base_.states) * base_.model.particles);
     launch_neighbour_counts(base_, counts.data());
     wait();
     return counts.download();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 #include "natator/gait.h"
 #include "natator/state.h"
@@ -12,35 +13,32 @@
 
 namespace natator::cuda {
 
-/// Advances one State of a Model by kernels of the whole GPU. An update is a graph of kernels, launched at once; the
-/// host waits for its end.
+/// Advances States of a Model side by side by kernels of the whole GPU. An update is a graph of kernels, launched at
+/// once; the host waits for its end.
 template <class Real>
 class LargeRunner {
 public:
     static constexpr ContactRoom usual_room{32, 256};
 
-    /// Throws std::bad_alloc without memory for it.
-    explicit LargeRunner(const Model& model, ContactRoom room = usual_room);
+    /// Throws std::bad_alloc without memory for so many States.
+    explicit LargeRunner(const Model& model, int states = 1, ContactRoom room = usual_room);
     ~LargeRunner();
     LargeRunner(const LargeRunner&) = delete;
     LargeRunner& operator=(const LargeRunner&) = delete;
 
     const DeviceModel<Real>& model() const { return device_model_; }
+    int states() const { return base_.states; }
 
-    void upload(const State<Real>& state);
+    void upload(int k, const State<Real>& state);
     /// Time and spring rest lengths are those of `like`.
-    State<Real> download(const State<Real>& like) const;
-
-    /// Keeps the State as it is, beside the one of each update's start; and goes back to it.
-    void keep();
-    void restore_kept();
+    State<Real> download(int k, const State<Real>& like) const;
 
     struct Update {
         double start_time = 0;
         double time_step = 0;
         int substeps = 1;
-        const Gait* gait = nullptr;  ///< null leaves the muscles as they are
-        bool settling = false;       ///< velocities to 0 in the end
+        std::vector<const Gait*> gaits{};  ///< by State; without, the muscles are left as they are
+        bool settling = false;             ///< velocities to 0 in the end
     };
     struct End {
         bool finite = true;
@@ -48,47 +46,54 @@ public:
         double mean_x = 0;                      ///< of the body
         bool touches_plane = false;
     };
+    /// States that updates leave as they are.
+    void set_idle(const std::vector<bool>& idle);
     /// Makes ready what updates of this kind need, so that the first is as fast as the others.
     void prepare(const Update& update);
-    /// `profile` gets the time of every stage; the stages are launched one by one then, as for a trace.
-    End run(const Update& update, StageProfile* profile = nullptr, const Trace<Real>& trace = {});
+    /// Ends by State; those of idle ones mean nothing. `profile` gets the time of every stage; the stages are launched
+    /// one by one then, as for a trace, which is of the first State.
+    std::vector<End> run(const Update& update, StageProfile* profile = nullptr, const Trace<Real>& trace = {});
 
-    /// Of the State as it is.
-    double mean_x();
-    /// As the last substep left them, by device number.
+    /// Of the States as they are.
+    std::vector<double> mean_x();
+    /// As the last substep left them, by State and device number.
     std::vector<Real> densities() const;
     std::vector<int> neighbour_counts() const;
 
 private:
-    struct Copy {
-        DeviceBuffer<Quad<Real>> position, velocity;
-        DeviceBuffer<ClusterFit<Real>> fit;
-    };
-    template <class T>
-    void give(T*& array, std::size_t size);
     void allocate();
-    Copy room_for_copy() const;
-    void copy_to(const Copy& copy) const;
-    void copy_back(const Copy& copy) const;
+    void make_room(int neighbours);
+    void keep_before() const;
+    void restore_before(int k) const;
     LargeLaunch<Real> launch_of(const Update& update, int substep) const;
-    void launch(const Update& update, int substeps, StageClock* clock, const Trace<Real>& trace) const;
+    void launch_substeps(const Update& update, int substeps, StageClock* clock, const Trace<Real>& trace) const;
+    void launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const;
     cudaGraphExec_t graph_of(const Update& update);
     void set_muscles(const Update& update);
+    End end_of(int k) const;
+    void go_to(int k, int substep, const Update& update);
     void wait() const;
 
     const Model& host_model_;
     DeviceModel<Real> device_model_;
     LargeLaunch<Real> base_{};
-    std::vector<DeviceBuffer<char>> memory_;
-    Copy before_, kept_;
-    State<Real> muscles_;  ///< only its spring rest lengths
-    std::vector<Real> kept_rest_length_;
+    DeviceBuffer<char> memory_, scan_room_;
+    DeviceBuffer<LargeShared<Real>> shared_;
+    DeviceBuffer<unsigned> neighbour_room_;
+    DeviceBuffer<Quad<Real>> pair_room_;
+    struct {
+        DeviceBuffer<Quad<Real>> position, velocity;
+        DeviceBuffer<ClusterFit<Real>> fit;
+    } before_;                          ///< the States at an update's start
+    std::vector<State<Real>> muscles_;  ///< only their spring rest lengths
+    std::vector<int> idle_;
+    DeviceBuffer<int> device_idle_;
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;
     // Of the host, where the device reads and writes them.
-    Real* rest_lengths_ = nullptr;  ///< [substep * springs + spring]
+    Real* rest_lengths_ = nullptr;  ///< [(state * substeps + substep) * springs + spring]
     std::size_t rest_lengths_size_ = 0;
-    LargeShared<Real>* end_ = nullptr;
+    LargeShared<Real>* end_ = nullptr;  ///< by State
     DeviceBuffer<Real> device_rest_lengths_;
 };
 

@@ -11,15 +11,20 @@ struct FlexLaunches : LaunchEffects<Scheme::flex, Real> {
 
     void compute_density_and_fits() {
         const int fits = blocks_for(this->model.clusters, large_threads / 32);
-        density_large<<<this->blocks + fits, large_threads, 0, this->launch.stream>>>(this->model, this->slots);
+        density_large
+            <<<this->launch.grid(this->blocks + fits), large_threads, 0, this->launch.stream>>>(
+                this->model, this->slots);
     }
     void apply_corrections() {
-        corrections_large<<<this->blocks, large_threads, 0, this->launch.stream>>>(this->model, this->slots);
+        corrections_large
+            <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
     }
     void update_velocities() {
         if (this->model.plan.viscosity)
-            movements_large<<<this->blocks, large_threads, 0, this->launch.stream>>>(this->model, this->slots);
-        velocities_large<<<this->blocks, large_threads, 0, this->launch.stream>>>(this->model, this->slots);
+            movements_large
+                <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
+        velocities_large
+            <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
     }
 };
 

@@ -8,11 +8,17 @@ namespace {
 
 template <class Real>
 __global__ void densities_large(const __grid_constant__ ModelView<Real> model,
-                                const __grid_constant__ Slots<Real> slots, Real* density) {
+                                const __grid_constant__ Slots<Real> states, Real* density) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.fluid) return;
+    density += static_cast<std::size_t>(blockIdx.y) * model.fluid;
     const Vec3<Real> x = xyz(slots.position()[s]);
-    const Real above = model.scheme == Scheme::conserving
+    if (model.plan.water) {
+        density[s] = slots.water.density_of[s];
+        return;
+    }
+    const Real above = model.scheme != Scheme::flex
                            ? density_of(model, slots, s, slots.position(), boundary_terms(model, slots, s, x)).above
                            : compression_of(model, slots, s, x);
     density[slots.number()[s]] = above + 1;
@@ -20,38 +26,48 @@ __global__ void densities_large(const __grid_constant__ ModelView<Real> model,
 
 template <class Real>
 __global__ void neighbour_counts_large(const __grid_constant__ ModelView<Real> model,
-                                       const __grid_constant__ Slots<Real> slots, int* counts) {
+                                       const __grid_constant__ Slots<Real> states, int* counts) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s >= model.particles) return;
+    counts += static_cast<std::size_t>(blockIdx.y) * model.particles;
+    if (model.plan.water) {
+        counts[s] = slots.water.count_of[s];
+        return;
+    }
     counts[slots.number()[s]] =
         (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
 }
 
 template <class Real>
 __global__ void measure_large(const __grid_constant__ ModelView<Real> model,
-                              const __grid_constant__ Slots<Real> slots) {
+                              const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     measure_path(model, slots, &slots.shared().mean_x);
     const bool touches = touches_plane(model, slots);
     if (threadIdx.x == 0) slots.shared().touches = touches;
 }
 
 template <class Real>
-__global__ void rest_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+__global__ void rest_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
-    if (s < model.particles) slots.at.state_velocity[s] = {0, 0, 0, slots.at.state_velocity[s].w};
+    if (s < model.particles && !*slots.at.idle) slots.at.state_velocity[s] = {0, 0, 0, slots.at.state_velocity[s].w};
 }
 
 template <class Real>
 __global__ void far_slot_large(const __grid_constant__ ModelView<Real> model,
-                               const __grid_constant__ Slots<Real> slots) {
+                               const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     for (Quad<Real>* const array : {slots.at.state_position, slots.position(), slots.next(), slots.start()})
         array[model.particles] = far_away<Real>();
-    if (model.scheme == Scheme::conserving) slots.lambda()[model.particles] = 0;
+    if (model.scheme != Scheme::flex) slots.lambda()[model.particles] = 0;
 }
 
 template <class Real>
-__global__ void record_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots,
+__global__ void record_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
                              Quad<Real>* to) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index();
     if (s < model.particles) to[s] = quad(xyz(slots.position()[s]), as_number<Real>(slots.number()[s]));
 }
@@ -73,7 +89,9 @@ int blocks_of(const LargeLaunch<Real>& launch) {
 
 template <class Real>
 void launch_substep(const LargeLaunch<Real>& launch) {
-    if (launch.model.scheme == Scheme::conserving)
+    if (launch.model.plan.water)
+        launch_water_substep(launch);
+    else if (launch.model.scheme != Scheme::flex)
         launch_substep_of<Real, Scheme::conserving>(launch);
     else
         launch_substep_of<Real, Scheme::flex>(launch);
@@ -93,31 +111,34 @@ void record_positions(const LargeLaunch<Real>& launch, Quad<Real>* to, int row) 
 
 template <class Real>
 void launch_densities(const LargeLaunch<Real>& launch, Real* density) {
-    densities_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, at_the_end(launch), density);
+    densities_large
+        <<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(
+            launch.model, at_the_end(launch), density);
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts) {
-    neighbour_counts_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, launch.slots, counts);
+    neighbour_counts_large
+        <<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(launch.model, launch.slots, counts);
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_measure(const LargeLaunch<Real>& launch) {
-    measure_large<<<1, threads, 0, launch.stream>>>(launch.model, at_the_end(launch));
+    measure_large<<<launch.grid(1), threads, 0, launch.stream>>>(launch.model, at_the_end(launch));
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_rest(const LargeLaunch<Real>& launch) {
-    rest_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, launch.slots);
+    rest_large<<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(launch.model, launch.slots);
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_far_slot(const LargeLaunch<Real>& launch) {
-    far_slot_large<<<1, 1, 0, launch.stream>>>(launch.model, launch.slots);
+    far_slot_large<<<launch.grid(1), 1, 0, launch.stream>>>(launch.model, launch.slots);
     check(cudaGetLastError(), "launch");
 }
 

@@ -66,24 +66,26 @@ __device__ int list_contacts(const ModelView<Real>& model, const Slots<Real>& sl
 /// take longest.
 template <class Real>
 __global__ void __launch_bounds__(search_threads, 12)
-    find_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> slots) {
+    find_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
     __shared__ int staging[(staged_neighbours + 1) * search_threads];
     const int s = static_cast<int>((gridDim.x - 1 - blockIdx.x) * blockDim.x + threadIdx.x);
     if (s >= model.particles || slots.failed()) return;
     const Quad<Real> here = slots.base()[s];
     const Vec3<Real> x = xyz(here);
-    if (s < model.fluid) {
+    const bool water = model.plan.water && s < model.fluid;  // its walls are mirrors
+    if (s < model.fluid && model.plan.fluid) {
         const int n = list_fluid_neighbours(model, slots, s, x, staging + threadIdx.x);
         slots.neighbour_count()[s] = n;
         if (n == model.most_neighbours) slots.shared().full = 1;
     }
     if (model.plan.contacts) {
-        const int contacts = list_contacts(model, slots, s, x);
+        const int contacts = water ? 0 : list_contacts(model, slots, s, x);
         slots.contact_count()[s] = contacts;
         if (contacts > 0) slots.touched()[atomicAdd(&slots.shared().touched, 1)] = s;
     }
     int planes = 0;
-    for (int k = 0; k < model.planes; ++k)
+    for (int k = 0; k < model.planes && !water; ++k)
         if (distance_to(model.plane[k].surface, x) <= model.plane_search_distance) planes |= 1 << k;
     slots.plane_contact()[s] = here.w > 0 ? planes : 0;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "solver/cuda/neighbours.cuh"
 
 namespace natator::cuda {
@@ -8,102 +10,158 @@ namespace natator::cuda {
 template <class Real>
 struct LargeShared : Shared<Real> {
     unsigned long long bad;  ///< substep << 32 | particle of the first that is not finite; `none_bad` if all are
-    int high;                ///< scheme conserving: some density of this iteration is far above rest
+    int high;                ///< some density is far above rest: of this iteration, or of this substep in scheme dfsph
     int overlapping;         ///< scheme conserving: some particles began this substep overlapping
     int full;                ///< scheme conserving: some neighbour list is full
     int touches;             ///< the body touches a plane
+    int most_neighbours;     ///< scheme dfsph: of any particle, also where lists have no room for them
     double mean_x;           ///< of the body
 };
 
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
 
-/// Arrays of a large State in device memory, by slot unless said otherwise; one more slot is far from all others.
+// The arrays of a large State in device memory: X(type, name, how many). Members, accessors, their layout and the step from
+// one State to the next are all made from this table. `all` is one for each slot, and one more for the slot that is far
+// from all others; others are by what they are named after. A number is a particle's number of the Model.
+#define NATATOR_STATE_ARRAYS(X)                                                                                       \
+    /* The State, in the order of slots that the last substep left; w: inverse mass, and the number as an integer. */ \
+    X(Quad<Real>, state_position, all)                                                                                \
+    X(Quad<Real>, state_velocity, all)                                                                                \
+    X(ClusterFit<Real>, fit, size.clusters)                                                                           \
+    /* In the order before slots are numbered; w: inverse mass, number. */                                            \
+    X(Quad<Real>, predicted, all)                                                                                     \
+    X(Quad<Real>, drift_before, all)                                                                                  \
+    X(int, cell, all)                                                                                                 \
+    /* Particle << 32 | slot before, cell by cell; ends of the fluid's cells, then of the solids'. */                 \
+    X(std::uint64_t, keys, all)                                                                                       \
+    X(int, table, 2 * size.grid.cells)                                                                                \
+    /* By slot. */                                                                                                    \
+    X(Quad<Real>, position, all)                                                                                      \
+    X(Quad<Real>, next, all)                                                                                          \
+    X(Quad<Real>, start, all)                                                                                         \
+    X(Quad<Real>, base, all)                                                                                          \
+    X(Quad<Real>, drift, all)                                                                                         \
+    X(int, number, all)                                                                                               \
+    X(int, slot_of_solid, size.solids)                                                                                \
+    X(int, neighbour_count, all)                                                                                      \
+    X(int, contact_count, all)                                                                                        \
+    X(int, plane_contact, all)                                                                                        \
+    X(int, touched, all)                                                                                              \
+    X(Quad<Real>, contact_push, all)                                                                                  \
+    /* Chunks of four slots: chunk c of slot s at [(s / 32 * chunks + c) * 32 + s % 32]. */                           \
+    X(uint4, neighbour, plan.fluid ? (size.fluid + 31) / 32 * 32 * size.neighbour_chunks : 0)                         \
+    /* Entry k of slot s at [k * fluid + s], and at [k * solids + s - fluid]. */                                      \
+    X(int, fluid_contact, plan.contacts && plan.fluid ? size.fluid * size.room.fluid : 0)                             \
+    X(int, solid_contact, plan.contacts ? size.solids * size.room.solid : 0)                                          \
+    /* Where an effect needs them. */                                                                                 \
+    X(Real, density, plan.free_surface_drag ? all : 0)                                                                \
+    X(Real, overlaps, plan.dissipation ? all : 0)                                                                     \
+    X(Quad<Real>, change, plan.dissipation ? all : 0)                                                                 \
+    X(Quad<Real>, normal, plan.surface_tension ? all : 0)                                                             \
+    X(Quad<Real>, curl, plan.vorticity ? all : 0)                                                                     \
+    /* Not in scheme flex. */                                                                                         \
+    X(int, active, turns ? all : 0)                                                                                   \
+    X(Quad<Real>, displacement, turns ? all : 0)                                                                      \
+    X(Quad<Real>, boundary, turns && plan.fluid ? all : 0)                                                            \
+    X(Real, lambda, turns ? all : 0)                                                                                  \
+    X(Real, lambda_sum, turns ? all : 0)                                                                              \
+    X(Real, overlap, turns && plan.fluid ? all : 0)                                                                   \
+    X(Real, overlap_lambda, turns && plan.fluid ? all : 0)                                                            \
+    X(Quad<Real>, internal, turns ? size.solids : 0)                                                                  \
+    X(Quad<Real>, spring_push, turns ? size.springs : 0)                                                              \
+    X(Real, spring_lambda, turns ? size.springs : 0)                                                                  \
+    X(Quad<Real>, member_displacement, turns ? size.members : 0)                                                      \
+    X(Quad<Real>, member_push, turns ? size.members : 0)                                                              \
+    X(BodyMotion, motion, turns ? size.free_bodies : 0)
+
+// The water of scheme dfsph, by slot of the State as the last substep left it, unless said otherwise. An entry is a slot
+// with the set of planes that it is the ghost of: planes << most_slot_bits | slot.
+#define NATATOR_WATER_ARRAYS(X)                                                                                       \
+    /* Ends of the cells; of particles and ghosts, cell by cell: planes << 58 | number << 32 | slot; their */         \
+    /* positions, w: the entry as an integer. */                                                                      \
+    X(int, table, plan.water ? size.water.grid.cells : 0)                                                             \
+    X(std::uint64_t, keys, water * size.water.most_copies)                                                            \
+    X(Quad<Real>, candidate, water * size.water.most_copies)                                                          \
+    X(int, count, water) /* of neighbours */                                                                          \
+    X(Quad<Real>, position, water)   /* w: volume */                                                                  \
+    X(Quad<Real>, velocity, water)   /* w: inverse mass */                                                            \
+    X(Quad<Real>, pushed, water)     /* the same with the viscosity and gravity of the substep */                     \
+    X(Quad<Real>, correction, water) /* L: xx, yy, zz, xy */                                                          \
+    X(Quad<Real>, shear, water)      /* xz, yz; mobility, see cpu::mobility */                                        \
+    X(Quad<Real>, parting, water)    /* velocities that part overlaps; w: inverse mass, 0 for solids */               \
+    X(Quad<Real>, crowding, water)   /* w: largest |v_j - v_i|^2 */                                                   \
+    X(Real, density, water)                                                                                           \
+    X(Real, response, water)                                                                                          \
+    X(Real, impulse, water)                                                                                           \
+    X(Real, density_of, water) /* by number */                                                                        \
+    X(int, count_of, water)    /* by number */                                                                        \
+    X(int, slot_before, water) /* by slot of this substep */                                                          \
+    X(int, slot_of_solid, plan.water ? size.solids : 0)
+
+#define NATATOR_MEMBER(type, name, size) type* name = nullptr;
 template <class Real>
-struct SlotArrays {
-    // Of the State, in the order of slots that the last substep left.
-    Quad<Real>* state_position;  ///< w: inverse mass
-    Quad<Real>* state_velocity;  ///< w: the particle's number as an integer
-    ClusterFit<Real>* fit;       ///< by cluster
-
-    // In the order before slots are numbered.
-    Quad<Real>* predicted;     ///< w: inverse mass
-    Quad<Real>* drift_before;  ///< w: the particle's number
-    int* cell;
-
-    std::uint64_t* keys;  ///< particle << 32 | slot before, cell by cell
-    int* table;           ///< ends of the fluid's cells, then of the solids'
-    Quad<Real>*position, *next, *start, *base, *drift;
-    int *number, *slot_of_solid;
-    uint4* neighbour;  ///< chunks of four slots: chunk c of slot s at [(s / 32 * chunks + c) * 32 + s % 32]
-    int* neighbour_count;
-    int* fluid_contact;  ///< entry k of slot s at [k * fluid + s]
-    int* solid_contact;  ///< entry k of slot s at [k * solids + s - fluid]
-    int *contact_count, *plane_contact, *touched;
-    Quad<Real>* contact_push;
-    Real* rest_length;  ///< by spring
-    LargeShared<Real>* shared;
-
-    // Where an effect needs them.
-    Real *density, *overlaps;
-    Quad<Real>*change, *normal, *curl;
-
-    // Scheme conserving only.
-    Quad<Real>*displacement, *boundary;
-    Real *lambda, *lambda_sum, *overlap, *overlap_lambda;
-    int* active;
-    Quad<Real>*internal, *spring_push, *member_displacement, *member_push;
-    Real* spring_lambda;
-    BodyMotion* motion;
+struct StateArrays {
+    NATATOR_STATE_ARRAYS(NATATOR_MEMBER)
+    LargeShared<Real>* shared = nullptr;
+    int* idle = nullptr;  ///< not 0: the State stays as it is
 };
+template <class Real>
+struct WaterArrays {
+    NATATOR_WATER_ARRAYS(NATATOR_MEMBER)
+    // Of neighbour k of slot s at [s * water_neighbours + k]; by themselves, as their room may grow.
+    unsigned* neighbour = nullptr;  ///< entries
+    Quad<Real>* pair = nullptr;     ///< G_ij; w: the entry as an integer
+};
+#undef NATATOR_MEMBER
 
 /// Contacts that lists have room for; those of slots that have more are searched anew each time.
 struct ContactRoom {
     int fluid, solid;
 };
 
-/// A large State as its kernels see it: what Block is to the kernel of a batch, for a whole grid of blocks. The
-/// functions of both take either.
+/// What the sizes of a State's arrays depend on.
+template <class Real>
+struct StateSize : ModelView<Real> {
+    ContactRoom room{};
+    std::size_t neighbour_chunks = 0;
+};
+
+/// Large States as the kernels see them, and one of them: what Block is to the kernel of a batch, for a grid of blocks.
+/// The functions of both take either. The y of the grid is the State's number.
 template <class R>
 class Slots {
 public:
     using Real = R;
 
-    __device__ Quad<Real>* position() const { return at.position; }
-    __device__ Quad<Real>* next() const { return at.next; }
-    __device__ Real* lambda() const { return at.lambda; }
-    __device__ int* slot_of_solid() const { return at.slot_of_solid; }
-    __device__ Real* rest_length() const { return at.rest_length; }
-    __device__ ClusterFit<Real>* fit() const { return at.fit; }
+#define NATATOR_ACCESSOR(type, name, size) \
+    __device__ type* name() const { return at.name; }
+    NATATOR_STATE_ARRAYS(NATATOR_ACCESSOR)
+#undef NATATOR_ACCESSOR
     __device__ LargeShared<Real>& shared() const { return *at.shared; }
-    __device__ Quad<Real>* drift() const { return at.drift; }
-    __device__ Quad<Real>* start() const { return at.start; }
-    __device__ int* number() const { return at.number; }
-    __device__ int* neighbour_count() const { return at.neighbour_count; }
-    __device__ int* contact_count() const { return at.contact_count; }
-    __device__ int* plane_contact() const { return at.plane_contact; }
-    __device__ int* touched() const { return at.touched; }
-    __device__ Quad<Real>* contact_push() const { return at.contact_push; }
-    __device__ Quad<Real>* base() const { return at.base; }
-    __device__ Quad<Real>* displacement() const { return at.displacement; }
-    __device__ Quad<Real>* boundary() const { return at.boundary; }
-    __device__ Real* lambda_sum() const { return at.lambda_sum; }
-    __device__ Real* overlap() const { return at.overlap; }
-    __device__ Real* overlap_lambda() const { return at.overlap_lambda; }
-    __device__ int* active() const { return at.active; }
-    __device__ Quad<Real>* internal() const { return at.internal; }
-    __device__ Quad<Real>* spring_push() const { return at.spring_push; }
-    __device__ Real* spring_lambda() const { return at.spring_lambda; }
-    __device__ Quad<Real>* member_displacement() const { return at.member_displacement; }
-    __device__ Quad<Real>* member_push() const { return at.member_push; }
-    __device__ BodyMotion* motion() const { return at.motion; }
-
-    __device__ Real* density() const { return at.density; }
-    __device__ Real* overlaps() const { return at.overlaps; }
-    __device__ Quad<Real>* change() const { return at.change; }
-    __device__ Quad<Real>* normal() const { return at.normal; }
-    __device__ Quad<Real>* curl() const { return at.curl; }
+    __device__ Real* rest_length() const { return rest_lengths; }
     __device__ Quad<Real>* new_velocity() const { return at.state_velocity; }
     __device__ Quad<Real>* end_position() const { return at.state_position; }
+
+    /// State k of those that lie side by side.
+    __host__ __device__ Slots state(unsigned k) const {
+        Slots own = *this;
+        const auto shift = [bytes = k * stride](auto*& array) {
+            array = reinterpret_cast<std::remove_reference_t<decltype(array)>>(reinterpret_cast<char*>(array) + bytes);
+        };
+#define NATATOR_SHIFT(type, name, size) shift(own.at.name);
+        NATATOR_STATE_ARRAYS(NATATOR_SHIFT)
+#undef NATATOR_SHIFT
+#define NATATOR_SHIFT(type, name, size) shift(own.water.name);
+        NATATOR_WATER_ARRAYS(NATATOR_SHIFT)
+#undef NATATOR_SHIFT
+        own.at.shared += k;
+        own.at.idle += k;
+        const std::size_t entries = k * water_entries;
+        own.water.neighbour += entries;
+        own.water.pair += entries;
+        own.rest_lengths += k * rest_length_stride;
+        return own;
+    }
 
     __device__ unsigned& neighbour_entry(int s, int k) const {
         uint4* const chunk = at.neighbour + (static_cast<std::size_t>(s / 32) * chunks + k / 4) * 32 + s % 32;
@@ -111,12 +169,19 @@ public:
     }
 
     /// Nothing that is not finite goes through further substeps: its cells would hold too many particles.
-    __device__ bool failed() const { return static_cast<int>(at.shared->bad >> 32 & 0x7fffffff) < substep; }
+    __device__ bool failed() const {
+        return *at.idle || static_cast<int>(at.shared->bad >> 32 & 0x7fffffff) < substep;
+    }
 
-    SlotArrays<Real> at{};
+    StateArrays<Real> at{};
+    WaterArrays<Real> water{};
+    Real* rest_lengths = nullptr;  ///< by spring
+    std::size_t stride = 0;        ///< bytes from a State's arrays to the next one's
+    std::size_t rest_length_stride = 0, water_entries = 0;
     ContactRoom room{};
-    int chunks = 0;  ///< of a neighbour list
-    Real h = 0;      ///< substep, s
+    int chunks = 0;           ///< of a neighbour list
+    int water_neighbours = 0; ///< that a slot has room for in the water's lists
+    Real h = 0;               ///< substep, s
     int substep = 0;
     bool overlapping = false;
 };
@@ -173,7 +238,7 @@ __device__ int search_contacts(const ModelView<Real>& model, const Slots<Real>& 
     const Vec3<Real> x = xyz(slots.base()[s]);
     const int i = slots.number()[s];
     int n = 0;
-    for (int solids = s < model.fluid ? 1 : 0; solids < 2; ++solids)
+    for (int solids = s < model.fluid || model.plan.water ? 1 : 0; solids < 2; ++solids)
         for_each_candidate(model, slots, solids == 1, x, [&](int other, bool near) {
             if (!near) return;
             const int j = slots.number()[other];

@@ -1,16 +1,18 @@
 #pragma once
 
+#include "scan.h"
 #include "slots.cuh"
 #include "solver/step.h"
 #include "stage_clock.h"
 
 namespace natator::cuda {
 
-/// What the stages of a large State are launched with.
+/// What the stages of large States, side by side, are launched with.
 template <class Real>
 struct LargeLaunch {
     ModelView<Real> model;
     Slots<Real> slots;
+    int states;  ///< side by side
     void* scan_room;
     std::size_t scan_bytes;
     cudaStream_t stream;
@@ -18,6 +20,18 @@ struct LargeLaunch {
     cudaEvent_t fork, joint;  ///< where the two part and meet
     Trace<Real> trace;        ///< null where nobody looks
     StageClock* clock = nullptr;  ///< likewise
+
+    /// Of blocks for each State.
+    dim3 grid(int blocks) const { return {static_cast<unsigned>(blocks), static_cast<unsigned>(states)}; }
+
+    /// Sets a table of each State to 0.
+    void clear(int* table, int count) const {
+        check(cudaMemset2DAsync(table, slots.stride, 0, count * sizeof(int), states, stream), "clear");
+    }
+    /// Replaces its counts by the sums of all before each.
+    void add_up(int* table, int count) const {
+        exclusive_scan(table, count, states, slots.stride, scan_room, scan_bytes, stream);
+    }
 
     void mark(Stage stage) const {
         if (clock) clock->mark(stage);
@@ -43,6 +57,10 @@ void launch_substep(const LargeLaunch<Real>& launch);
 template <class Real, Scheme scheme>
 void launch_substep_of(const LargeLaunch<Real>& launch);
 
+/// Of scheme dfsph, where there is fluid.
+template <class Real>
+void launch_water_substep(const LargeLaunch<Real>& launch);
+
 template <class Real, Scheme scheme>
 void launch_predict(const LargeLaunch<Real>& launch);
 template <class Real>
@@ -50,11 +68,11 @@ void launch_sort_into_cells(const LargeLaunch<Real>& launch);
 template <class Real>
 void launch_find_neighbours(const LargeLaunch<Real>& launch);
 
-/// Writes positions of all slots, with the particles' numbers, to row `row` of an observer's view if there is one.
+/// Of the first State: writes positions of all slots, with the particles' numbers, to row `row` of an observer's view if there is one.
 template <class Real>
 void record_positions(const LargeLaunch<Real>& launch, Quad<Real>* to, int row);
 
-/// Densities of the fluid and numbers of neighbours, by particle, as the last substep left them.
+/// Densities of the fluid and numbers of neighbours, by State and number, as the last substep left them.
 template <class Real>
 void launch_densities(const LargeLaunch<Real>& launch, Real* density);
 template <class Real>

@@ -1,0 +1,40 @@
+#include "fit_to_water.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "solver/cpu/dfsph/volumes.h"
+
+namespace natator {
+namespace {
+
+constexpr double least_density = 0.02;  ///< of a solid, in units of the water's
+constexpr double longest_fall = 0.1;    ///< from rest in a substep, in rest distances
+
+void raise_light_solids(Model& model) {
+    const std::vector<double> volumes = cpu::particle_volumes(model);
+    const double density = cpu::fluid_density(model, volumes);
+    if (!(density > 0)) return;
+    for (int i = 0; i < model.particles(); ++i)
+        if (!model.is_fluid(i))
+            model.inverse_mass[i] = std::min(model.inverse_mass[i], 1 / (least_density * density * volumes[i]));
+}
+
+void raise_substeps(Model& model) {
+    SolverParameters& p = model.parameters;
+    const double gravity = p.gravity.norm() * std::max(1.0, std::abs(p.buoyancy));
+    if (!(gravity > 0)) return;
+    const double longest = std::sqrt(longest_fall * p.fluidRestDistance / gravity);
+    constexpr double rounding = 1e-9;
+    p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));
+}
+
+}  // namespace
+
+void fit_to_water(Model& model) {
+    raise_light_solids(model);
+    raise_substeps(model);
+}
+
+}  // namespace natator

@@ -1,0 +1,134 @@
+// Forces that the thesis leaves off, as in cpu/effects, between water and water. All act on the velocities that the
+// divergence solve has left. Images take part, so that walls pull neither along nor back: what a particle and its
+// neighbour's image do to each other along a wall is equal and opposite to what the neighbour and its image do.
+#include "physics/water_effects.h"
+
+#include "water.h"
+
+namespace natator::cpu {
+
+template <class Real>
+bool Water<Real>::is_fluid_slot(int slot) const {
+    return model_.is_fluid(particle_of_[slot < image_begin_ ? slot : image_owner_[slot - image_begin_]]);
+}
+
+/// Calls visit(entry, other) for the entries of a slot's row.
+template <class Real>
+template <class Visit>
+void Water<Real>::for_each_neighbour_of(int slot, const Visit& visit) const {
+    for (int row = row_begin_[slot / lanes]; row < row_begin_[slot / lanes + 1]; ++row) {
+        const int entry = row * lanes + slot % lanes, other = neighbour_[entry];
+        if (other == far_slot_) return;  // the rest of the column is unused
+        visit(entry, other);
+    }
+}
+
+/// Calls visit(other, difference, r) for the fluid within the interaction radius of a slot.
+template <class Real>
+template <class Visit>
+void Water<Real>::for_each_fluid_within_radius(int slot, const Visit& visit) const {
+    const Vec3<Real> x = position_.at(slot);
+    for_each_neighbour_of(slot, [&](int, int other) {
+        const Vec3<Real> difference = x - position_.at(other);
+        const Real r = norm(difference);
+        if (r > 0 && r < effect_radius_ && is_fluid_slot(other)) visit(other, difference, r);
+    });
+}
+
+/// Calls work(slot) for the slots of the fluid, of its own particles.
+template <class Real>
+template <class Work>
+void Water<Real>::for_fluid_slots(ThreadTeam& team, const Work& work) {
+    team.for_parts(particles_, shortest_part * lanes, [&](int, int begin, int end) {
+        for (int slot = begin; slot < end; ++slot)
+            if (is_fluid_slot(slot)) work(slot);
+    });
+}
+
+template <class Real>
+void Water<Real>::add_cohesion(ThreadTeam& team) {
+    constexpr Real thesis_substep = static_cast<Real>(physics::thesis_substep);
+    const Real inverse_radius = 1 / effect_radius_;
+    const Real slope = static_cast<Real>(physics::cohesion_slope(static_cast<double>(spacing_ * inverse_radius)));
+    const Real strength = static_cast<Real>(model_.parameters.cohesion) * effect_radius_;
+    const Real step = h_ / (thesis_substep * thesis_substep) * strength;
+    for_fluid_slots(team, [&](int slot) {
+        Vec3<Real> sum{};
+        for_each_fluid_within_radius(slot, [&](int other, const Vec3<Real>& difference, Real r) {
+            sum += physics::cohesion_part(difference, r, inverse_radius, slope, inverse_mass_[slot], inverse_mass_[other]);
+        });
+        push(slot, -step * sum);
+    });
+}
+
+template <class Real>
+void Water<Real>::add_surface_tension(ThreadTeam& team) {
+    const Real step = h_ * static_cast<Real>(model_.parameters.surfaceTension);
+    field_.resize(position_.x.size());
+    for_fluid_slots(team, [&](int slot) {
+        Vec3<Real> sum{};
+        for_each_neighbour_of(slot, [&](int entry, int) { sum += gradient_.at(entry); });
+        field_.set(slot, physics::colour_normal(sum, effect_radius_, volume_[slot]));
+    });
+    for (std::size_t k = 0; k < image_owner_.size(); ++k)
+        field_.set(static_cast<int>(image_begin_ + k),
+                   vec3<Real>((mirror_.matrix(image_reflection_[k]) * eigen(field_.at(image_owner_[k]))).eval()));
+    for_fluid_slots(team, [&](int slot) {
+        Vec3<Real> sum{};
+        for_each_fluid_within_radius(slot, [&](int other, const Vec3<Real>&, Real) {
+            sum += physics::tension_part(field_.at(slot), field_.at(other), inverse_mass_[slot], inverse_mass_[other]);
+        });
+        push(slot, -step * sum);
+    });
+}
+
+template <class Real>
+void Water<Real>::add_vorticity_confinement(ThreadTeam& team) {
+    const Real step = h_ * static_cast<Real>(model_.parameters.vorticityConfinement);
+    const auto packed_velocity = [this](int slot) {
+        const Real* const v = &packed_velocity_[4 * static_cast<std::size_t>(slot)];
+        return Vec3<Real>{v[0], v[1], v[2]};
+    };
+    field_.resize(position_.x.size());
+    strength_.assign(position_.x.size(), 0);
+    for (int slot = 0; slot < particles_; ++slot) field_.set(slot, {});
+    for_fluid_slots(team, [&](int slot) {
+        const Vec3<Real> v = packed_velocity(slot);
+        Vec3<Real> sum{};
+        for_each_neighbour_of(slot, [&](int entry, int other) {
+            sum += physics::vorticity_part(packed_velocity(other) - v, gradient_.at(entry));
+        });
+        field_.set(slot, 1 / volume_[slot] * sum);
+        strength_[slot] = norm(field_.at(slot));
+    });
+    for (std::size_t k = 0; k < image_owner_.size(); ++k) strength_[image_begin_ + k] = strength_[image_owner_[k]];
+    for_fluid_slots(team, [&](int slot) {
+        Vec3<Real> towards_stronger{};
+        for_each_neighbour_of(slot, [&](int entry, int other) {
+            if (is_fluid_slot(other)) towards_stronger += (strength_[other] - strength_[slot]) * gradient_.at(entry);
+        });
+        push(slot, physics::confinement(towards_stronger, field_.at(slot), step));
+    });
+}
+
+template <class Real>
+void Water<Real>::drag_free_surface(ThreadTeam& team) {
+    const Real step = h_ * static_cast<Real>(model_.parameters.freeSurfaceDrag);
+    for_fluid_slots(team, [&](int slot) {
+        velocity_.set(slot, physics::dragged(velocity_.at(slot), density_[slot], step));
+    });
+}
+
+template <class Real>
+void Water<Real>::add_effects(ThreadTeam& team) {
+    const SolverParameters& p = model_.parameters;
+    if (p.freeSurfaceDrag > 0) drag_free_surface(team);
+    if (p.cohesion > 0) add_cohesion(team);
+    if (p.surfaceTension > 0) add_surface_tension(team);
+    if (p.vorticityConfinement > 0) add_vorticity_confinement(team);
+}
+
+template void Water<float>::add_effects(ThreadTeam&);
+template void Water<double>::add_effects(ThreadTeam&);
+
+}  // namespace natator::cpu

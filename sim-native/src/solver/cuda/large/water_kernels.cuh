@@ -1,0 +1,423 @@
+#pragma once
+
+// The water of scheme dfsph for a large State: a kernel per sum over neighbours, which pair_lanes threads share. See
+// cpu/dfsph/water.h.
+#include "cells.cuh"
+#include "search.cuh"
+#include "solver/cuda/conserving.cuh"
+
+namespace natator::cuda {
+
+inline constexpr unsigned slot_mask = (1u << most_slot_bits) - 1;
+
+template <class Real>
+__device__ Vec3<Real> turned(const Reflection<Real>& mirror, const Vec3<Real>& v) {
+    return {dot(mirror.turn[0], v), dot(mirror.turn[1], v), dot(mirror.turn[2], v)};
+}
+/// H L H^T.
+template <class Real>
+__device__ physics::Symmetric3<Real> turned(const Reflection<Real>& mirror, const physics::Symmetric3<Real>& l) {
+    const Vec3<Real> x = l * mirror.turn[0], y = l * mirror.turn[1], z = l * mirror.turn[2];
+    return {dot(mirror.turn[0], x), dot(mirror.turn[1], y), dot(mirror.turn[2], z),
+            dot(mirror.turn[0], y), dot(mirror.turn[0], z), dot(mirror.turn[1], z)};
+}
+template <class Real>
+__device__ Vec3<Real> ghost_of(const WaterModel<Real>& water, const Vec3<Real>& x, unsigned planes) {
+    return planes == 0 ? x : turned(water.reflection[planes], x) + water.reflection[planes].shift;
+}
+
+/// Calls visit(planes, position) for a particle at x and for its ghosts.
+template <class Real, class Visit>
+__device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x, const Visit& visit) {
+    visit(0u, x);
+    // Each set of planes from the one without its last.
+    for (unsigned planes = 1; planes < 1u << model.planes; ++planes) {
+        if (__popc(planes) > 3) continue;
+        bool before_all = true;
+        unsigned so_far = 0;
+        for (int k = 0; k < model.planes && before_all; ++k) {
+            if (!(planes >> k & 1)) continue;
+            const Real distance = distance_to(model.plane[k].surface, ghost_of(model.water, x, so_far));
+            before_all = distance >= 0 && distance < model.water.radius;
+            so_far |= 1u << k;
+        }
+        if (before_all) visit(planes, ghost_of(model.water, x, planes));
+    }
+}
+
+/// Puts what is behind planes before them, and counts particles and ghosts by cell.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    begin_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    if (s == 0) slots.shared().high = 0;
+    const WaterArrays<Real>& water = slots.water;
+    const Quad<Real> before = slots.at.state_velocity[s];
+    const int number = number_in(before.w);
+    const bool fluid = number < model.fluid;
+    Quad<Real> x = slots.at.state_position[s];
+    if (x.w > 0) {
+        const Real distance =
+            fluid ? Real(physics::least_wall_distance) * model.water.spacing : model.collision_distance;
+        x = quad(put_before_planes(model, xyz(x), distance), x.w);
+        slots.at.state_position[s] = x;
+    }
+    water.position[s] = quad(xyz(x), model.water.volume[number]);
+    water.velocity[s] = quad(xyz(before), x.w);
+    if (!fluid) water.slot_of_solid[number - model.fluid] = s;
+    for_each_copy(model, xyz(x), [&](unsigned, const Vec3<Real>& at) {
+        atomicAdd(water.table + model.water.grid.cell(at), 1);
+    });
+}
+
+/// Puts the particles and ghosts of each cell together, in no order. Turns the cells' begins in the table into their ends.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    scatter_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.water;
+    const auto number = static_cast<std::uint64_t>(number_in(slots.at.state_velocity[s].w));
+    for_each_copy(model, xyz(water.position[s]), [&](unsigned planes, const Vec3<Real>& at) {
+        water.keys[atomicAdd(water.table + model.water.grid.cell(at), 1)] =
+            static_cast<std::uint64_t>(planes) << 58 | number << 32 | static_cast<unsigned>(s);
+    });
+}
+
+/// Lays out what searches read, in each cell by set of planes and then by particle: the order depends on positions alone.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    order_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    if (slots.failed()) return;
+    const WaterArrays<Real>& water = slots.water;
+    const int copies = water.table[model.water.grid.cells - 1];
+    for (int k = own_index(); k < copies; k += static_cast<int>(gridDim.x * blockDim.x)) {
+        const std::uint64_t key = water.keys[k];
+        const auto planes = static_cast<unsigned>(key >> 58), slot = static_cast<unsigned>(key);
+        const Vec3<Real> x = ghost_of(model.water, xyz(water.position[slot]), planes);
+        const int cell = model.water.grid.cell(x);
+        const int begin = cell > 0 ? water.table[cell - 1] : 0, end = water.table[cell];
+        int rank = begin;
+        for (int other = begin; other < end; ++other) rank += water.keys[other] < key;
+        water.candidate[rank] = quad(x, as_number<Real>(static_cast<int>(planes << most_slot_bits | slot)));
+    }
+}
+
+/// Of the threads that share a slot.
+__device__ inline int own_lane() {
+    return static_cast<int>(threadIdx.x) % pair_lanes;
+}
+__device__ inline int own_slot() {
+    return own_index() / pair_lanes;
+}
+template <class Real>
+__device__ Vec3<Real> sum_of_lanes(const Vec3<Real>& v) {
+    return {sum_of_lanes(v.x), sum_of_lanes(v.y), sum_of_lanes(v.z)};
+}
+template <class Real>
+__device__ Real largest_of_lanes(Real value) {
+    for (int step = pair_lanes / 2; step > 0; step /= 2) {
+        const Real other = __shfl_xor_sync(0xffffffff, value, step);
+        value = other > value ? other : value;
+    }
+    return value;
+}
+
+/// Lists what is within the kernel's support of each particle, solids and ghosts too, in the order of the cells.
+template <class Real>
+__global__ void __launch_bounds__(search_threads)
+    find_water_neighbours(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot(), lane = own_lane();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.water;
+    const Vec3<Real> x = xyz(water.position[s]);
+    const Real distance_squared = model.water.radius * model.water.radius;
+    const int first_lane = static_cast<int>(threadIdx.x) % 32 - lane;
+    const unsigned lanes = ((1u << pair_lanes) - 1) << first_lane;
+    unsigned* const list = water.neighbour + static_cast<std::size_t>(s) * slots.water_neighbours;
+    int n = 0;
+    model.water.grid.for_each_run(x, [&](int first, int last) {
+        const int begin = first > 0 ? water.table[first - 1] : 0, end = water.table[last];
+        for (int k = begin; k < end; k += pair_lanes) {
+            Quad<Real> other{};
+            bool near = k + lane < end;
+            if (near) {
+                other = water.candidate[k + lane];
+                const Real r2 = physics::squared_length(x - xyz(other));
+                near = r2 < distance_squared && r2 > 0;
+            }
+            const unsigned found = __ballot_sync(lanes, near) >> first_lane & ((1u << pair_lanes) - 1);
+            const int at = n + __popc(found & ((1u << lane) - 1));
+            if (near && at < slots.water_neighbours) list[at] = static_cast<unsigned>(number_in(other.w));
+            n += __popc(found);
+        }
+    });
+    if (lane != 0) return;
+    if (n > slots.water_neighbours) atomicMax(&slots.shared().most_neighbours, n);
+    water.count[s] = min(n, slots.water_neighbours);
+    water.count_of[number_in(slots.at.state_velocity[s].w)] = n;
+}
+
+/// Calls visit(its place, slot, planes) for this thread's share of the neighbours of slot s.
+template <class Real, class Visit>
+__device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit) {
+    const WaterArrays<Real>& water = slots.water;
+    const std::size_t first = static_cast<std::size_t>(s) * slots.water_neighbours;
+    const int count = water.count[s];
+    for (int k = own_lane(); k < count; k += pair_lanes) {
+        const unsigned entry = water.neighbour[first + k];
+        visit(first + k, static_cast<int>(entry & slot_mask), entry >> most_slot_bits);
+    }
+}
+
+/// Calls visit(G_ij, slot, planes) for the same, once gradients are known.
+template <class Real, class Visit>
+__device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit) {
+    const Quad<Real>* const first = slots.water.pair + static_cast<std::size_t>(s) * slots.water_neighbours;
+    const int count = slots.water.count[s];
+#pragma unroll 4
+    for (int k = own_lane(); k < count; k += pair_lanes) {
+        const Quad<Real> pair = first[k];
+        const auto entry = static_cast<unsigned>(number_in(pair.w));
+        visit(xyz(pair), static_cast<int>(entry & slot_mask), entry >> most_slot_bits);
+    }
+}
+
+/// A neighbour's velocity; of a ghost as its mirrors show it. w: inverse mass.
+template <class Real>
+__device__ Quad<Real> seen_velocity(const ModelView<Real>& model, const Quad<Real>* velocity, int slot,
+                                    unsigned planes) {
+    const Quad<Real> v = velocity[slot];
+    return planes == 0 ? v : quad(turned(model.water.reflection[planes], xyz(v)), v.w);
+}
+
+/// Density, correction, crowding.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    water_moments(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.water;
+    const Quad<Real> here = water.position[s], moves = water.velocity[s];
+    physics::MomentSums<Real> sums;
+    for_each_water_neighbour(slots, s, [&](std::size_t, int other, unsigned planes) {
+        const Quad<Real> there = water.position[other];
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+        const Quad<Real> v = seen_velocity(model, water.velocity, other, planes);
+        sums.add(difference, model.water.kernel, model.water.at_spacing, there.w, xyz(v) - xyz(moves));
+    });
+    sums.density = sum_of_lanes(sums.density);
+    physics::Symmetric3<Real>& m = sums.moments;
+    m = {sum_of_lanes(m.xx), sum_of_lanes(m.yy), sum_of_lanes(m.zz),
+         sum_of_lanes(m.xy), sum_of_lanes(m.xz), sum_of_lanes(m.yz)};
+    sums.crowding = sum_of_lanes(sums.crowding);
+    sums.fastest_square = largest_of_lanes(sums.fastest_square);
+    if (own_lane() != 0) return;
+    const Real density = sums.density + here.w * model.water.kernel.scale;
+    const physics::Symmetric3<Real> l = sums.correction(density);
+    water.density[s] = density;
+    water.density_of[number_in(slots.at.state_velocity[s].w)] = density;
+    water.correction[s] = {l.xx, l.yy, l.zz, l.xy};
+    const Real mobility = moves.w > 0 ? moves.w : 1 / (model.water.density * here.w);
+    water.shear[s] = {l.xz, l.yz, mobility, 0};
+    water.crowding[s] = quad(sums.crowding, sums.fastest_square);
+    if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
+}
+
+template <class Real>
+__device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction, const Quad<Real>& shear) {
+    return {correction.x, correction.y, correction.z, correction.w, shear.x, shear.y};
+}
+
+/// G_ij and the response.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    water_gradients(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.water;
+    const Quad<Real> here = water.position[s], own_shear = water.shear[s];
+    const physics::Symmetric3<Real> own = correction_of(water.correction[s], own_shear);
+    physics::ResponseSums<Real> sums;
+    for_each_water_neighbour(slots, s, [&](std::size_t place, int other, unsigned planes) {
+        const Quad<Real> there = water.position[other], shear = water.shear[other];
+        physics::Symmetric3<Real> its = correction_of(water.correction[other], shear);
+        if (planes != 0) its = turned(model.water.reflection[planes], its);
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+        const Vec3<Real> gradient =
+            physics::pair_gradient(difference, model.water.kernel, here.w * there.w, own + its);
+        water.pair[place] = quad(gradient, as_number<Real>(static_cast<int>(water.neighbour[place])));
+        sums.add(gradient, shear.z);
+    });
+    sums.gradient = sum_of_lanes(sums.gradient);
+    sums.square = sum_of_lanes(sums.square);
+    if (own_lane() == 0) water.response[s] = sums.response(own_shear.z);
+}
+
+/// What the passes of a substep are for, see cpu/dfsph/water.cpp.
+enum class Pass {
+    first_parting,  ///< of overlaps, on velocities that begin at 0 and are forgotten; only where there are any
+    parting,
+    divergence,
+    density,  ///< moves the solids, too
+};
+constexpr bool parts(Pass pass) {
+    return pass == Pass::first_parting || pass == Pass::parting;
+}
+
+template <class Real>
+__device__ Real most_excess(const ModelView<Real>& model, Real h) {
+    return min(Real(physics::most_excess), h * model.water.fastest_expansion);
+}
+
+/// The impulses of a Jacobi pass.
+template <Pass pass, class Real>
+__global__ void __launch_bounds__(large_threads)
+    water_impulses(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
+    if (s >= model.particles || slots.failed() || (parts(pass) && !slots.shared().high)) return;
+    const WaterArrays<Real>& water = slots.water;
+    Real rate = 0;
+    if (pass != Pass::first_parting) {
+        const Quad<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
+        const Vec3<Real> v = xyz(velocity[s]);
+        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
+            rate += dot(xyz(seen_velocity(model, velocity, other, planes)) - v, gradient);
+        });
+        rate = sum_of_lanes(rate);
+    }
+    if (own_lane() != 0) return;
+    const Real volume = water.position[s].w, density = water.density[s], most = most_excess(model, slots.h);
+    Real target = 0;
+    if (parts(pass)) target = physics::parting_target(volume, density, most, slots.h);
+    if (pass == Pass::density) target = physics::density_target(volume, density, most, slots.h);
+    water.impulse[s] = physics::pressure_impulse(target, rate, water.response[s], density);
+}
+
+/// v_i -= w_i sum (impulse_i + impulse_j) G_ij.
+template <Pass pass, class Real>
+__global__ void __launch_bounds__(large_threads)
+    push_water_apart(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
+    if (s >= model.particles || slots.failed() || (parts(pass) && !slots.shared().high)) return;
+    const WaterArrays<Real>& water = slots.water;
+    const Real own = water.impulse[s];
+    Vec3<Real> sum{0, 0, 0};
+    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned) {
+        sum += (own + water.impulse[other]) * gradient;
+    });
+    sum = sum_of_lanes(sum);
+    if (own_lane() != 0) return;
+    const int number = number_in(slots.at.state_velocity[s].w);
+    const Quad<Real> v = water.velocity[s];
+    if constexpr (parts(pass)) {
+        const Real w = number < model.fluid ? v.w : Real(0);  // to push a body's particles would bend it
+        const Vec3<Real> before = pass == Pass::parting ? xyz(water.parting[s]) : Vec3<Real>{0, 0, 0};
+        water.parting[s] = quad(before - w * sum, w);
+        return;
+    }
+    const Vec3<Real> push = -v.w * sum;
+    water.velocity[s] = quad(xyz(v) + push, v.w);
+    if (pass == Pass::density && number >= model.fluid && v.w > 0)
+        move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
+}
+
+/// Viscosity and gravity, beside the velocities.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    push_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.water;
+    const Quad<Real> here = water.position[s], moves = water.velocity[s];
+    Vec3<Real> v = xyz(moves);
+    if (model.water.dynamic_viscosity > 0) {
+        const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
+        const Real most = 10 * Real(physics::most_diffusion) * model.water.spacing * model.water.spacing / strength;
+        physics::ViscousSums<Real> sums;
+        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
+            const Quad<Real> there = water.position[other];
+            const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+            const Quad<Real> u = seen_velocity(model, water.velocity, other, planes);
+            const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
+            sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
+        });
+        v += (strength * moves.w) * sum_of_lanes(sums.impulse);
+    }
+    if (own_lane() != 0) return;
+    const bool fluid = number_in(slots.at.state_velocity[s].w) < model.fluid;
+    if (moves.w > 0) v += slots.h * (fluid ? model.fluid_gravity : model.gravity);
+    water.pushed[s] = quad(v, moves.w);
+}
+
+/// x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    predict_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_index();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.water;
+    const Quad<Real> x = slots.at.state_position[s], pushed = water.pushed[s], crowding = water.crowding[s];
+    const Real number = slots.at.state_velocity[s].w;
+    const bool fluid = number_in(number) < model.fluid;
+    Vec3<Real> v = xyz(pushed);
+    if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
+    water.velocity[s] = fluid ? pushed : quad(v, pushed.w);
+    Vec3<Real> there = xyz(x) + slots.h * v;
+    if (fluid)
+        there += physics::shift_of(water.density[s], xyz(crowding), crowding.w, model.water.radius,
+                                   model.water.spacing, slots.h);
+    if (slots.shared().high)
+        there += clamped(slots.h * xyz(water.parting[s]), Real(physics::longest_parting) * model.water.spacing);
+    const int cell = model.grid.cell(there) + (fluid ? 0 : model.grid.cells);
+    slots.at.predicted[s] = quad(there, x.w);
+    slots.at.drift_before[s] = quad(v, number);
+    slots.at.cell[s] = cell;
+    atomicAdd(slots.at.table + cell, 1);
+}
+
+/// Contacts, springs, clusters and planes of the solids; tells the water how they move by then. One block.
+template <class Real>
+__global__ void __launch_bounds__(threads)
+    solids_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    if (slots.failed()) return;
+    if (model.plan.contacts) solve_contacts(model, slots);
+    if (model.plan.springs) solve_springs(model, slots);
+    if (model.plan.clusters) solve_clusters(model, slots);
+    for (int solid = threadIdx.x; solid < model.solids; solid += threads) {
+        const int s = slots.slot_of_solid()[solid];
+        solve_planes_of(model, slots, s);
+        slots.water.velocity[slots.water.slot_of_solid[solid]] = constrained_velocity<Real>(slots, s);
+    }
+}
+
+/// The fluid goes where its velocities take it.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    move_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_index();
+    if (s >= model.fluid || slots.failed()) return;
+    const Quad<Real> base = slots.base()[s];
+    if (!(base.w > 0)) return;
+    Vec3<Real> v = xyz(slots.water.velocity[slots.water.slot_before[s]]);
+    if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
+    const Vec3<Real> displacement = slots.h * (v - xyz(slots.drift()[s]));
+    slots.displacement()[s] = quad(displacement, Real(0));
+    const Real distance = Real(physics::least_wall_distance) * model.water.spacing;
+    slots.position()[s] = quad(put_before_planes(model, xyz(base) + displacement, distance), base.w);
+}
+
+}  // namespace natator::cuda
