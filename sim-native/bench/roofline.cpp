@@ -29,11 +29,10 @@ RoofKernels roof_kernels() {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using cpu::AlignedVector;
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// Best of some calls; each must take about a millisecond at least.
@@ -41,7 +40,7 @@ template <class Work>
 double best_seconds(const Work& work) {
     double best = 1e9;
     for (int repeat = 0; repeat < 20; ++repeat) {
-        const auto start = Clock::now();
+        const auto start = std::chrono::steady_clock::now();
         volatile float result = work();
         static_cast<void>(result);
         best = std::min(best, seconds_since(start));

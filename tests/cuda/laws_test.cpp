@@ -1,5 +1,6 @@
 // Laws that scheme conserving keeps, on the GPU: each against its closed form or its exact symmetry. The CPU's tests of
 // the same laws, native/laws_test.cpp and its neighbours, say more about where the bounds come from.
+#include "../native/energy.h"
 #include "../native/fluid_column.h"
 #include "evaluate/settle.h"
 #include "gpu_test.h"

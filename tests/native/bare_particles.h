@@ -82,14 +82,6 @@ double momentum_size(const Model& model, const State<Real>& state) {
     return sum;
 }
 
-template <class Real>
-double kinetic_energy(const Model& model, const State<Real>& state) {
-    double sum = 0;
-    for (int i = 0; i < model.particles(); ++i)
-        sum += 0.5 * static_cast<double>(state.velocity[i].squaredNorm()) / model.inverse_mass[i];
-    return sum;
-}
-
 class EffectTest : public testing::TestWithParam<Scheme> {
 protected:
     /// The scheme's tests run in both precisions.

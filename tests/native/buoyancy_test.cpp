@@ -12,6 +12,7 @@
 #include <numbers>
 #include <random>
 
+#include "energy.h"
 #include "evaluate/settle.h"
 #include "fluid_column.h"
 #include "model/cluster.h"

@@ -43,7 +43,7 @@ Model box_of_water(const Eigen::Vector3i& count) {
 }
 
 template <class Real>
-void advance(Solver<Real>& solver, const Model& model, State<Real>& state, int frames) {
+void advance_frames(Solver<Real>& solver, const Model& model, State<Real>& state, int frames) {
     for (int frame = 0; frame < frames; ++frame)
         ASSERT_FALSE(solver.update(state, model.time_step, model.parameters.substeps)) << "frame " << frame;
 }
@@ -74,7 +74,7 @@ TEST(Dfsph, ADropKeepsItsMomentum) {
     }
     const Momenta before(state);
     Solver<double> solver(model);
-    advance(solver, model, state, 60);
+    advance_frames(solver, model, state, 60);
     const Momenta after(state);
     EXPECT_LE((after.linear - before.linear).norm(), 1e-12 * before.linear.norm());
     EXPECT_LE((after.angular - before.angular).norm(), 0.02 * before.angular.norm());
@@ -86,11 +86,11 @@ TEST(Dfsph, PressureIsHydrostatic) {
     const Model model = box_of_water({8, layers, 8});
     State<float> state = initial_state<float>(model);
     Solver<float> solver(model);
-    advance(solver, model, state, 120);
+    advance_frames(solver, model, state, 120);
     double measured = 0, expected = 0;
     const double density = 1 / std::pow(spacing, 3);
     for (int frame = 0; frame < 30; ++frame) {
-        advance(solver, model, state, 1);
+        advance_frames(solver, model, state, 1);
         const auto pressures = solver.pressures();
         for (int i = 0; i < model.particles(); ++i) {
             const double y = static_cast<double>(state.position[i].y());
@@ -133,9 +133,9 @@ TEST(Dfsph, ANeutralBodyHovers) {
         for (const int i : model.body.particles) sum += static_cast<double>(state.position[i].y());
         return sum / static_cast<double>(model.body.particles.size());
     };
-    advance(solver, model, state, 30);  // until the water has closed around it
+    advance_frames(solver, model, state, 30);  // until the water has closed around it
     const double before = height();
-    advance(solver, model, state, 60);
+    advance_frames(solver, model, state, 60);
     EXPECT_NEAR(height(), before, 0.1);  // in this time a stone falls by 5
 }
 
@@ -165,7 +165,7 @@ TEST(Dfsph, OverlapsArePartedWithoutSpeed) {
     for (auto& x : model.position) x *= 0.8;
     State<double> state = initial_state<double>(model);
     Solver<double> solver(model);
-    advance(solver, model, state, 15);
+    advance_frames(solver, model, state, 15);
     double squares = 0;
     for (const auto& v : state.velocity) squares += v.squaredNorm();
     EXPECT_LE(std::sqrt(squares / model.particles()), 0.6);
@@ -191,7 +191,7 @@ TEST(Dfsph, WallsPullTheWaterAlongTheirNormalsOnly) {
     for (std::size_t i = 0; i < model.position.size(); i += 3) model.inverse_mass[i] = 0.5;
     State<double> state = initial_state<double>(model);
     Solver<double> solver(model);
-    advance(solver, model, state, 10);
+    advance_frames(solver, model, state, 10);
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
     double size = 0;
     for (int i = 0; i < model.particles(); ++i) {
@@ -210,7 +210,7 @@ TEST(Dfsph, AnyNumberOfThreadsGivesTheSameBits) {
         Execution execution;
         execution.threads = threads;
         Solver<float> solver(model, execution);
-        advance(solver, model, state, 3);
+        advance_frames(solver, model, state, 3);
         return state;
     };
     const State<float> one = after(1), three = after(3);

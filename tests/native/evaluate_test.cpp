@@ -88,7 +88,7 @@ TEST(EvaluateTest, TheObserverSeesTheStartAndEveryFrame) {
 }
 
 TEST(EvaluateTest, TheSameInputGivesTheSameBits) {
-    const Scene scene = load_scene("thesis/creature-1", json::parse(R"({"duration":0.1})"));
+    const Scene scene = load_scene("bench/small-tank", json::parse(R"({"duration":0.1})"));
     const Evaluation first = evaluate(scene, creature_one);
     const Evaluation second = evaluate(scene, creature_one);
     EXPECT_EQ(first.hash, second.hash);

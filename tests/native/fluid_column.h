@@ -1,9 +1,8 @@
 #pragma once
 
 #include "natator/model.h"
-#include "natator/state.h"
 
-/// What the tests of the laws share, on the CPU and on a GPU: their models, and energies.
+/// What the tests of the laws share, on the CPU and on a GPU: their models.
 namespace natator::test {
 
 inline constexpr double frame = 1.0 / 60;
@@ -68,24 +67,6 @@ inline Model hanging_chain() {
         if (i > 0) model.springs.push_back({i - 1, i, 0.1, 1});
     }
     return model;
-}
-
-template <class Real>
-double kinetic_energy(const Model& model, const State<Real>& state) {
-    double energy = 0;
-    for (int i = 0; i < model.particles(); ++i)
-        if (model.inverse_mass[i] > 0)
-            energy += 0.5 / model.inverse_mass[i] * static_cast<double>(state.velocity[i].squaredNorm());
-    return energy;
-}
-
-template <class Real>
-double total_energy(const Model& model, const State<Real>& state) {
-    double energy = kinetic_energy(model, state);
-    for (int i = 0; i < model.particles(); ++i)
-        if (model.inverse_mass[i] > 0)
-            energy -= model.parameters.gravity.dot(state.position[i].template cast<double>()) / model.inverse_mass[i];
-    return energy;
 }
 
 }  // namespace natator::test

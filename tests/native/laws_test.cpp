@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "energy.h"
 #include "fluid_column.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bare_particles.h"
+#include "energy.h"
 #include "natator/evaluate.h"
 #include "natator/plan.h"
 #include "scene/scene_json.h"
@@ -196,7 +197,7 @@ TEST_P(Parameters, RelaxationFactorZeroIsTheMeanOrNothing) {
 TEST_P(Parameters, RelaxationFactorZeroIsAllowedInAScene) {
     for (const char* mode : {"local", "global"}) {
         Scene scene = load_scene(
-            "thesis/creature-1",
+            "bench/small-tank",
             nlohmann::json{{"duration", 0.05}, {"solver", {{"relaxationFactor", 0}, {"relaxationMode", mode}}}});
         scene.scheme = GetParam();
         const Evaluation result = evaluate(scene, {1, {1, 1}, {0, 0.5}, 1});

@@ -15,8 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
-
 /// A good request with one key set to something else, or removed if `value` is empty.
 std::string request_with(const std::string& key, const std::string& value) {
     json request = {{"id", 7}, {"scene", "thesis/creature-1-vacuum"}, {"gait", json::parse(gait)}, {"duration", 0.05}};

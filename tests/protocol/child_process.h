@@ -5,6 +5,9 @@
 
 namespace natator::test {
 
+/// A gait of creature 1.
+inline constexpr const char* gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
+
 /// What a finished program left behind.
 struct Outcome {
     int exit_code = -1;  ///< -1 if a signal ended it

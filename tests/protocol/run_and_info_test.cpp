@@ -16,8 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::string gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
-
 /// A path in the temporary folder, freed at the end.
 struct TemporaryPath {
     explicit TemporaryPath(const std::string& name)
@@ -149,7 +147,7 @@ TEST(RunTest, ASnapshotThatNeverComesIsSaid) {
 
 TEST(RunTest, AShiftedStartTakesAnotherCourse) {
     const auto run = [](const char* seed) {
-        return run_simulator({"run", "thesis/creature-1", "--gait", gait, "--duration", "0.1", "--perturbation", "1e-4",
+        return run_simulator({"run", "bench/small-tank", "--gait", gait, "--duration", "0.1", "--perturbation", "1e-4",
                               "--perturbation-seed", seed})
             .out;
     };

@@ -14,7 +14,6 @@
 namespace natator::test {
 
 inline const std::string vacuum = "thesis/creature-1-vacuum", water = "thesis/creature-1";
-inline const std::string gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
 inline const nlohmann::json step{{"do", "step"}};
 
 inline std::vector<std::string> paused_in(const std::string& scene, const std::vector<std::string>& more = {}) {
@@ -43,9 +42,9 @@ inline StreamFrame take_step(StreamClient& client, int frames = 1) {
 }
 
 /// As `natator-sim evaluate` computes it from the state.
-inline std::string hash_of(const StreamFrame& frame) {
+inline std::string hash_of(const StreamFrame& sent) {
     Fnv1a hash;
-    for (const auto* values : {&frame.position, &frame.velocity})
+    for (const auto* values : {&sent.position, &sent.velocity})
         for (const float value : *values) hash.add(value);
     return hash_text(hash.value());
 }

@@ -53,8 +53,8 @@ choose_fault() {
         local faults=(none crash garbage half exit silent wrong-id nan killed crash half garbage killed)
         fault=${faults[$(($2 * 7919 % 13))]}
         # These cost the caller its time limit and its patience.
-        (($2 % 400 == 75)) && fault=hang
-        (($2 % 400 == 250)) && fault=deaf
+        (($2 % 1000 == 75)) && fault=hang
+        (($2 % 1000 == 250)) && fault=deaf
         if [[ $fault != none ]]; then
             if first "$2"; then
                 : >"$here/fault-$2"

@@ -62,8 +62,9 @@ public final class Natator {
      * @param scene name, for example {@code thesis/creature-1}, or absolute path of a scene file
      */
     public EvolutionSettings settings(String scene) throws InterruptedException {
-        int actuators = SceneInfo.of(scene, null, execution.simulator()).actuators();
-        return EvolutionSettings.of(scene, EncodingKind.usualFor(scene), actuators).withBackend(execution.backend());
+        EncodingKind encoding = EncodingKind.usualFor(scene);
+        int actuators = SceneInfo.toEvolve(scene, encoding, null, execution.simulator()).actuators();
+        return EvolutionSettings.of(scene, encoding, actuators).withBackend(execution.backend());
     }
 
     /** Simulates one gait. A crash or hang is a result with status failed. */

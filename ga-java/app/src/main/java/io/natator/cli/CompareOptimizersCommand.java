@@ -124,8 +124,10 @@ final class CompareOptimizersCommand implements Callable<Integer> {
                 throw new InvalidInputException("--creatures has " + creature + "; expected 1, 2, 3 or 4");
             }
             String scene = "thesis/creature-" + creature;
-            int actuators = SceneInfo.of(scene, sceneOptions.overrides(), execution.simulator()).actuators();
-            scenes.put("creature-" + creature, EvolutionSettings.of(scene, EncodingKind.usualFor(scene), actuators)
+            EncodingKind encoding = EncodingKind.usualFor(scene);
+            int actuators =
+                    SceneInfo.toEvolve(scene, encoding, sceneOptions.overrides(), execution.simulator()).actuators();
+            scenes.put("creature-" + creature, EvolutionSettings.of(scene, encoding, actuators)
                     .withSize(population, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations)
                     .withFitness(fitness, false).withBackend(execution.backend())
                     .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides()));

@@ -166,13 +166,8 @@ final class EvolveCommand implements Callable<Integer> {
 
     private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
         String sceneName = choice.scene(spec);
-        int actuators = SceneInfo.of(sceneName, sceneOptions.overrides(), execution.simulator()).actuators();
         EncodingKind kind = encoding != null ? encoding : EncodingKind.usualFor(sceneName);
-        try {
-            kind.forActuators(actuators);
-        } catch (IllegalArgumentException e) {
-            throw new InvalidInputException("scene " + sceneName + ": " + e.getMessage(), e);
-        }
+        int actuators = SceneInfo.toEvolve(sceneName, kind, sceneOptions.overrides(), execution.simulator()).actuators();
         return EvolutionSettings.of(sceneName, kind, actuators)
                 .withSize(population != null ? population : preset.population(), generations())
                 .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)

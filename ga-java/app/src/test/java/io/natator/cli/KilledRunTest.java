@@ -87,7 +87,7 @@ class KilledRunTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"jgap, 20", "cma-es, 19", "random, 19"})
+    @CsvSource({"jgap, 18", "cma-es, 16", "random, 16"})
     void fiftyKillsChangeNothing(String optimizer, int kills) throws IOException, InterruptedException {
         Path whole = whole("--optimizer", optimizer);
         Path run = folder.resolve("killed");

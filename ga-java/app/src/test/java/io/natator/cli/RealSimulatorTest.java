@@ -18,6 +18,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
 
 /** The whole way from the command line through the real simulator and back. */
@@ -112,6 +113,21 @@ class RealSimulatorTest {
                 "--duration", "0.02", "--output-dir", run.toString())).as(err.toString()).isZero();
         assertThat(Json.parse(Files.readString(run.resolve("config.json")), JsonNode.class).get("actuators").asInt())
                 .isEqualTo(actuators);
+    }
+
+    /** With one joint there is no muscle between two. */
+    @ParameterizedTest
+    @ValueSource(strings = {"evolve --creature 1", "evolve --creature 2", "compare-optimizers --creatures 1,2"})
+    void aCreatureThatCannotMoveIsNotEvolved(String command) {
+        Path output = folder.resolve("output");
+        List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
+        arguments.addAll(List.of("--overrides", "{\"creature\":{\"joints\":[5]}}", "--output-dir", output.toString()));
+
+        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
+
+        assertThat(err.toString().lines()).singleElement().asString().startsWith("natator " + arguments.get(0))
+                .contains("cannot move by itself: it has no actuators").contains("at least two joints");
+        assertThat(output).doesNotExist();
     }
 
     @ParameterizedTest

@@ -19,8 +19,12 @@ public final class ProcessGroup implements AutoCloseable {
     /** A killed process is gone at once unless the system is in trouble. */
     private static final long KILL_GRACE_SECONDS = 5;
 
-    /** In the environment of a process and of all its descendants: which start they come from. */
+    /**
+     * In the environment of a process and of all its descendants: which start they come from. One id after another where
+     * a process that was started so starts others so, each ended by {@link #END}: every one of the starts finds them.
+     */
     private static final String MARK = "NATATOR_STARTED_AS";
+    private static final String END = ";";
     private static final Path PROCESSES = Path.of("/proc");
 
     private final String name = UUID.randomUUID().toString();
@@ -47,10 +51,10 @@ public final class ProcessGroup implements AutoCloseable {
     public Process start(List<String> command) throws SimulatorFailure, InterruptedException {
         failIfStopped();
         Process process;
-        String mark = MARK + '=' + name + '.' + started.incrementAndGet();
+        String mark = name + '.' + started.incrementAndGet() + END;
         try {
             ProcessBuilder builder = new ProcessBuilder(command);
-            builder.environment().put(MARK, mark.substring(MARK.length() + 1));
+            builder.environment().merge(MARK, mark, String::concat);
             process = builder.start();
         } catch (IOException e) {
             throw new SimulatorFailure("cannot start " + command.get(0) + ": " + e.getMessage(), e);
@@ -96,7 +100,7 @@ public final class ProcessGroup implements AutoCloseable {
             process.toHandle().destroyForcibly();
             descendants.forEach(ProcessHandle::destroyForcibly);
             if (mark != null) {
-                killAllMarked(mark + '\0');
+                killAllMarked(mark);
             }
         }
     }
@@ -141,7 +145,7 @@ public final class ProcessGroup implements AutoCloseable {
         stopped = true;
         running.keySet().forEach(this::kill);
         if (started.get() > 0) {
-            killAllMarked(MARK + '=' + name + '.');  // what a program left behind that ended by itself
+            killAllMarked(name + '.');  // what a program left behind that ended by itself
         }
     }
 

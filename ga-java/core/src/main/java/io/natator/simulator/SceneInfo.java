@@ -4,6 +4,7 @@ import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.EncodingKind;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import java.nio.file.Path;
@@ -47,6 +48,26 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("simulator does not describe scene " + scene + ": " + Json.reason(e), e);
         }
+    }
+
+    /**
+     * The same, of a scene whose gaits are to be evolved.
+     *
+     * @throws InvalidInputException also if it has no actuators, or too few for the encoding
+     */
+    public static SceneInfo toEvolve(String scene, EncodingKind encoding, JsonNode overrides, Path simulator)
+            throws InterruptedException {
+        SceneInfo info = of(scene, overrides, simulator);
+        if (info.actuators == 0) {
+            throw new InvalidInputException("scene " + scene + " cannot move by itself: it has no actuators; expected a "
+                    + "creature with at least two joints");
+        }
+        try {
+            encoding.forActuators(info.actuators);
+        } catch (IllegalArgumentException e) {
+            throw new InvalidInputException("scene " + scene + ": " + e.getMessage(), e);
+        }
+        return info;
     }
 
     /**

@@ -41,7 +41,7 @@ public final class EvolutionPlan {
         Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
         for (int creature : creatures) {
             String scene = ThesisData.scene(creature);
-            int actuators = SceneInfo.of(scene, null, simulator).actuators();
+            int actuators = SceneInfo.toEvolve(scene, EncodingKind.usualFor(scene), null, simulator).actuators();
             EvolutionSettings settings = EvolutionSettings.of(scene, EncodingKind.usualFor(scene), actuators)
                     .withSize(population, generations).withBackend(backend);
             for (Scheme scheme : schemes) {
