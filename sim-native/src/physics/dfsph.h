@@ -135,8 +135,8 @@ struct ResponseSums {
     }
 };
 
-/// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it would
-/// overshoot. `own`, `other`: a particle's volume times its inverse mass; `most`: what that may be.
+/// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it
+/// would overshoot. `own`, `other`: a particle's volume times its inverse mass; `most`: what that may be.
 template <class T>
 NATATOR_HD T viscous_share(T own, T other, Scalar<T> most) {
     const T larger = smaller(-own, -other) * Scalar<T>(-1);

@@ -10,18 +10,18 @@
 namespace natator::cpu {
 namespace {
 
-constexpr double wet = 0.9;            ///< density from which a particle is held incompressible
-constexpr double relaxation = 0.5;     ///< of the Jacobi passes
-constexpr int divergence_passes = 1;   ///< on the velocities as they are
-constexpr double most_excess = 0.05;   ///< of rest density that the velocities take off in a substep
-constexpr double expansion = 1.0 / 6;  ///< rate at which they may, times the time in which gravity parts two particles
-constexpr double most_overlap = 0.5;   ///< of rest density that a substep takes off without them
-constexpr int parting_passes = 4;      ///< on overlaps
+constexpr double wet = 0.9;              ///< density from which a particle is held incompressible
+constexpr double relaxation = 0.5;       ///< of the Jacobi passes
+constexpr int divergence_passes = 1;     ///< on the velocities as they are
+constexpr double most_excess = 0.05;     ///< of rest density that the velocities take off in a substep
+constexpr double expansion = 0.25;       ///< rate at which they may, times sqrt(s / g)
+constexpr double most_overlap = 0.5;     ///< of rest density that a substep takes off without velocities
+constexpr int parting_passes = 4;        ///< on overlaps
 constexpr double longest_parting = 0.5;  ///< of the rest distance, a substep
-constexpr double most_diffusion = 0.1; ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
-constexpr double shift_strength = 0.5; ///< of R h |dv| times where neighbours crowd
-constexpr double longest_shift = 0.05; ///< of the rest distance, a substep
-constexpr double shifted_density = 0.95;  ///< below it is the surface, which is left as it is
+constexpr double most_diffusion = 0.1;   ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
+constexpr double shift_strength = 0.5;   ///< of R h |dv| times where neighbours crowd
+constexpr double longest_shift = 0.05;   ///< of the rest distance, a substep
+constexpr double shifted_density = 0.95; ///< below it is the surface, which is left as it is
 
 }  // namespace
 
@@ -64,16 +64,16 @@ Vec3<Real> Water<Real>::shift(int particle) const {
     return clamped(strength * crowding_.at(slot), Real(longest_shift) * spacing_) + parting;
 }
 
-/// What the velocities take off of a density above rest in this substep; negative below it. The speed that this gives does
-/// not leave again, so it must be let out slowly.
+/// What the velocities take off of a density above rest in this substep; negative below it. The speed that this gives
+/// stays, so it must be little.
 template <class Real>
 Real Water<Real>::excess_for_velocities(int slot) const {
     return std::min(density_[slot] - 1, std::min(Real(most_excess), h_ * fastest_expansion_));
 }
 
-/// Where particles start too close, parts them without giving them a velocity: by passes on velocities that begin at 0 and
-/// are forgotten once they have moved the particles (Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking,
-/// 2003, and others call that split impulses). Bodies stay where they are, as pushing their particles would bend them.
+/// Where particles start too close, parts them without giving them a velocity: by passes on velocities that begin at 0
+/// and are forgotten once they have moved the particles ("split impulse" or "pseudo-velocity" in rigid body solvers).
+/// Bodies stay where they are, as pushing their particles would bend them.
 template <class Real>
 void Water<Real>::part_overlaps(ThreadTeam& team) {
     parting_.clear();
@@ -285,7 +285,8 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     std::fill(target_.begin(), target_.end(), Real(0));
     for (int pass = 0; pass < divergence_passes; ++pass) push_apart(team);
     if (dynamic_viscosity_ > 0) {
-        const Real strength = 10 * h * dynamic_viscosity_, most = 10 * Real(most_diffusion) * spacing_ * spacing_ / strength;
+        const Real strength = 10 * h * dynamic_viscosity_;
+        const Real most = 10 * Real(most_diffusion) * spacing_ * spacing_ / strength;
         on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
     }
     add_effects(team);
