@@ -177,6 +177,24 @@ TEST(Dfsph, LightBodiesAreBorne) {
     EXPECT_EQ(made_worse("mass-ratio", 0.003, 0.2).verdict, bench::Verdict::ok) << "in viscous water";
 }
 
+/// Only what is too light is made heavier, and only frames that are too long get more substeps.
+TEST(Dfsph, ScenesAreFittedToTheWater) {
+    const Model neutral = build_model(load_scene("open-water/creature-2"));
+    EXPECT_NEAR(neutral.inverse_mass[neutral.body.particles.front()], 1 / 0.421875, 1e-9);
+    EXPECT_EQ(neutral.parameters.substeps, load_scene("open-water/creature-2").solver.substeps);
+
+    Scene scene = bench::calm_case().scene;
+    scene.scheme = Scheme::dfsph;
+    scene.creature->particle_mass = 1e-4;
+    scene.time_step *= 32;
+    const Model model = build_model(scene);
+    const double displaced = std::pow(0.075 / 0.1, 3);  // fluid particles weigh 1, those of the body are 0.075 apart
+    EXPECT_NEAR(1 / model.inverse_mass[model.body.particles.front()], 0.02 * displaced, 1e-4);
+    EXPECT_EQ(model.parameters.substeps, 17);  // 32/60 s in steps of sqrt(0.1 0.1 / 10) s
+    scene.scheme = Scheme::conserving;
+    EXPECT_EQ(build_model(scene).parameters.substeps, 4);
+}
+
 TEST(Dfsph, LongTimeStepsAreBorne) {
     EXPECT_EQ(made_worse("dt", 32).verdict, bench::Verdict::ok);
 }

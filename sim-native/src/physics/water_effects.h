@@ -1,19 +1,20 @@
-// Forces of effects.h in the water of scheme `dfsph`, which has G_ij of every pair by then (see dfsph.h): gradients come from
-// these, so that they are exact for linear fields, and walls and bodies are no surface. R is the least of interaction radius
-// and kernel support, w an inverse mass, difference = x_i - x_j.
+// Forces of effects.h in the water of scheme `dfsph`, which has G_ij of every pair by then (see dfsph.h): gradients come
+// from these, so that they are exact for linear fields, and walls and bodies are no surface. R is the lesser of
+// interaction radius and kernel support, `own` and `other` are inverse masses, difference = x_i - x_j.
 #pragma once
 
 #include "effects.h"
 
 namespace natator::physics::inline NATATOR_SET {
 
-/// Change of i's velocity by the cohesion of a pair of fluid particles, without -cohesion R h / h0^2; see cohesion_pull.
+/// Change of i's velocity by the cohesion of a pair of fluid particles, without -cohesion R h / h0^2, h0 the thesis'
+/// substep; see cohesion_pull.
 template <class T>
 NATATOR_HD Vec3<T> cohesion_part(const Vec3<T>& difference, T r, T inverse_radius, T slope, T own, T other) {
     return impulse_share(own, other) * cohesion_pull(r * inverse_radius, slope) / r * difference;
 }
 
-/// Change of i's velocity by the surface tension of a pair of fluid particles, without -surfaceTension h, `normal`s from
+/// Change of i's velocity by the surface tension of a pair of fluid particles, without -surfaceTension h; normals as by
 /// colour_normal.
 template <class T>
 NATATOR_HD Vec3<T> tension_part(const Vec3<T>& normal, const Vec3<T>& other_normal, T own, T other) {

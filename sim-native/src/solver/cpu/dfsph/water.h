@@ -22,8 +22,8 @@ class Water {
 public:
     explicit Water(const Model& model);
 
-    /// Takes the state at the start of a substep of length h (s): takes off part of what compresses, then adds viscosity, the
-    /// forces that the thesis leaves off, and gravity. Overlaps go into shift().
+    /// Takes the state at the start of a substep of length h (s): puts overlaps into shift(), takes off part of what
+    /// compresses, then adds viscosity, the forces that the thesis leaves off, and gravity.
     void begin(const State<Real>& state, Real h, ThreadTeam& team);
     /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after begin() is where
     /// they lead to more than rest density.

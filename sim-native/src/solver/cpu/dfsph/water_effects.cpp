@@ -55,7 +55,8 @@ void Water<Real>::add_cohesion(ThreadTeam& team) {
     for_fluid_slots(team, [&](int slot) {
         Vec3<Real> sum{};
         for_each_fluid_within_radius(slot, [&](int other, const Vec3<Real>& difference, Real r) {
-            sum += physics::cohesion_part(difference, r, inverse_radius, slope, inverse_mass_[slot], inverse_mass_[other]);
+            sum += physics::cohesion_part(difference, r, inverse_radius, slope, inverse_mass_[slot],
+                                          inverse_mass_[other]);
         });
         push(slot, -step * sum);
     });
