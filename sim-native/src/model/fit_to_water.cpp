@@ -13,7 +13,7 @@ namespace {
 
 constexpr double least_density = 0.02;  ///< of a solid, in units of the water's
 constexpr double longest_fall = 0.1;    ///< from rest in a substep, in rest distances
-constexpr double most_weight = 0.05;    ///< g H h^2 / s^2 of water of depth H that a pass holds up
+constexpr double most_weight = 2;       ///< g H h^2 / s^2 of water of depth H that a pass holds up, in what it may take off
 
 void raise_light_solids(Model& model) {
     const std::vector<double> volumes = cpu::particle_volumes(model);
@@ -42,7 +42,8 @@ void raise_substeps(Model& model) {
     if (!(gravity > 0)) return;
     const double spacing = p.fluidRestDistance;
     const double passes = physics::divergence_passes + p.numIterations;
-    const double for_depth = spacing * std::sqrt(most_weight * passes / (gravity * std::max(depth(model), spacing)));
+    const double held = most_weight * passes * spacing * spacing / (gravity * std::max(depth(model), spacing));
+    const double for_depth = std::min(std::sqrt(held * physics::most_excess), held * cpu::fastest_expansion(p));
     const double longest = std::min(std::sqrt(longest_fall * spacing / gravity), for_depth);
     constexpr double rounding = 1e-9;
     p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));

@@ -58,8 +58,8 @@ NATATOR_HD T unit_part(T v) {
 inline constexpr double wet_density = 0.9;     ///< from which a particle is held incompressible, of rest density
 inline constexpr double jacobi_relaxation = 0.5;
 inline constexpr int divergence_passes = 1;    ///< on the velocities as they are, a substep
-inline constexpr double most_excess = 0.05;    ///< of rest density that the velocities take off in a substep; more is an overlap
-inline constexpr double expansion = 0.25;      ///< rate at which they may take off an overlap, times sqrt(s / g)
+inline constexpr double most_excess = 0.05;    ///< of rest density that the velocities take off in a substep
+inline constexpr double expansion = 0.25;      ///< rate at which they may, times sqrt(s / g)
 inline constexpr double most_overlap = 0.5;    ///< of rest density that a substep takes off without them
 inline constexpr int parting_passes = 4;       ///< on overlaps
 inline constexpr double longest_parting = 0.5; ///< of the rest distance, a substep
@@ -151,28 +151,25 @@ struct ResponseSums {
     }
 };
 
-/// What the velocities take off of a density above rest in a substep; negative below it. Of an overlap it is less, down to
-/// `slow`, the smaller of most_excess and h times the fastest expansion: the speed that this gives does not leave again.
+/// What the velocities take off of a density above rest in a substep; negative below it. The speed that this gives does not
+/// leave again, so it is at most `most`, the smaller of most_excess and h times the fastest expansion.
 template <class T>
-NATATOR_HD T velocity_excess(T density, Scalar<T> slow) {
-    using R = Scalar<T>;
-    const T above = density - 1, overlap = positive_part(above - R(most_excess));
-    const T most = R(-1) * smaller(overlap - R(most_excess), T{} - slow);
-    return smaller(above, most);
+NATATOR_HD T velocity_excess(T density, Scalar<T> most) {
+    return smaller(density - 1, T{} + most);
 }
 
 /// The rate of expansion, times V_i, that a density solve goes for: what takes a particle to rest density in a substep.
 template <class T>
-NATATOR_HD T density_target(T volume, T density, Scalar<T> slow, Scalar<T> h) {
-    return volume / h * velocity_excess(density, slow);
+NATATOR_HD T density_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
+    return volume / h * velocity_excess(density, most);
 }
 
-/// The same of an overlap. It is parted by passes on velocities that begin at 0 and are forgotten once they have moved the
-/// particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003, and others).
+/// The same of the rest of an overlap. It is parted by passes on velocities that begin at 0 and are forgotten once they have
+/// moved the particles (split impulses: Guendelman, Bridson, Fedkiw: Nonconvex Rigid Bodies with Stacking, 2003, and others).
 template <class T>
-NATATOR_HD T parting_target(T volume, T density, Scalar<T> h) {
-    using R = Scalar<T>;
-    return volume / h * positive_part(smaller(density - 1, T{} + R(most_overlap)) - R(most_excess));
+NATATOR_HD T parting_target(T volume, T density, Scalar<T> most, Scalar<T> h) {
+    const T above = smaller(density - 1, T{} + Scalar<T>(most_overlap));
+    return volume / h * positive_part(above - velocity_excess(density, most));
 }
 
 /// Pressure impulse of a Jacobi pass: takes a rate of expansion below its target there, never above.

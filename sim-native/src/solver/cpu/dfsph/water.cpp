@@ -52,7 +52,7 @@ Vec3<Real> Water<Real>::shift(int particle) const {
 
 /// See physics::velocity_excess.
 template <class Real>
-Real Water<Real>::slow_excess() const {
+Real Water<Real>::velocity_limit() const {
     return std::min(Real(physics::most_excess), h_ * fastest_expansion_);
 }
 
@@ -63,8 +63,8 @@ void Water<Real>::part_overlaps(ThreadTeam& team) {
     parting_.clear();
     bool any = false;
     for (int slot = 0; slot < particles_; ++slot) {
-        any |= density_[slot] - 1 > Real(physics::most_excess);
-        target_[slot] = physics::parting_target(volume_[slot], density_[slot], h_);
+        any |= density_[slot] - 1 > Real(physics::overlap_tolerance);
+        target_[slot] = physics::parting_target(volume_[slot], density_[slot], velocity_limit(), h_);
     }
     if (!any) return;
     kept_velocity_ = velocity_;
@@ -277,8 +277,8 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     for (int slot = 0; slot < particles_; ++slot) {
         if (inverse_mass_[slot] > 0)
             velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
-        target_[slot] = physics::density_target(volume_[slot], density_[slot], slow_excess(), h);
-        target_[slot] = physics::density_target(volume_[slot], density_[slot], slow_excess(), h);
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], velocity_limit(), h);
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], velocity_limit(), h);
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();

@@ -54,7 +54,7 @@ private:
     void lay_out(const State<Real>& state);
     void find_neighbours(ThreadTeam& team);
     void mirror_corrections();
-    Real slow_excess() const;
+    Real velocity_limit() const;
     void part_overlaps(ThreadTeam& team);
     WaterView<Real> view();
 

@@ -227,7 +227,7 @@ __global__ void __launch_bounds__(large_threads)
     const Real mobility = moves.w > 0 ? moves.w : 1 / (model.water.density * here.w);
     water.shear[s] = {l.xz, l.yz, mobility, 0};
     water.crowding[s] = quad(sums.crowding, sums.fastest_square);
-    if (density - 1 > Real(physics::most_excess)) slots.shared().high = 1;
+    if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
 }
 
 template <class Real>
@@ -274,7 +274,7 @@ constexpr bool parts(Pass pass) {
 
 /// See physics::velocity_excess.
 template <class Real>
-__device__ Real slow_excess(const ModelView<Real>& model, Real h) {
+__device__ Real velocity_limit(const ModelView<Real>& model, Real h) {
     return min(Real(physics::most_excess), h * model.water.fastest_expansion);
 }
 
@@ -297,10 +297,10 @@ __global__ void __launch_bounds__(large_threads)
     }
     if (own_lane() != 0) return;
     const Real volume = water.position[s].w, density = water.density[s];
+    const Real most = velocity_limit(model, slots.h);
     Real target = 0;
-    if (parts(pass)) target = physics::parting_target(volume, density, slots.h);
-    if (pass == Pass::density)
-        target = physics::density_target(volume, density, slow_excess(model, slots.h), slots.h);
+    if (parts(pass)) target = physics::parting_target(volume, density, most, slots.h);
+    if (pass == Pass::density) target = physics::density_target(volume, density, most, slots.h);
     water.impulse[s] = physics::pressure_impulse(target, rate, water.response[s], density);
 }
 
