@@ -17,8 +17,8 @@ void add_backend_options(CLI::App* command, BackendChoice& choice) {
         ->capture_default_str();
     command->add_flag(
         "--whole-gpu", choice.whole_gpu,
-        "Use the whole GPU for one scene at a time, however small: faster for a single evaluation, slower "
-        "for many, with bits of its own.");
+        "Compute by kernels of the whole GPU, however small the scene: faster for a single evaluation, slower "
+        "for many, with bits of its own. Scheme dfsph always does.");
 }
 
 bool on_gpu(const BackendChoice& choice, const Scene& scene) {

@@ -144,20 +144,34 @@ private:
 /// So many fill a GPU; more at a time only take more memory.
 constexpr int particles_at_a_time = 1'000'000;
 
-}  // namespace
-
+/// At most so many at a time, in parts of the same size as far as they go.
 template <class Real>
-std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
-                                       BatchTimes* times) {
+std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Model& model,
+                                          const std::vector<BatchMember>& members, int most, BatchTimes* times) {
     const int all = static_cast<int>(members.size());
-    // Parts of the same size, as far as they go.
-    const int most = std::min(all, particles_at_a_time / model.particles() + 1);
     const int parts = (all + most - 1) / most, states = (all + parts - 1) / parts;
     LargeScene<Real> large(scene, model, states, times);
     std::vector<Evaluation> evaluations;
     for (int first = 0; first < all; first += states)
         large.evaluate(members.data() + first, std::min(states, all - first), evaluations);
     return evaluations;
+}
+
+}  // namespace
+
+template <class Real>
+std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
+                                       BatchTimes* times) {
+    const int all = static_cast<int>(members.size());
+    int most = std::min(all, particles_at_a_time / model.particles() + 1);
+    for (;;) {
+        try {
+            return evaluate_in_parts<Real>(scene, model, members, most, times);
+        } catch (const std::bad_alloc&) {
+            if (most == 1) throw;
+            most = (most + 1) / 2;
+        }
+    }
 }
 
 template std::vector<Evaluation> evaluate_large<float>(const Scene&, const Model&, const std::vector<BatchMember>&,

@@ -10,7 +10,7 @@ public enum Scheme {
     /** Keeps the momentum of internal forces. */
     @JsonProperty("conserving")
     CONSERVING,
-    /** In incompressible water: divergence-free SPH. On the CPU only. */
+    /** In incompressible water: divergence-free SPH. */
     @JsonProperty("dfsph")
     DFSPH
 }
