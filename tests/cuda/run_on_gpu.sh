@@ -106,7 +106,7 @@ export -f generation serve_generation
 export simulator
 check serve-150-requests bash -uo pipefail -c serve_generation
 
-# --- memory accesses and races, on short runs of all schemes - -------------------------------------------------------------
+# --- memory accesses and races, on short runs of all schemes ----------------------------------------------------------------
 
 sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null)
 short_runs() {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/cluster.h"
 #include "water/water_tank.h"
 
 namespace natator::bench {
@@ -18,20 +19,14 @@ struct Fall {
 
 /// Particles within the sphere become a rigid body that displaces just the water that was there.
 void immerse_sphere(const Eigen::Vector3d& centre, double radius, Model& model) {
-    Cluster sphere;
-    sphere.stiffness = 1;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    std::vector<int> sphere;
     for (int i = 0; i < model.particles(); ++i) {
         if ((model.position[i] - centre).norm() > radius) continue;
         model.phase[i] = 1;
         model.inverse_mass[i] = 0;  // until it is let go
-        sphere.particles.push_back(i);
-        mean += model.position[i];
+        sphere.push_back(i);
     }
-    mean /= static_cast<double>(sphere.particles.size());
-    for (const int i : sphere.particles) sphere.rest_offset.push_back(model.position[i] - mean);
-    sphere.centre = mean;
-    model.clusters = {sphere};
+    model.clusters = {make_cluster(sphere, model.position, 1)};
 }
 
 /// Of a sphere of the volume that the body displaces.

@@ -151,8 +151,21 @@ struct ResponseSums {
     }
 };
 
+/// What a particle yields to a push by: its inverse mass. One that is held counts as water in the pressure solve: next to
+/// nothing but held ones the pressure would have no bound. `fluid_density`: mass/length^3, 0 without water that moves.
+template <class T>
+NATATOR_HD T mobility(T inverse_mass, T volume, T fluid_density) {
+    return inverse_mass > 0 || !(fluid_density > 0) ? inverse_mass : 1 / (fluid_density * volume);
+}
+
+/// The most that velocities may take off of a density above rest in a substep of length h.
+template <class T>
+NATATOR_HD T velocity_limit(T h, T fastest_expansion) {
+    return smaller(T(most_excess), h * fastest_expansion);
+}
+
 /// What the velocities take off of a density above rest in a substep; negative below it. The speed that this gives does not
-/// leave again, so it is at most `most`, the smaller of most_excess and h times the fastest expansion.
+/// leave again, so it is at most `most`, a velocity_limit.
 template <class T>
 NATATOR_HD T velocity_excess(T density, Scalar<T> most) {
     return smaller(density - 1, T{} + most);
@@ -186,6 +199,12 @@ NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square
     if (!(density > T(shifted_density))) return {};
     const T strength = T(shift_strength) * radius * h * square_root(fastest_square);
     return clamped(strength * crowding, T(longest_shift) * spacing);
+}
+
+/// The most that a particle's volume times its inverse mass may be where viscous impulses are 10 h mu = `strength`.
+template <class T>
+NATATOR_HD T viscous_limit(T spacing, T strength) {
+    return 10 * T(most_diffusion) * spacing * spacing / strength;
 }
 
 /// The part of a pair's viscosity that an explicit step of it bears: all of it unless one of the two is so light that it would

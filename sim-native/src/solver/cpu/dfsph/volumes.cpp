@@ -76,9 +76,4 @@ double fastest_expansion(const SolverParameters& parameters) {
     return physics::expansion * std::sqrt(acceleration / parameters.fluidRestDistance);
 }
 
-double mobility(double inverse_mass, double volume, double fluid_density) {
-    if (inverse_mass > 0 || !(fluid_density > 0)) return inverse_mass;
-    return 1 / (fluid_density * volume);
-}
-
 }  // namespace natator::cpu

@@ -16,10 +16,6 @@ double fluid_density(const Model& model, const std::vector<double>& volumes);
 /// Rate at which velocities may take off a density above rest, 1/s: see physics::velocity_excess.
 double fastest_expansion(const SolverParameters& parameters);
 
-/// What a particle yields to a push by, 1/mass: its inverse mass. Those that are held count as water in the pressure
-/// solve: next to nothing but them the pressure would have no bound.
-double mobility(double inverse_mass, double volume, double fluid_density);
-
 /// R: where the kernel of the water ends, length.
 double support(const Model& model);
 

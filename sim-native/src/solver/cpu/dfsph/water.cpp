@@ -30,7 +30,7 @@ Water<Real>::Water(const Model& model)
     for (const double v : volumes) volume_of_.push_back(static_cast<Real>(v));
     for (const double w : model.inverse_mass) inverse_mass_of_.push_back(static_cast<Real>(w));
     for (int i = 0; i < particles_; ++i)
-        mobility_of_.push_back(static_cast<Real>(mobility(model.inverse_mass[i], volumes[i], density)));
+        mobility_of_.push_back(static_cast<Real>(physics::mobility(model.inverse_mass[i], volumes[i], density)));
     slot_of_.resize(particles_);
     cell_of_.resize(particles_);
     particle_of_.assign(image_begin_, -1);
@@ -50,21 +50,16 @@ Vec3<Real> Water<Real>::shift(int particle) const {
            physics::shift_of(density_[slot], crowding_.at(slot), fastest_square_[slot], radius_, spacing_, h_);
 }
 
-/// See physics::velocity_excess.
-template <class Real>
-Real Water<Real>::velocity_limit() const {
-    return std::min(Real(physics::most_excess), h_ * fastest_expansion_);
-}
-
 /// Where particles start too close, see physics::parting_target. Bodies stay where they are, as pushing their particles
 /// would bend them.
 template <class Real>
 void Water<Real>::part_overlaps(ThreadTeam& team) {
     parting_.clear();
+    const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     bool any = false;
     for (int slot = 0; slot < particles_; ++slot) {
         any |= density_[slot] - 1 > Real(physics::overlap_tolerance);
-        target_[slot] = physics::parting_target(volume_[slot], density_[slot], velocity_limit(), h_);
+        target_[slot] = physics::parting_target(volume_[slot], density_[slot], limit, h_);
     }
     if (!any) return;
     kept_velocity_ = velocity_;
@@ -268,17 +263,17 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     for (int pass = 0; pass < physics::divergence_passes; ++pass) push_apart(team);
     if (dynamic_viscosity_ > 0) {
         const Real strength = 10 * h * dynamic_viscosity_;
-        const Real most = 10 * Real(physics::most_diffusion) * spacing_ * spacing_ / strength;
+        const Real most = physics::viscous_limit(spacing_, strength);
         on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
     }
     add_effects(team);
+    const Real limit = physics::velocity_limit(h, fastest_expansion_);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
     const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
     for (int slot = 0; slot < particles_; ++slot) {
         if (inverse_mass_[slot] > 0)
             velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
-        target_[slot] = physics::density_target(volume_[slot], density_[slot], velocity_limit(), h);
-        target_[slot] = physics::density_target(volume_[slot], density_[slot], velocity_limit(), h);
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], limit, h);
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();

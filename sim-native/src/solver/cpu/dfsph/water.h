@@ -54,7 +54,6 @@ private:
     void lay_out(const State<Real>& state);
     void find_neighbours(ThreadTeam& team);
     void mirror_corrections();
-    Real velocity_limit() const;
     void part_overlaps(ThreadTeam& team);
     WaterView<Real> view();
 

@@ -22,7 +22,7 @@ struct WaterView {
     const Real* position[3];
     const Real* volume;
     const Real* inverse_mass;
-    const Real* mobility;  ///< see cpu::mobility
+    const Real* mobility;  ///< see physics::mobility
     Real* velocity[3];
     Real* density;
     Real* correction[6];    ///< L_i: xx, yy, zz, xy, xz, yz

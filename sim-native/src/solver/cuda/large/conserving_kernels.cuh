@@ -118,15 +118,21 @@ __global__ void __launch_bounds__(large_threads)
     solve_planes_of(model, slots, s);
 }
 
+/// Contacts, springs and clusters, by one block.
+template <class Real>
+__device__ void solve_bodies(const ModelView<Real>& model, const Slots<Real>& slots) {
+    if (model.plan.contacts) solve_contacts(model, slots);
+    if (model.plan.springs) solve_springs(model, slots);
+    if (model.plan.clusters) solve_clusters(model, slots);
+}
+
 /// Contacts, springs, clusters, and planes of what is left. One block.
 template <class Real>
 __global__ void __launch_bounds__(threads)
     solids_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
     const Slots<Real> slots = states.state(blockIdx.y);
     if (slots.failed()) return;
-    if (model.plan.contacts) solve_contacts(model, slots);
-    if (model.plan.springs) solve_springs(model, slots);
-    if (model.plan.clusters) solve_clusters(model, slots);
+    solve_bodies(model, slots);
     const int touched = model.plan.contacts ? slots.shared().touched : 0;
     for (int t = threadIdx.x; t < touched; t += threads)
         if (slots.touched()[t] < model.fluid) solve_planes_of(model, slots, slots.touched()[t]);

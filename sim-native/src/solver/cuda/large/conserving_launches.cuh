@@ -38,8 +38,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
             solids_large<<<launch.grid(1), threads, 0, launch.part()>>>(model, slots);
             after(Stage::solids);
         }
-        if (model.plan.fluid) free_pressure_large
-            <<<launch.grid(blocks), large_threads, 0, launch.stream>>>(model, slots);
+        if (model.plan.fluid)
+            free_pressure_large<<<launch.grid(blocks), large_threads, 0, launch.stream>>>(model, slots);
         after(Stage::density_constraint);
         if (model.solids > 0) launch.join();
     }

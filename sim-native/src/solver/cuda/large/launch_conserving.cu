@@ -1,6 +1,7 @@
 #include "conserving_launches.cuh"
 
 namespace natator::cuda {
+
 template <class Real, Scheme scheme>
 void launch_substep_of(const LargeLaunch<Real>& launch) {
     static_assert(scheme == Scheme::conserving);

@@ -26,6 +26,12 @@ __device__ Vec3<Real> ghost_of(const WaterModel<Real>& water, const Vec3<Real>& 
     return planes == 0 ? x : turned(water.reflection[planes], x) + water.reflection[planes].shift;
 }
 
+/// What a particle keeps from planes. Water does not touch them otherwise: its ghosts hold it.
+template <class Real>
+__device__ Real wall_distance(const ModelView<Real>& model, bool fluid) {
+    return fluid ? Real(physics::least_wall_distance) * model.water.spacing : model.collision_distance;
+}
+
 /// Calls visit(planes, position) for a particle at x and for its ghosts.
 template <class Real, class Visit>
 __device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x, const Visit& visit) {
@@ -59,9 +65,7 @@ __global__ void __launch_bounds__(large_threads)
     const bool fluid = number < model.fluid;
     Quad<Real> x = slots.at.state_position[s];
     if (x.w > 0) {
-        const Real distance =
-            fluid ? Real(physics::least_wall_distance) * model.water.spacing : model.collision_distance;
-        x = quad(put_before_planes(model, xyz(x), distance), x.w);
+        x = quad(put_before_planes(model, xyz(x), wall_distance(model, fluid)), x.w);
         slots.at.state_position[s] = x;
     }
     water.position[s] = quad(xyz(x), model.water.volume[number]);
@@ -224,8 +228,7 @@ __global__ void __launch_bounds__(large_threads)
     water.density[s] = density;
     water.density_of[number_in(slots.at.state_velocity[s].w)] = density;
     water.correction[s] = {l.xx, l.yy, l.zz, l.xy};
-    const Real mobility = moves.w > 0 ? moves.w : 1 / (model.water.density * here.w);
-    water.shear[s] = {l.xz, l.yz, mobility, 0};
+    water.shear[s] = {l.xz, l.yz, physics::mobility(moves.w, here.w, model.water.density), 0};
     water.crowding[s] = quad(sums.crowding, sums.fastest_square);
     if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
 }
@@ -272,12 +275,6 @@ constexpr bool parts(Pass pass) {
     return pass == Pass::first_parting || pass == Pass::parting;
 }
 
-/// See physics::velocity_excess.
-template <class Real>
-__device__ Real velocity_limit(const ModelView<Real>& model, Real h) {
-    return min(Real(physics::most_excess), h * model.water.fastest_expansion);
-}
-
 /// The impulses of a Jacobi pass.
 template <Pass pass, class Real>
 __global__ void __launch_bounds__(large_threads)
@@ -297,7 +294,7 @@ __global__ void __launch_bounds__(large_threads)
     }
     if (own_lane() != 0) return;
     const Real volume = water.position[s].w, density = water.density[s];
-    const Real most = velocity_limit(model, slots.h);
+    const Real most = physics::velocity_limit(slots.h, model.water.fastest_expansion);
     Real target = 0;
     if (parts(pass)) target = physics::parting_target(volume, density, most, slots.h);
     if (pass == Pass::density) target = physics::density_target(volume, density, most, slots.h);
@@ -345,7 +342,7 @@ __global__ void __launch_bounds__(large_threads)
     Vec3<Real> v = xyz(moves);
     if (model.water.dynamic_viscosity > 0) {
         const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
-        const Real most = 10 * Real(physics::most_diffusion) * model.water.spacing * model.water.spacing / strength;
+        const Real most = physics::viscous_limit(model.water.spacing, strength);
         physics::ViscousSums<Real> sums;
         for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
             const Quad<Real> there = water.position[other];
@@ -395,9 +392,7 @@ __global__ void __launch_bounds__(threads)
     solids_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
     const Slots<Real> slots = states.state(blockIdx.y);
     if (slots.failed()) return;
-    if (model.plan.contacts) solve_contacts(model, slots);
-    if (model.plan.springs) solve_springs(model, slots);
-    if (model.plan.clusters) solve_clusters(model, slots);
+    solve_bodies(model, slots);
     for (int solid = threadIdx.x; solid < model.solids; solid += threads) {
         const int s = slots.slot_of_solid()[solid];
         solve_planes_of(model, slots, s);
@@ -418,8 +413,8 @@ __global__ void __launch_bounds__(large_threads)
     if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
     const Vec3<Real> displacement = slots.h * (v - xyz(slots.drift()[s]));
     slots.displacement()[s] = quad(displacement, Real(0));
-    const Real distance = Real(physics::least_wall_distance) * model.water.spacing;
-    slots.position()[s] = quad(put_before_planes(model, xyz(base) + displacement, distance), base.w);
+    slots.position()[s] =
+        quad(put_before_planes(model, xyz(base) + displacement, wall_distance(model, true)), base.w);
 }
 
 }  // namespace natator::cuda
