@@ -9,7 +9,7 @@ namespace natator {
 enum class Scheme {
     flex,        ///< behaves as NVIDIA Flex 1.2.0 was measured to behave
     conserving,  ///< mass-splitting projection that keeps linear and angular momentum
-    dfsph,       ///< the solids of `conserving` in incompressible water (divergence-free SPH); on the CPU only
+    dfsph,       ///< the solids of `conserving` in incompressible water (divergence-free SPH)
 };
 
 /// How the summed corrections of one iteration are scaled before they are applied.
