@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "natator/error.h"
+#include "physics/effects.h"
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/conserving/constants.h"
 #include "solver/cpu/dfsph/volumes.h"
