@@ -1,4 +1,4 @@
-// Scheme dfsph on the GPU: what its water must keep, and that it is the CPU's. native/dfsph_test.cpp says more about it.
+// Scheme conserving on the GPU: what its water must keep, and that it is the CPU's. native/dfsph_test.cpp says more about it.
 #include <iostream>
 
 #include "../native/bare_particles.h"
@@ -16,7 +16,7 @@ class GpuWater : public OnGpu<> {};
 constexpr double spacing = 0.09;
 
 Model drop(const Points& positions) {
-    Model model = bare_model(Scheme::dfsph, positions, fluid_phase);
+    Model model = bare_model(Scheme::conserving, positions, fluid_phase);
     disorder_fluid(spacing, model);
     model.parameters.kinematicViscosity = 0.01;
     return model;

@@ -29,7 +29,7 @@ def overrides(random):
     if random.random() < 0.3:
         patch["fluid"] = {"count": [7, 5, 5]}
     if random.random() < 0.3:
-        patch["scheme"] = random.choice(["conserving", "dfsph"])
+        patch["scheme"] = "conserving"
     return patch
 
 

@@ -1,4 +1,4 @@
-// The water of scheme `dfsph`: incompressible SPH by two pressure solves a substep (Bender, Koschier: Divergence-Free SPH
+// The water of scheme `conserving`: incompressible SPH by two pressure solves a substep (Bender, Koschier: Divergence-Free SPH
 // for Incompressible and Viscous Fluids, 2017), with the kernel C2 of Wendland (1995), and with gradients corrected to be
 // exact for linear fields (Bonet, Lok: Variational and momentum preservation aspects of SPH, 1999, eq. 47-49). A pair
 // takes the mean of its two corrections: its forces stay equal and opposite, and it is nearly as exact. Sums run over the neighbours j of a

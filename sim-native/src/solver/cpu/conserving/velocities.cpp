@@ -38,52 +38,22 @@ void ConservingStages<Real>::keep_body_momentum() {
     }
 }
 
-/// Takes the rate of change of the density to 0 where the fluid is under pressure, as an inelastic contact does:
-/// pushing particles apart must not leave them flying apart. Pairwise and along their lines, so momenta are kept; what
-/// it takes away is kinetic energy.
-template <class Real>
-void ConservingStages<Real>::solve_density_rate() {
-    for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
-    const DensityView<Real> fluid = density_view();
-    this->on_all_threads(fluid, density_kernels_->pack);
-    this->on_all_threads(fluid, density_kernels_->pack_velocity);
-    this->on_all_threads(
-        fluid, [this](const DensityView<Real>& part) { density_kernels_->compute_rate_lambda(part, 1 / h_); });
-    for (int slot = 0; slot < ws_.fluid; ++slot) lambda_sum_[slot] += h_ * lambda_[slot];
-    solve_density_constraint_of_fluid();
-    for (const int i : ws_.fluid_ids) this->new_velocity_[i] += pair_share<Real> * ws_.correction.at(ws_.slot_of[i]);
-}
-
 /// u = v* + displacement / h, which rounds less than a difference of positions; internal forces give their momentum
-/// back; viscosity exchanges momentum within pairs, so it needs no masses to be equal; damping v / (1 + h damping).
+/// back; damping v / (1 + h damping).
 template <class Real>
 void ConservingStages<Real>::update_velocities() {
-    const Real viscosity = static_cast<Real>(model_.parameters.viscosity);
-    // At most half of a velocity difference is taken off in a substep, however large the viscosity.
-    const Real smoothing = h_ * viscosity / (1 + 2 * h_ * viscosity);
+    if (water_) move_fluid();
     const Real kept = plan_.damping ? 1 / (1 + h_ * static_cast<Real>(model_.parameters.damping)) : Real(1);
 
-    for (int i = 0; i < ws_.particles; ++i) {
-        const int slot = ws_.slot_of[i];
-        this->new_velocity_[i] = ws_.predicted.at(slot) + 1 / h_ * displacement_.at(slot);
-    }
+    for (int i = 0; i < ws_.particles; ++i) new_velocity_[i] = present_velocity(i);
     keep_body_momentum();
     for (const FreeBody& body : bodies_) {
         for (const int i : body.particles) {
             const Vec3<double> arm = cast<double>(position_of_slot(ws_.slot_of[i])) - body.centre;
-            this->new_velocity_[i] += cast<Real>(body.linear + cross(body.angular, arm));
+            new_velocity_[i] += cast<Real>(body.linear + cross(body.angular, arm));
         }
     }
-    if (plan_.fluid) solve_density_rate();
-    if (plan_.viscosity) {
-        for (const int i : ws_.fluid_ids) ws_.velocity.set(ws_.slot_of[i], this->new_velocity_[i]);
-        const DensityView<Real> fluid = density_view();
-        this->on_all_threads(fluid, density_kernels_->pack);
-        this->on_all_threads(fluid, density_kernels_->pack_velocity);
-        this->on_all_threads(fluid, density_kernels_->smooth_velocities);
-        for (const int i : ws_.fluid_ids) this->new_velocity_[i] += smoothing * ws_.correction.at(ws_.slot_of[i]);
-    }
-    for (Vec3<Real>& v : this->new_velocity_) {
+    for (Vec3<Real>& v : new_velocity_) {
         v = kept * v;
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
     }
