@@ -75,9 +75,9 @@ suite() {
     check "$1" "$tests" --gtest_filter="$2"
 }
 
-suite conformance '*GpuMicro*:*GpuOneFrame*:GpuEffects*'
+suite conformance '*GpuMicro*:*GpuOneFrame*:*GpuEffects*'
 suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
-suite laws-of-conserving 'Gpu/Laws*:GpuParticles*:GpuWater*'
+suite laws-of-conserving 'Gpu/Laws*:GpuParticles*:*GpuWater*'
 suite same-bits-in-any-batch '*GpuBatch*'
 suite one-scene-by-the-whole-GPU '*WholeGpu*'
 $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'

@@ -4,6 +4,7 @@
 #include "../native/bare_particles.h"
 #include "gpu_test.h"
 #include "model/disorder_fluid.h"
+#include "natator/evaluate.h"
 #include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
@@ -22,33 +23,55 @@ Model drop(const Points& positions) {
     return model;
 }
 
-/// A drop that turns while it falls together.
+/// A drop that turns while it falls together; with forces between its particles, too.
 TEST_F(GpuWater, ADropKeepsItsMomentum) {
-    const Model model = drop(lattice(9, 9, 9, spacing));
+    Model model = drop(lattice(9, 9, 9, spacing));
+    for (int i = 0; i < model.particles(); i += 3) model.inverse_mass[i] = 0.5;
+    for (const bool forces : {false, true}) {
+        model.parameters.cohesion = forces ? 0.002 : 0;
+        model.parameters.surfaceTension = forces ? 20 : 0;
+        State<double> state = initial_state<double>(model);
+        for (int i = 0; i < model.particles(); ++i)
+            state.velocity[i] = Eigen::Vector3d(0, 0, 2).cross(state.position[i]) - 0.5 * state.position[i];
+        const Eigen::Vector3d before = momentum(model, state);
+        GpuSolver<double> gpu(model);
+        for (int k = 0; k < 120; ++k) ASSERT_FALSE(gpu.update(state, substep, 1));
+        ASSERT_GT(momentum_size(model, state), 1);
+        EXPECT_LE((momentum(model, state) - before).norm(), 1e-12 * momentum_size(model, state)) << forces;
+    }
+}
+
+/// Ghosts take part in the water's forces: what walls do is along their normals.
+TEST_F(GpuWater, WallsPullAlongTheirNormalsOnly) {
+    Model model = drop(lattice(6, 4, 5, spacing, {0, 2 * spacing, 0}));
+    model.planes = {{{0, 1, 0}, 0}};
+    model.parameters.cohesion = 0.002;
+    model.parameters.surfaceTension = 20;
+    for (int i = 0; i < model.particles(); i += 3) model.inverse_mass[i] = 0.5;
     State<double> state = initial_state<double>(model);
-    for (int i = 0; i < model.particles(); ++i)
-        state.velocity[i] = Eigen::Vector3d(0, 0, 2).cross(state.position[i]) - 0.5 * state.position[i];
-    const auto momentum = [&] {
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const auto& v : state.velocity) sum += v;
-        return sum;
-    };
-    const Eigen::Vector3d before = momentum();
     GpuSolver<double> gpu(model);
-    for (int k = 0; k < 120; ++k) ASSERT_FALSE(gpu.update(state, substep, 1));
-    ASSERT_GT(measure_momentum(model, state).linear_size, 1);
-    EXPECT_LE((momentum() - before).norm(), 1e-12 * measure_momentum(model, state).linear_size);
+    for (int k = 0; k < 20; ++k) ASSERT_FALSE(gpu.update(state, substep, 1));
+    const Eigen::Vector3d pull = momentum(model, state);
+    const double size = momentum_size(model, state);
+    EXPECT_GT(size, 1);
+    EXPECT_LE(std::hypot(pull.x(), pull.z()), 1e-12 * size);
+    EXPECT_GE(std::abs(pull.y()), 1e-6 * size);
 }
 
 /// Water in a corner of three walls, one of them oblique to the axes, with another that it nearly touches: ghosts of
 /// ghosts, in all orders.
-TEST_F(GpuWater, CornersAndNarrowGapsAreTheCpus) {
+Model water_in_a_corner() {
     Model model = drop(lattice(12, 8, 2, spacing, Eigen::Vector3d(0.6, 0.4, 0.1)));
     model.parameters.gravity = {0, -10, 0};
     const Eigen::Vector3d x = Eigen::Vector3d(3, 4, 0) / 5, y = Eigen::Vector3d(-4, 3, 0) / 5;
     const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
     for (auto& at : model.position) at = (at.x() * x + at.y() * y + at.z() * z).eval();
     model.planes = {{x, 0}, {y, 0}, {z, 0}, {-z, 0.2}};
+    return model;
+}
+
+TEST_F(GpuWater, CornersAndNarrowGapsAreTheCpus) {
+    const Model model = water_in_a_corner();
     Solver<double> cpu(model);
     GpuSolver<double> gpu(model);
     State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu;
@@ -81,6 +104,65 @@ TEST_F(GpuWater, ACrowdGetsRoomForItsNeighbours) {
         ASSERT_FALSE(gpu.update(on_gpu, 2 * substep, 2));
     }
     EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-9);
+}
+
+struct WaterEffect {
+    const char* name;
+    double SolverParameters::*strength;
+    double value;
+};
+const WaterEffect water_effects[] = {{"Cohesion", &SolverParameters::cohesion, 0.002},
+                                     {"SurfaceTension", &SolverParameters::surfaceTension, 5},
+                                     {"Vorticity", &SolverParameters::vorticityConfinement, 0.5},
+                                     {"FreeSurfaceDrag", &SolverParameters::freeSurfaceDrag, 2}};
+
+class GpuWaterEffects : public OnGpu<testing::TestWithParam<WaterEffect>> {};
+
+/// A frame of water that turns in the corner, of unequal masses, one of them held.
+TEST_P(GpuWaterEffects, InACornerAreTheCpus) {
+    Model model = water_in_a_corner();
+    for (int i = 0; i < model.particles(); ++i) {
+        const Eigen::Vector3d arm = model.position[i] - model.position[model.particles() / 2];
+        model.velocity[i] = Eigen::Vector3d(0, 0, 3).cross(arm);
+        if (i % 3 == 0) model.inverse_mass[i] = 0.5;
+    }
+    model.inverse_mass[100] = 0;
+    model.velocity[100].setZero();
+    const auto after_a_frame = [&](auto&& solver) {
+        State<double> state = initial_state<double>(model);
+        EXPECT_FALSE(solver.update(state, 4 * substep, 4));
+        return state;
+    };
+    const State<double> without = after_a_frame(Solver<double>(model));
+    model.parameters.*GetParam().strength = GetParam().value;
+    const State<double> on_cpu = after_a_frame(Solver<double>(model));
+    const State<double> on_gpu = after_a_frame(GpuSolver<double>(model));
+    std::cout << "measured: " << GetParam().name << " in a corner " << largest_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_GT(largest_distance(on_cpu, without), 1e-4);
+    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-12);
+    for (int i = 0; i < model.particles(); ++i)
+        EXPECT_LE((on_cpu.velocity[i] - on_gpu.velocity[i]).norm(), 1e-9) << i;
+}
+INSTANTIATE_TEST_SUITE_P(All, GpuWaterEffects, testing::ValuesIn(water_effects),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+/// All of them: a member of a batch is as it is alone, and as on the CPU.
+TEST_F(GpuWater, EffectsAreTheSameInABatch) {
+    Scene scene = creature_scene(1, Scheme::conserving);
+    for (const WaterEffect& effect : water_effects) scene.solver.*effect.strength = effect.value;
+    scene.duration = 0.1;
+    std::vector<BatchMember> members;
+    for (int k = 0; k < 5; ++k) members.push_back({wave(scene, k), {k == 2 ? 1e-6 : 0, 1}});
+    const BatchOptions in_double{.precision = Precision::double_precision};
+    const std::vector<Evaluation> all = evaluate_on_gpu(scene, members, in_double);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        EXPECT_EQ(all[k].stopped, StopReason::completed) << k;
+        EXPECT_EQ(evaluate_on_gpu(scene, {members[k]}, in_double)[0].hash, all[k].hash) << k << " alone";
+    }
+    EXPECT_NE(all[0].hash, all[1].hash);
+    const Evaluation on_cpu = evaluate(scene, members[0].gait, {.precision = Precision::double_precision});
+    std::cout << "measured: batch with effects " << std::abs(on_cpu.distance - all[0].distance) << '\n';
+    EXPECT_NEAR(on_cpu.distance, all[0].distance, 1e-8);
 }
 
 }  // namespace

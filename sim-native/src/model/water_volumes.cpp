@@ -27,6 +27,10 @@ double support(const Model& model) {
     return model.parameters.kernelSupport * model.parameters.fluidRestDistance;
 }
 
+double effect_radius(const Model& model) {
+    return std::min(model.parameters.radius, support(model));
+}
+
 double wendland(double r, double radius) {
     const double q = r / radius;
     if (q >= 1) return 0;

@@ -19,6 +19,9 @@ double fastest_expansion(const SolverParameters& parameters);
 /// R: where the kernel of the water ends, length.
 double support(const Model& model);
 
+/// R of physics/water_effects.h, length.
+double effect_radius(const Model& model);
+
 /// W(r) of physics::WendlandKernel with this support, 1/length^3.
 double wendland(double r, double radius);
 

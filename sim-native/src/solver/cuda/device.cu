@@ -22,9 +22,6 @@ std::optional<std::string> refusal(const Model& model) {
     if (model.planes.size() > most_planes)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_planes);
     if (!make_plan(model).water) return std::nullopt;
-    const SolverParameters& p = model.parameters;
-    if (p.cohesion > 0 || p.surfaceTension > 0 || p.vorticityConfinement > 0 || p.freeSurfaceDrag > 0)
-        return "cohesion, surface tension, vorticity confinement and free-surface drag of scheme dfsph run on the CPU only";
     if (model.planes.size() > most_mirrors)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_mirrors) +
                " in scheme dfsph";

@@ -136,6 +136,10 @@ void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
     water.fastest_expansion = static_cast<Real>(cpu::fastest_expansion(model.parameters));
     const auto scale = static_cast<Real>(cpu::wendland(0, radius));
     water.kernel = {1 / water.radius, scale, 20 * scale / (water.radius * water.radius)};
+    const double reach = cpu::effect_radius(model);
+    water.effect_radius = static_cast<Real>(reach);
+    water.cohesion_strength = static_cast<Real>(model.parameters.cohesion * reach);
+    water.cohesion_slope = static_cast<Real>(physics::cohesion_slope(spacing / reach));
     std::vector<Real> volume(model.particles());
     for (int i = 0; i < model.particles(); ++i) volume[number_of_[i]] = static_cast<Real>(volumes[i]);
     water.volume = keep(volume_, volume);

@@ -92,6 +92,7 @@ struct WaterModel {
     Real radius, spacing, at_spacing, softening, dynamic_viscosity;
     Real density;            ///< mass/length^3 at rest
     Real fastest_expansion;  ///< 1/s, see physics::velocity_excess
+    Real effect_radius, cohesion_strength, cohesion_slope;  ///< of physics/water_effects.h
     physics::WendlandKernel<Real> kernel;
     GridView<Real> grid;
     const Real* volume;                  ///< by particle

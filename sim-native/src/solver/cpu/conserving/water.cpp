@@ -22,7 +22,7 @@ Water<Real>::Water(const Model& model)
       mirror_(model),
       particles_(model.particles()),
       image_begin_(round_up_to_block(model.particles())) {
-    effect_radius_ = std::min(static_cast<Real>(model.parameters.radius), radius_);
+    effect_radius_ = static_cast<Real>(effect_radius(model));
     fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);

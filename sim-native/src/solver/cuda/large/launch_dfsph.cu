@@ -1,5 +1,5 @@
 #include "conserving_launches.cuh"
-#include "water_kernels.cuh"
+#include "water_effect_kernels.cuh"
 
 namespace natator::cuda {
 namespace {
@@ -23,6 +23,12 @@ struct DfsphLaunches : ConservingLaunches<Real> {
         each_pair(water_impulses<which, Real>);
         each_pair(push_water_apart<which, Real>);
     }
+    void add_effects() const {
+        const bool fields = model.surface_tension > 0 || model.vorticity > 0;
+        if (fields) each_pair(measure_water<Real>);
+        if (fields || model.water.cohesion_strength > 0 || model.free_surface_drag > 0)
+            each_pair(push_water_by_effects<Real>);
+    }
     void predict() const {
         const int cells = model.water.grid.cells;
         const WaterArrays<Real>& water = slots.water;
@@ -37,7 +43,8 @@ struct DfsphLaunches : ConservingLaunches<Real> {
         pass<Pass::first_parting>();
         for (int k = 1; k < physics::parting_passes; ++k) pass<Pass::parting>();
         for (int k = 0; k < physics::divergence_passes; ++k) pass<Pass::divergence>();
-        each_pair(push_water<Real>);
+        each_pair(water_viscosity<Real>);
+        add_effects();
         launch.clear(slots.at.table, 2 * model.grid.cells);
         each_particle(predict_in_water<Real>);
     }

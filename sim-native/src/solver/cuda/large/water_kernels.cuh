@@ -192,11 +192,10 @@ __device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit
     }
 }
 
-/// A neighbour's velocity; of a ghost as its mirrors show it. w: inverse mass.
+/// A neighbour's velocity, or another vector by slot; of a ghost as its mirrors show it. w as it is there.
 template <class Real>
-__device__ Quad<Real> seen_velocity(const ModelView<Real>& model, const Quad<Real>* velocity, int slot,
-                                    unsigned planes) {
-    const Quad<Real> v = velocity[slot];
+__device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>* vector, int slot, unsigned planes) {
+    const Quad<Real> v = vector[slot];
     return planes == 0 ? v : quad(turned(model.water.reflection[planes], xyz(v)), v.w);
 }
 
@@ -213,7 +212,7 @@ __global__ void __launch_bounds__(large_threads)
     for_each_water_neighbour(slots, s, [&](std::size_t, int other, unsigned planes) {
         const Quad<Real> there = water.position[other];
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-        const Quad<Real> v = seen_velocity(model, water.velocity, other, planes);
+        const Quad<Real> v = seen(model, water.velocity, other, planes);
         sums.add(difference, model.water.kernel, model.water.at_spacing, there.w, xyz(v) - xyz(moves));
     });
     sums.density = sum_of_lanes(sums.density);
@@ -288,7 +287,7 @@ __global__ void __launch_bounds__(large_threads)
         const Quad<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
         const Vec3<Real> v = xyz(velocity[s]);
         for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
-            rate += dot(xyz(seen_velocity(model, velocity, other, planes)) - v, gradient);
+            rate += dot(xyz(seen(model, velocity, other, planes)) - v, gradient);
         });
         rate = sum_of_lanes(rate);
     }
@@ -330,10 +329,10 @@ __global__ void __launch_bounds__(large_threads)
         move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
 }
 
-/// Viscosity and gravity, beside the velocities.
+/// Viscosity, beside the velocities.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
-    push_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    water_viscosity(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
     const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_slot();
     if (s >= model.particles || slots.failed()) return;
@@ -347,19 +346,16 @@ __global__ void __launch_bounds__(large_threads)
         for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
             const Quad<Real> there = water.position[other];
             const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-            const Quad<Real> u = seen_velocity(model, water.velocity, other, planes);
+            const Quad<Real> u = seen(model, water.velocity, other, planes);
             const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
             sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
         });
         v += (strength * moves.w) * sum_of_lanes(sums.impulse);
     }
-    if (own_lane() != 0) return;
-    const bool fluid = number_in(slots.at.state_velocity[s].w) < model.fluid;
-    if (moves.w > 0) v += slots.h * (fluid ? model.fluid_gravity : model.gravity);
-    water.pushed[s] = quad(v, moves.w);
+    if (own_lane() == 0) water.pushed[s] = quad(v, moves.w);
 }
 
-/// x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
+/// Gravity; then x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
     predict_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
@@ -370,9 +366,10 @@ __global__ void __launch_bounds__(large_threads)
     const Quad<Real> x = slots.at.state_position[s], pushed = water.pushed[s], crowding = water.crowding[s];
     const Real number = slots.at.state_velocity[s].w;
     const bool fluid = number_in(number) < model.fluid;
-    Vec3<Real> v = xyz(pushed);
-    if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
-    water.velocity[s] = fluid ? pushed : quad(v, pushed.w);
+    Vec3<Real> with_gravity = xyz(pushed);
+    if (pushed.w > 0) with_gravity += slots.h * (fluid ? model.fluid_gravity : model.gravity);
+    const Vec3<Real> v = model.plan.clamp_speed ? clamped(with_gravity, model.max_speed) : with_gravity;
+    water.velocity[s] = quad(fluid ? with_gravity : v, pushed.w);
     Vec3<Real> there = xyz(x) + slots.h * v;
     if (fluid)
         there += physics::shift_of(water.density[s], xyz(crowding), crowding.w, model.water.radius,
