@@ -7,26 +7,9 @@
 #pragma once
 
 #include "pair.h"
+#include "symmetric3.h"
 
-namespace natator::physics {
-
-/// A symmetric matrix.
-template <class T>
-struct Symmetric3 {
-    T xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
-};
-
-inline namespace NATATOR_SET {
-
-template <class T>
-NATATOR_HD Vec3<T> operator*(const Symmetric3<T>& m, const Vec3<T>& v) {
-    return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
-            m.xz * v.x + m.yz * v.y + m.zz * v.z};
-}
-template <class T>
-NATATOR_HD Symmetric3<T> operator+(const Symmetric3<T>& a, const Symmetric3<T>& b) {
-    return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
-}
+namespace natator::physics::inline NATATOR_SET {
 
 /// Wendland's C2 in space: W(q) = sigma (1 - q)^4 (4 q + 1), q = r/R, sigma = 21 / (2 pi R^3).
 template <class R>
@@ -229,5 +212,4 @@ struct ViscousSums {
     }
 };
 
-}  // namespace NATATOR_SET
-}  // namespace natator::physics
+}  // namespace natator::physics::inline NATATOR_SET

@@ -18,9 +18,8 @@ namespace natator {
 
 /// How a backend goes through the constraints of an iteration.
 enum class Grouping {
-    one_by_one,    ///< each group by itself
-    together,      ///< scheme `flex`: first all that depends on positions alone, then all corrections
-    solids_aside,  ///< scheme `conserving`: solids beside the fluid that touches none
+    one_by_one,  ///< each group by itself
+    together,    ///< scheme `flex`: first all that depends on positions alone, then all corrections; `conserving`: all solids
 };
 
 /// The groups of constraints that act on solids, in the order of all schemes.
@@ -82,8 +81,9 @@ NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterS
         stages.solve_density_constraint();
         after(Stage::density_constraint);
     }
-    if constexpr (Stages::grouping == Grouping::solids_aside) {
-        stages.solve_solids_beside_free_fluid(after);
+    if constexpr (Stages::grouping == Grouping::together) {
+        stages.solve_solids_together();
+        after(Stage::solids);
     } else {
         solve_solids(stages, plan, after);
         if (plan.planes) {

@@ -6,14 +6,13 @@ namespace natator::cpu {
 
 template <class Real>
 ConservingStages<Real>::ConservingStages(const Model& model, const Plan& plan)
-    : Substep<Real>(model, plan), springs_per_particle_(model.particles(), 0), spring_lambda_(model.springs.size()) {
+    : Substep<Real>(model, plan), bodies_(free_bodies(model)), springs_per_particle_(model.particles(), 0), spring_lambda_(model.springs.size()) {
     if (plan_.water) water_.emplace(model);
     // Planes must hold whatever is pushed against them in the course of a substep, not just what starts close to them.
     constants_.plane_search_distance += constants_.radius;
     const std::size_t all = ws_.position.x.size();
     base_.resize(all);
     displacement_.resize(all);
-    for (std::vector<int>& particles : free_bodies(model)) bodies_.push_back({.particles = std::move(particles)});
 
     std::vector<bool> bonded(model.particles(), false);
     for (const Spring& spring : model.springs) {

@@ -46,14 +46,6 @@ public:
     std::vector<int> neighbour_counts() const;
 
 private:
-    /// Particles that springs and clusters hang together; none of infinite mass.
-    struct FreeBody {
-        std::vector<int> particles;
-        Vec3<double> linear{};   ///< velocity to add, so that internal forces kept momentum
-        Vec3<double> angular{};  ///< angular velocity to add, about `centre`
-        Vec3<double> centre{};
-    };
-
     void put_before_planes();
     void find_plane_contacts();
     Real contact_depth(int i, int j) const;
@@ -85,7 +77,7 @@ private:
 
     std::vector<int> bonded_;           ///< particles in springs or clusters
     std::vector<Vec3<Real>> internal_;  ///< by particle: its displacement by springs and clusters
-    std::vector<FreeBody> bodies_;
+    std::vector<std::vector<int>> bodies_;  ///< see free_bodies
     std::vector<int> springs_per_particle_;  ///< n of the springs' mass splitting
     std::vector<Real> spring_lambda_;
     std::vector<std::vector<Real>> cluster_mass_;                ///< m_j / n_j per member

@@ -1,40 +1,24 @@
 #include "conserving_stages.h"
+#include "physics/body_momentum.h"
 
 namespace natator::cpu {
 
-/// What the displacements by springs and clusters did to a free body's momentum, to be given back: these forces are
-/// internal. With x1 = x0 + h v1 the angular momentum after the substep is sum of m x0 x v1, so they must have no
-/// moment about the start positions: sum of m x0 x Dx = 0. Position corrections have none about the positions they
-/// were computed at, which leaves an error of first order in h. It is given back as a rigid rotation of the velocities,
-/// as momentum is in Dinev et al.: FEPR: Fast Energy Projection for Real-Time Simulation of Deformable Objects (2018).
 template <class Real>
 void ConservingStages<Real>::keep_body_momentum() {
-    for (FreeBody& body : bodies_) {
-        double total = 0;
-        Vec3<double> start_centre{};
-        body.centre = {};
-        for (const int i : body.particles) {
-            const double mass = 1 / static_cast<double>(inverse_mass_[i]);
-            total += mass;
-            start_centre += mass * cast<double>(vec3(state_->position[i]));
-            body.centre += mass * cast<double>(position_of_slot(ws_.slot_of[i]));
-        }
-        start_centre = start_centre / total;
-        body.centre = body.centre / total;
-
-        Vec3<double> momentum{}, moment{};
-        Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-        for (const int i : body.particles) {
+    const auto place = [this](int i) { return cast<double>(position_of_slot(ws_.slot_of[i])); };
+    const auto start = [this](int i) { return cast<double>(vec3(state_->position[i])); };
+    for (const std::vector<int>& body : bodies_) {
+        physics::BodyCentres centres;
+        for (const int i : body) add(centres, 1 / static_cast<double>(inverse_mass_[i]), start(i), place(i));
+        const Vec3<double> start_centre = centres.start / centres.mass, centre = centres.now / centres.mass;
+        physics::BodyMoments moments;
+        for (const int i : body) {
             const double mass = 1 / static_cast<double>(inverse_mass_[i]);
             const Vec3<double> impulse = mass / static_cast<double>(h_) * cast<double>(internal_[i]);
-            momentum += impulse;
-            moment += cross(cast<double>(vec3(state_->position[i])) - start_centre, impulse);
-            const Eigen::Vector3d arm = eigen(cast<double>(position_of_slot(ws_.slot_of[i])) - body.centre);
-            inertia += mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+            add(moments, mass, impulse, start(i) - start_centre, place(i) - centre);
         }
-        body.linear = -1 / total * momentum;
-        // A straight chain has no inertia about its own axis, and no moment either: least-norm solution.
-        body.angular = vec3<double>(-inertia.completeOrthogonalDecomposition().solve(eigen(moment)));
+        const physics::BodyMotion motion = motion_of(centres, moments);
+        for (const int i : body) new_velocity_[i] += cast<Real>(velocity_at(motion, place(i)));
     }
 }
 
@@ -47,12 +31,6 @@ void ConservingStages<Real>::update_velocities() {
 
     for (int i = 0; i < ws_.particles; ++i) new_velocity_[i] = present_velocity(i);
     keep_body_momentum();
-    for (const FreeBody& body : bodies_) {
-        for (const int i : body.particles) {
-            const Vec3<double> arm = cast<double>(position_of_slot(ws_.slot_of[i])) - body.centre;
-            new_velocity_[i] += cast<Real>(body.linear + cross(body.angular, arm));
-        }
-    }
     for (Vec3<Real>& v : new_velocity_) {
         v = kept * v;
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
