@@ -323,6 +323,7 @@ class ViewPageTest extends BrowserTest {
                     .map(one => one.outerHTML)""");
         assertThat((List<?>) cut).isEmpty();
         assertThat(get("picture-a").boundingBox().height).isGreaterThan(250);
+        assertThat(cutMenus()).isEmpty();
     }
 
     @Test
@@ -333,6 +334,7 @@ class ViewPageTest extends BrowserTest {
 
         assertThat(number("document.documentElement.scrollWidth")).as("width").isLessThanOrEqualTo(390);
         assertThat(get("picture-a").boundingBox().height).isGreaterThan(200);
+        assertThat(cutMenus()).isEmpty();
         get("run").tap();
         assertThat(get("run")).hasText("Run");
         get("frequency").scrollIntoViewIfNeeded();
@@ -406,6 +408,41 @@ class ViewPageTest extends BrowserTest {
         double frame = number("natator.frame()");
         await("natator.frame() > " + (frame + 5));
     }
+
+    /** Whose a line in a chart is shows by its colour, which is that of the caption; what it is, by its dashes. */
+    @Test
+    void twoSwimInColoursOfTheirOwn() {
+        open(vacuum);
+        await("(" + PIXELS + ")('momentum', '--series-2') > 20");
+        get("compare").click();
+        choose("which-1");
+        get("amplitude-1").fill("0.2");
+        await("natator.views.length === 2 && natator.views[1].time() > 0.5");
+        get("run").click();
+        assertThat(get("run")).hasText("Run");
+        awaitDrawings(60);
+
+        assertThat(number("(" + PIXELS + ")('momentum', '--series-1')")).as("of the left one").isGreaterThan(20);
+        assertThat(number("(" + PIXELS + ")('momentum', '--series-b')")).as("of the right one").isGreaterThan(20);
+        assertThat(number("(" + PIXELS + ")('momentum', '--series-2')")).as("of neither").isZero();
+        assertThat(get("charts").locator("figure:has(#chart-momentum) .key").first())
+                .hasCSS("color", (String) page.evaluate("() => getComputedStyle(document.querySelector('.hint')).color"));
+    }
+
+    /** How many pixels of a chart have about a colour of the page. */
+    private static final String PIXELS = """
+            (chart, colour) => {
+              const canvas = document.getElementById(`chart-${chart}`);
+              const hex = getComputedStyle(canvas).getPropertyValue(colour).trim();
+              const wanted = [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16));
+              const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+              let count = 0;
+              for (let i = 0; i < data.length; i += 4) {
+                const isNear = wanted.every((value, k) => Math.abs(value - data[i + k]) < 24);
+                count += isNear && data[i + 3] > 128 ? 1 : 0;
+              }
+              return count;
+            }""";
 
     /** One swims in water, which takes longer; the other one waits. */
     @Test
