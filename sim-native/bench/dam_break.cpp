@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
 #include "scene/scene_json.h"
 #include "statistics.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int depth = 10;       ///< particles across the plane of the flow
 constexpr double settling = 1;  ///< s
+constexpr double calming_viscosity = 0.02;  ///< length^2/s, while settling
 
 /// Length along x between wall and gate.
 double base_of(const Model& model) {
@@ -46,6 +48,7 @@ std::optional<Instability> settle_behind_gate(const Model& model, State<Real>& s
     Model calm = model;
     calm.parameters.viscosity = SolverParameters().viscosity;
     calm.parameters.damping = SolverParameters().damping;
+    calm.parameters.kinematicViscosity = calming_viscosity;
     Solver<Real> solver(calm);
     for (int frame = 0; frame < std::lround(settling / model.time_step); ++frame)
         if (auto instability = solver.update(state, model.time_step, model.parameters.substeps)) return instability;
@@ -83,9 +86,10 @@ DamBreakRun run_as(const DamBreak& column, const Model& model, double last_time)
 
 }  // namespace
 
-Model dam_break_model(const DamBreak& column) {
+Model dam_break_model(const DamBreak& column, Scheme scheme) {
     const Scene scene = load_scene("thesis/tank");
     Model model;
+    model.scheme = scheme;
     model.parameters = scene.solver;
     model.time_step = scene.time_step;
     if (column.ideal) {
@@ -93,6 +97,7 @@ Model dam_break_model(const DamBreak& column) {
         p.viscosity = p.damping = p.dynamicFriction = p.staticFriction = p.particleFriction = 0;
     }
     FluidBlock block = scene.fluid.value();
+    if (scheme == Scheme::conserving) block.spacing = model.parameters.fluidRestDistance;  // its lattice at rest density
     block.count = {column.width, column.height_over_base * column.width, depth};
     block.gradient = MassGradient::uniform;
     block.bottom_mass = 1;
@@ -100,12 +105,12 @@ Model dam_break_model(const DamBreak& column) {
     const Eigen::Vector3d far = block.origin + block.spacing * (block.count.cast<double>().array() - 1).matrix() +
                                 Eigen::Vector3d::Constant(model.parameters.collisionDistance);
     model.planes = {{{0, 1, 0}, 0}, {{0, 0, 1}, 0}, {{1, 0, 0}, 0}, {{0, 0, -1}, far.z()}, {{-1, 0, 0}, far.x()}};
+    if (scheme == Scheme::conserving) disorder_fluid(block.spacing, model);
     return model;
 }
 
 DamBreakRun run_dam_break(const DamBreak& column, const Setting& setting, double last_time) {
-    Model model = dam_break_model(column);
-    model.scheme = setting.scheme;
+    Model model = dam_break_model(column, setting.scheme);
     model.parameters.substeps = setting.substeps;
     model.parameters.numIterations = setting.iterations;
     return setting.precision == Precision::double_precision ? run_as<double>(column, model, last_time)

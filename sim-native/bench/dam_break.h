@@ -16,7 +16,7 @@ struct DamBreak {
 };
 
 /// The column between its walls; the last plane is the gate.
-Model dam_break_model(const DamBreak& column);
+Model dam_break_model(const DamBreak& column, Scheme scheme);
 
 struct DamBreakRun {
     int particles = 0;

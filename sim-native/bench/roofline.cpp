@@ -113,9 +113,9 @@ constexpr std::array counted_stages = {
     // difference 3, r^2 5, 1/r 1, 1 - q 4, s 3, sums 6, count 1; index, quadruple, r in
     CountedStage{Scheme::flex, "density constraint", false, 23, 24},
     CountedStage{Scheme::conserving, "fluid neighbours", true, 9, 12.8},
-    // lambda: difference 3, r^2 5, 1/r 3, 1 - q 4, kernel and slope 4, sums 9 + 1; then the correction: difference 3,
-    // r^2 5, 1 - q 4, s 4, sums 6; twice index and quadruple, 1/r out and in
-    CountedStage{Scheme::conserving, "density constraint", false, 51, 48},
+    // impulse: difference of velocities 3, product 5, sum 1; push: sum of impulses 1, sums 6; twice index and gradient in, a
+    // quadruple and an impulse by index
+    CountedStage{Scheme::conserving, "density constraint", false, 16, 52},
 };
 
 /// Pairs per substep: neighbours found, and candidates that were measured for them.
@@ -131,7 +131,10 @@ Pairs count_pairs(const Model& model, const State<float>& state, const std::vect
             high[axis] = std::max(high[axis], state.position[i][axis]);
         }
     cpu::CellGrid<float> grid;
-    const auto search = static_cast<float>(model.parameters.radius + model.parameters.particleCollisionMargin);
+    const SolverParameters& p = model.parameters;
+    const auto search = static_cast<float>(model.scheme == Scheme::conserving
+                                               ? p.kernelSupport * p.fluidRestDistance
+                                               : p.radius + p.particleCollisionMargin);
     grid.cover(low, high, search, 1 << 20);
     std::vector<int> in_cell(grid.cells(), 0);
     const auto cell_of = [&](int i) {

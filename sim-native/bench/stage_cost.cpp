@@ -18,7 +18,7 @@ namespace {
 /// A feature with what switches it off and on in the thesis tank, as JSON Merge Patches.
 struct Feature {
     const char* name;
-    const char* stage[2];  ///< where it works: in scheme flex, in scheme conserving
+    const char* stage[2];  ///< where it works: in scheme flex, in scheme conserving; null: not in this scheme or scene
     const char* off;
     const char* on;
 };
@@ -31,12 +31,15 @@ constexpr std::array features = {
     Feature{"fluid", {"density constraint", "density constraint"}, vacuum, as_it_is},
     Feature{"fluid neighbours", {"fluid neighbours", "fluid neighbours"}, vacuum, as_it_is},
     Feature{"planes", {"planes", "planes"}, vacuum, as_it_is},
-    Feature{"contacts", {"contacts", "contacts"}, no_creature, as_it_is},
+    Feature{"contacts", {"contacts", nullptr}, no_creature, as_it_is},
     Feature{"springs", {"springs", "springs"}, no_creature, as_it_is},
     Feature{"clusters", {"shape matching", "shape matching"}, no_creature, as_it_is},
-    Feature{"solidPressure", {"density", "density constraint"}, R"({"solver":{"solidPressure":0}})", as_it_is},
+    Feature{"solidPressure", {"density", nullptr}, R"({"solver":{"solidPressure":0}})", as_it_is},
     Feature{"friction", {"planes", "planes"}, R"({"solver":{"dynamicFriction":0,"particleFriction":0}})", as_it_is},
-    Feature{"viscosity", {"velocities", "velocities"}, R"({"solver":{"viscosity":0}})", as_it_is},
+    Feature{"viscosity",
+            {"velocities", "viscosity"},
+            R"({"solver":{"viscosity":0}})",
+            R"({"solver":{"kinematicViscosity":0.002}})"},
     Feature{"damping", {"velocities", "velocities"}, R"({"solver":{"damping":0}})", as_it_is},
     Feature{"maxSpeed", {"velocities", "velocities"}, as_it_is, R"({"solver":{"maxSpeed":100}})"},
     Feature{"cohesion", {"cohesion", "fluid forces"}, as_it_is, R"({"solver":{"cohesion":0.01}})"},
@@ -44,11 +47,11 @@ constexpr std::array features = {
     Feature{
         "vorticityConfinement", {"fluid forces", "fluid forces"}, as_it_is, R"({"solver":{"vorticityConfinement":1}})"},
     Feature{"freeSurfaceDrag",
-            {"free-surface drag", "free-surface drag"},
+            {"free-surface drag", "fluid forces"},
             as_it_is,
             R"({"solver":{"freeSurfaceDrag":0.1}})"},
-    Feature{"dissipation", {"dissipation", "dissipation"}, as_it_is, R"({"solver":{"dissipation":0.1}})"},
-    Feature{"shockPropagation", {"contacts", "contacts"}, as_it_is, R"({"solver":{"shockPropagation":1}})"},
+    Feature{"dissipation", {"dissipation", nullptr}, as_it_is, R"({"solver":{"dissipation":0.1}})"},
+    Feature{"shockPropagation", {"contacts", nullptr}, as_it_is, R"({"solver":{"shockPropagation":1}})"},
     Feature{"adhesion", {"adhesion", "adhesion"}, as_it_is, R"({"solver":{"adhesion":1}})"},
     Feature{"restitution", {"restitution", "restitution"}, as_it_is, R"({"solver":{"restitution":0.1}})"},
     Feature{"sleepThreshold", {"sleep", "sleep"}, as_it_is, R"({"solver":{"sleepThreshold":1e-6}})"},
@@ -145,6 +148,7 @@ void run_stage_cost_study(const StageCostStudy& study, ResultTable& table,
         std::vector<Case> cases;
         for (const Scheme scheme : study.schemes)
             for (const std::string& state : study.states) {
+                if (!find_feature(name).stage[scheme == Scheme::conserving]) continue;
                 Case one = make_case(find_feature(name), scheme, state, study.quick);
                 if (!table.has(one.key)) cases.push_back(std::move(one));
             }

@@ -18,7 +18,7 @@ void add_backend_options(CLI::App* command, BackendChoice& choice) {
     command->add_flag(
         "--whole-gpu", choice.whole_gpu,
         "Compute by kernels of the whole GPU, however small the scene: faster for a single evaluation, slower "
-        "for many, with bits of its own. Scheme dfsph always does.");
+        "for many, with bits of its own. Scheme conserving always does.");
 }
 
 bool on_gpu(const BackendChoice& choice, const Scene& scene) {

@@ -24,9 +24,7 @@ namespace {
 using namespace natator::bench;
 
 Scheme scheme_of(const std::string& name) {
-    for (const Scheme scheme : {Scheme::flex, Scheme::conserving})
-        if (name == to_string(scheme)) return scheme;
-    return Scheme::dfsph;
+    return name == to_string(Scheme::flex) ? Scheme::flex : Scheme::conserving;
 }
 
 /// What all studies are asked for.
@@ -55,8 +53,8 @@ void report(const std::string& line) {
 
 void add_common(CLI::App* command, Common& common, std::vector<std::string> precisions) {
     common.precisions = std::move(precisions);
-    command->add_option("--scheme", common.schemes, "flex, conserving, dfsph.")
-        ->check(CLI::IsMember({"flex", "conserving", "dfsph"}))
+    command->add_option("--scheme", common.schemes, "flex, conserving.")
+        ->check(CLI::IsMember({"flex", "conserving"}))
         ->capture_default_str();
     command->add_option("--precision", common.precisions, "float, double.")
         ->check(CLI::IsMember({"float", "double"}))

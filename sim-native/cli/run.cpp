@@ -1,10 +1,16 @@
+#include <unistd.h>
+
 #include <chrono>
+#include <cmath>
+#include <exception>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <sstream>
 
 #include "commands.h"
 #include "io/protocol.h"
+#include "io/strict_json.h"
 #include "job.h"
 #include "json_argument.h"
 #include "natator/error.h"
@@ -50,6 +56,30 @@ Gait load_gait(const RunOptions& options, int actuators) {
     return resting_gait(actuators);
 }
 
+void require_finite(const char* option, double value) {
+    if (!std::isfinite(value)) throw InputError(std::string(option) + ": must be a finite number");
+}
+
+/// Says before anything is computed that a file can't be written. It is opened when there is something to write: what is
+/// refused until then leaves it as it was.
+void require_writable(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code not_there;
+    const fs::path folder = fs::absolute(path).parent_path();
+    const bool exists = fs::exists(path, not_there);
+    if (!fs::is_directory(folder, not_there) || fs::is_directory(path, not_there) ||
+        ::access(exists ? path.c_str() : folder.c_str(), W_OK) != 0)
+        throw std::runtime_error("file " + quoted(path) + ": cannot be written");
+}
+
+void check_outputs(const RunOptions& options) {
+    if (!options.trajectory.empty()) require_writable(options.trajectory);
+    if (!options.snapshot.empty()) require_writable(options.snapshot);
+    if (options.trajectory.empty() || options.snapshot.empty()) return;
+    if (std::filesystem::weakly_canonical(options.trajectory) == std::filesystem::weakly_canonical(options.snapshot))
+        throw InputError("--snapshot " + quoted(options.snapshot) + ": must be another file than that of --trajectory");
+}
+
 /// For people, who take -0 for a mistake.
 double without_sign_of_zero(double value) { return value == 0 ? 0 : value; }
 
@@ -88,28 +118,37 @@ int run_scene(RunOptions& options) {
     const Precision precision =
         options.precision == "double" ? Precision::double_precision : Precision::single_precision;
 
+    require_finite("--perturbation", options.perturbation.amplitude);
+    check_outputs(options);
     EvaluationOptions evaluation{.precision = precision, .perturbation = options.perturbation};
     std::optional<TrajectoryCsv> trajectory;
     if (!options.trajectory.empty()) {
-        using Rows = TrajectoryCsv::Rows;
-        trajectory.emplace(options.trajectory, scene.creature ? scene.creature->slices : std::vector<Slice>{},
-                           options.particles ? Rows::particles : Rows::slices);
-        evaluation.on_frame = [&trajectory](double time, const auto& positions) {
+        evaluation.on_frame = [&](double time, const auto& positions) {
+            using Rows = TrajectoryCsv::Rows;
+            if (!trajectory)
+                trajectory.emplace(options.trajectory, scene.creature ? scene.creature->slices : std::vector<Slice>{},
+                                   options.particles ? Rows::particles : Rows::slices);
             trajectory->add_frame(time, positions);
         };
     }
 
     bool snapshot_taken = false;
+    std::exception_ptr snapshot_failure;
     SnapshotRequest& snapshot = evaluation.snapshot;
     if (!options.snapshot.empty()) {
         snapshot.at = options.snapshot_at.value_or(scene.duration);
+        require_finite("--at", snapshot.at);
         if (snapshot.at > scene.duration) {
             throw InputError("--at " + json(snapshot.at).dump() + ": must be at most the duration, " +
                              json(scene.duration).dump() + " s");
         }
         snapshot.take = [&](const Model& model, const Snapshot& taken) {
-            write_snapshot(options.snapshot, model, taken);
             snapshot_taken = true;
+            try {
+                write_snapshot(options.snapshot, model, taken);
+            } catch (...) {
+                snapshot_failure = std::current_exception();  // the run goes on, and its summary is not lost
+            }
         };
     }
 
@@ -122,6 +161,7 @@ int run_scene(RunOptions& options) {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
     print(summary(options, scene, result, wall.count()));
+    if (snapshot_failure) std::rethrow_exception(snapshot_failure);
     if (result.instability) return unstable;
     if (snapshot.take && !snapshot_taken) {
         throw std::runtime_error("no snapshot: the run ended at " + json(result.simulated).dump() + " s, before --at " +

@@ -1,4 +1,4 @@
-// Creature 1 of the thesis swims for a second: a named scene with overrides, evaluated as a whole.
+// Creature 1 of the thesis swims for a second in a small pool: a named scene with overrides, evaluated as a whole.
 #include <cstdio>
 #include <exception>
 #include <vector>
@@ -7,8 +7,7 @@
 
 int main() try {
     const natator::Scene scene = natator::load_scene(
-        "thesis/creature-1",
-        {.overrides = R"({"duration": 1, "scheme": "conserving"})", .data = NATATOR_DATA_FOLDER});
+        "pool/creature-1", {.overrides = R"({"duration": 1})", .data = NATATOR_DATA_FOLDER});
     const natator::Gait gait{.frequency = 1.861, .amplitude = {0.973, 0.690}, .phase = {0, 0.648}};
 
     int frame = 0;

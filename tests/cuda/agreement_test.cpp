@@ -20,7 +20,7 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
 }
 
 const auto all_cases = testing::Combine(testing::Values(1, 2, 3, 4),
-                                        testing::Values(Scheme::flex, Scheme::conserving, Scheme::dfsph));
+                                        testing::Values(Scheme::flex, Scheme::conserving));
 
 class GpuAgreement : public OnGpu<testing::TestWithParam<Case>> {
 protected:

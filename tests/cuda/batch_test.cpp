@@ -44,7 +44,7 @@ TEST_P(GpuBatch, AnyBatchSizeSlotAndRunGivesTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, GpuBatch,
-                         testing::Combine(testing::Values(Scheme::flex, Scheme::conserving, Scheme::dfsph),
+                         testing::Combine(testing::Values(Scheme::flex, Scheme::conserving),
                                           testing::Values(Precision::single_precision, Precision::double_precision)),
                          [](const auto& test) {
                              return name_of(std::get<0>(test.param)) +

@@ -39,7 +39,7 @@ TEST_P(GpuEffects, GiveWhatTheyGiveOnTheCpu) {
     const State<double> cpu = after_two_frames(scene, model, Solver<double>(model));
     EXPECT_GT(largest_distance(cpu, after_two_frames(scene, without, Solver<double>(without))), 1e-6);
     for (const GpuPath path : {GpuPath::block, GpuPath::whole_gpu}) {
-        if (path == GpuPath::block && scheme == Scheme::dfsph) continue;  // has no other than the whole GPU
+        if (path == GpuPath::block && scheme == Scheme::conserving) continue;  // has no other than the whole GPU
         const State<double> gpu = after_two_frames(scene, model, GpuSolver<double>(model, {.path = path}));
         EXPECT_LE(largest_distance(cpu, gpu), 1e-9) << "path " << static_cast<int>(path);
         double velocities_apart = 0;
@@ -50,21 +50,17 @@ TEST_P(GpuEffects, GiveWhatTheyGiveOnTheCpu) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    OfAll, GpuEffects,
+    All, GpuEffects,
     testing::Combine(testing::Values(Effect{"Restitution", &SolverParameters::restitution, 0.5},
                                      Effect{"Adhesion", &SolverParameters::adhesion, 50},
                                      Effect{"Sleep", &SolverParameters::sleepThreshold, 0.2},
                                      Effect{"ShockPropagation", &SolverParameters::shockPropagation, 1.5},
-                                     Effect{"Dissipation", &SolverParameters::dissipation, 3}),
-                     testing::Values(Scheme::flex, Scheme::conserving)),
-    case_name);
-INSTANTIATE_TEST_SUITE_P(
-    OfFluid, GpuEffects,
-    testing::Combine(testing::Values(Effect{"Cohesion", &SolverParameters::cohesion, 0.02},
+                                     Effect{"Dissipation", &SolverParameters::dissipation, 3},
+                                     Effect{"Cohesion", &SolverParameters::cohesion, 0.02},
                                      Effect{"SurfaceTension", &SolverParameters::surfaceTension, 0.5},
                                      Effect{"Vorticity", &SolverParameters::vorticityConfinement, 0.5},
                                      Effect{"FreeSurfaceDrag", &SolverParameters::freeSurfaceDrag, 1}),
-                     testing::Values(Scheme::flex, Scheme::conserving, Scheme::dfsph)),
+                     testing::Values(Scheme::flex, Scheme::conserving)),
     case_name);
 
 }  // namespace

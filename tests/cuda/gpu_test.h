@@ -47,7 +47,7 @@ double largest_distance(const State<Real>& a, const State<Real>& b) {
 }
 
 inline std::string name_of(Scheme scheme) {
-    return scheme == Scheme::flex ? "flex" : scheme == Scheme::conserving ? "conserving" : "dfsph";
+    return scheme == Scheme::flex ? "flex" : "conserving";
 }
 
 }  // namespace natator::test

@@ -77,7 +77,7 @@ suite() {
 
 suite conformance '*GpuMicro*:*GpuOneFrame*:*GpuEffects*'
 suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
-suite laws-of-conserving-and-dfsph 'GpuLaws*:*GpuVacuum*:GpuParticles*:*GpuWater*'
+suite laws-of-conserving 'Gpu/Laws*:GpuParticles*:*GpuWater*'
 suite same-bits-in-any-batch '*GpuBatch*'
 suite one-scene-by-the-whole-GPU '*WholeGpu*'
 $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
@@ -111,7 +111,7 @@ check serve-150-requests bash -uo pipefail -c serve_generation
 sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null)
 short_runs() {
     local scheme
-    for scheme in flex conserving dfsph; do
+    for scheme in flex conserving; do
         printf '{"id":1,"scene":"bench/small-tank","scheme":"%s","duration":0.0167,' "$scheme"
         printf '"gait":{"frequency":1,"amplitude":[0.9,0.7],"phase":[0,0.3]},"overrides":{"settling":{"updates":2}}}\n'
     done

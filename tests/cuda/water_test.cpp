@@ -1,4 +1,4 @@
-// Scheme dfsph on the GPU: what its water must keep, and that it is the CPU's. native/dfsph_test.cpp says more about it.
+// Scheme conserving on the GPU: what its water must keep, and that it is the CPU's. native/dfsph_test.cpp says more about it.
 #include <iostream>
 
 #include "../native/bare_particles.h"
@@ -17,7 +17,7 @@ class GpuWater : public OnGpu<> {};
 constexpr double spacing = 0.09;
 
 Model drop(const Points& positions) {
-    Model model = bare_model(Scheme::dfsph, positions, fluid_phase);
+    Model model = bare_model(Scheme::conserving, positions, fluid_phase);
     disorder_fluid(spacing, model);
     model.parameters.kinematicViscosity = 0.01;
     return model;
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(All, GpuWaterEffects, testing::ValuesIn(water_effects),
 
 /// All of them: a member of a batch is as it is alone, and as on the CPU.
 TEST_F(GpuWater, EffectsAreTheSameInABatch) {
-    Scene scene = creature_scene(1, Scheme::dfsph);
+    Scene scene = creature_scene(1, Scheme::conserving);
     for (const WaterEffect& effect : water_effects) scene.solver.*effect.strength = effect.value;
     scene.duration = 0.1;
     std::vector<BatchMember> members;

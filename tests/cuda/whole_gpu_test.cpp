@@ -155,7 +155,7 @@ TEST(WholeGpuInstability, IsNamedAsTheCpuNamesIt) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, WholeGpu, testing::Values(Scheme::flex, Scheme::conserving, Scheme::dfsph),
+INSTANTIATE_TEST_SUITE_P(Schemes, WholeGpu, testing::Values(Scheme::flex, Scheme::conserving),
                          [](const auto& test) { return name_of(test.param); });
 
 }  // namespace

@@ -2,8 +2,8 @@
 import json
 import pathlib
 
-from mutate import cheap, dump, mutate, mutate_text
-from programs import Once, Serve, Stream
+from mutate import cheap, dump, mutate, mutate_arguments, mutate_text
+from programs import Once, Run, Serve, Stream
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GAIT = {"frequency": 1.861, "amplitude": [0.973, 0.69], "phase": [0, 0.648], "power": 1}
@@ -29,7 +29,7 @@ def overrides(random):
     if random.random() < 0.3:
         patch["fluid"] = {"count": [7, 5, 5]}
     if random.random() < 0.3:
-        patch["scheme"] = random.choice(["conserving", "dfsph"])
+        patch["scheme"] = "conserving"
     return patch
 
 
@@ -97,6 +97,36 @@ def info_scene(random):
     return scene(random)
 
 
+RUN = [("duration", 0.02), ("scheme", "conserving"), ("precision", "double"), ("trajectory", "path.csv"), ("particles", True),
+       ("snapshot", "fluid.csv"), ("at", 0.017), ("perturbation", 0.001), ("perturbation-seed", 3), ("backend", "auto"),
+       ("device", 0), ("threads", 2), ("whole-gpu", True), ("no-cache", True), ("no-skip", True), ("gait", GAIT)]
+PLACES = ["path.csv", "fluid.csv", "", ".", "no/such/folder.csv", "/dev/full", "é\U0001f600 .csv", "-"]
+NO_NUMBERS = ["nan", "inf", "-inf", "1e999", "0x1p-4", " 1", "1 ", "1,5", "+1", "1e-320"]
+
+
+def run(random):
+    """Arguments of a run that writes files, and the file of its scene, as JSON; see programs.Run."""
+    options = {"duration": 0.034, "gait": dict(GAIT), "overrides": overrides(random)}
+    options |= dict(random.sample(RUN, random.randrange(1, 6)))
+    options = cheap(mutate(random, options, RUN + SCENE + SOLVER)) if random.random() < 0.9 else options
+    for name in ("trajectory", "snapshot"):
+        if name in options and (random.random() < 0.2 or options[name] not in PLACES):
+            options[name] = random.choice(PLACES)
+    if random.random() < 0.1:
+        options[random.choice(["duration", "at", "perturbation", "threads", "perturbation-seed", "device"])] = random.choice(NO_NUMBERS)
+    files, arguments = {}, ["run", "bench/small-tank"]
+    if random.random() < 0.2:
+        files["scene.json"], arguments[1] = scene(random), "scene.json"
+    for name, value in options.items():
+        arguments.append(f"--{name}")
+        if value is not True:
+            text = value if isinstance(value, str) else dump(value)
+            arguments.append(mutate_text(random, text) if random.random() < 0.03 else text)
+    if random.random() < 0.1:
+        arguments = mutate_arguments(random, arguments)
+    return json.dumps({"files": files, "arguments": arguments})
+
+
 # How often a kind comes, its texts, and what runs them: (program, limit) -> runner.
 KINDS = {
     "request": (40, request, lambda program, limit: Serve(program, limit)),
@@ -107,4 +137,5 @@ KINDS = {
                                                          nulls=("fluid", "creature", "base"))),
     "particles": (10, particles, lambda program, limit: Once(program, ["particles"], limit, as_file=True,
                                                             nulls=("w", "result", "hash"), echoes=True)),
+    "run": (8, run, lambda program, limit: Run(program, limit)),
 }

@@ -68,6 +68,21 @@ def mutate_text(random, text):
     return text
 
 
+def mutate_arguments(random, arguments):
+    """One argument more, less, twice or elsewhere; the first, which names the command, stays."""
+    arguments, at = list(arguments), random.randrange(1, len(arguments))
+    way = random.randrange(4)
+    if way == 0:
+        del arguments[at]
+    elif way == 1:
+        arguments.insert(at, arguments[at])
+    elif way == 2:
+        arguments.insert(random.randrange(1, len(arguments)), arguments.pop(at))
+    else:
+        arguments.insert(at, random.choice(["", "-", "--", "-x", "--no-such", "--help", "--duration=0.02", "x", "é", "--at"]))
+    return arguments
+
+
 # What a case may cost at most, by key, where the simulator would rightly take its time.
 MOST = {"duration": 0.05, "substeps": 4, "numIterations": 8, "updates": 3, "maximum": 3, "frames": 3}
 LEAST = {"timeStep": 0.005}

@@ -1,6 +1,7 @@
 """Runs natator-sim for a case and says what is wrong with how it went: the errors of a case are the texts of Fault."""
 import json
 import os
+import re
 import select
 import struct
 import subprocess
@@ -87,6 +88,80 @@ class Once:
 
     def close(self):
         pass
+
+
+class Run:
+    """A process for each case, which writes files: the text is JSON of its arguments and of the files that it finds. What it
+    would write is there before, and is as it was when the arguments are refused."""
+
+    OUTPUTS, BEFORE = ("path.csv", "fluid.csv"), "what was computed before\n"
+    # For what may end with 1 beside a failure of the machine.
+    FAILURES = ("cannot be written", "no snapshot: the run ended at ")
+
+    def __init__(self, program, limit):
+        self.program, self.limit = program, limit
+
+    def run(self, text):
+        case = json.loads(text)
+        # exec takes no zero bytes
+        arguments = [encode(one.replace("\0", "")) for one in case["arguments"]]
+        with tempfile.TemporaryDirectory(prefix="natator-fuzz-") as folder:
+            for name, content in (case["files"] | dict.fromkeys(self.OUTPUTS, self.BEFORE)).items():
+                with open(os.path.join(folder, name), "wb") as file:
+                    file.write(encode(content))
+            try:
+                done = subprocess.run([self.program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
+                                      timeout=self.limit)
+            except subprocess.TimeoutExpired:
+                raise Fault(f"no end within {self.limit} s") from None
+            self.check(done, arguments, folder)
+
+    def check(self, done, arguments, folder):
+        code = done.returncode
+        errors = re.sub(r"natator-sim: backend auto: .*; using the CPU\n", "", done.stderr.decode("utf-8", "replace"))
+        known = any(text in errors for text in self.FAILURES)
+        check_end(2 if code == 1 and known else 0 if code == 4 else code, errors)
+        out = done.stdout.decode("utf-8", "strict")
+        if code in (0, 3) and not out.strip():
+            raise Fault(f"exit code {code} without an answer")
+        if re.search(r"\b(nan|inf)\b", out.split("Usage:")[0]):
+            raise Fault(f"a number that is none in the summary: {out[:500]}")
+        for name in os.listdir(folder):
+            if not name.endswith(".csv"):
+                continue
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                content = file.read()
+            if content != self.BEFORE:
+                if code in (2, 4):
+                    raise Fault(f"exit code {code} and {name} was written: {errors[-300:]}")
+                check_table(name, content)
+
+    def close(self):
+        pass
+
+
+TABLES = ("frame,time,slice,x,y,z", "frame,time,particle,x,y,z", "time,kind,mass,x,y,z,vx,vy,vz,density")
+
+
+def check_table(name, content):
+    """One table of a form that is documented, whose numbers are finite but for the mass of what is held in place."""
+    head, *rows = content.split("\n")
+    if head not in TABLES or not content.endswith("\n"):
+        raise Fault(f"no whole table in {name}: {content[:200]!r}")
+    columns = head.split(",")
+    for row in rows[:-1]:
+        fields = row.split(",")
+        if len(fields) != len(columns):
+            raise Fault(f"a row of {name} that does not fit its head: {row[:200]!r}")
+        for column, field in zip(columns, fields):
+            if column == "kind" and field in ("body", "fluid") or column == "mass" and field == "inf":
+                continue
+            try:
+                value = float(field)
+            except ValueError:
+                raise Fault(f"{field!r} at {column} in {name}") from None
+            if value - value != 0:
+                raise Fault(f"{field} at {column} in {name}: {row[:200]}")
 
 
 class Resident:

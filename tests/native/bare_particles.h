@@ -93,7 +93,6 @@ protected:
 };
 
 inline std::string scheme_name(const testing::TestParamInfo<Scheme>& scheme) {
-    if (scheme.param == Scheme::dfsph) return "dfsph";
     return scheme.param == Scheme::flex ? "flex" : "conserving";
 }
 

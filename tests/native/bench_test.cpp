@@ -304,7 +304,7 @@ TEST(ReferencesTest, FrontsGoForwardAndPeersHaveFigures) {
 }
 
 TEST(DamBreakTest, TheColumnFillsItsPlaceBehindTheGate) {
-    const Model model = dam_break_model({.height_over_base = 2, .width = 6, .ideal = true});
+    const Model model = dam_break_model({.height_over_base = 2, .width = 6, .ideal = true}, Scheme::flex);
     EXPECT_EQ(model.particles(), 6 * 12 * 10);
     for (const Eigen::Vector3d& x : model.position)
         for (const Plane& plane : model.planes)
@@ -340,7 +340,7 @@ TEST(ValidationTest, QuickStudyGivesPlausibleRowsAndGoesOn) {
     for (const Row& row : fronts.rows())
         if (row[2] == "conserving") front.push_back({std::stod(row[6]), std::stod(row[7])});
     ASSERT_GT(front.size(), 10u);
-    EXPECT_NEAR(front.front().position, 1, 0.01);
+    EXPECT_NEAR(front.front().position, 1, 0.02);
     EXPECT_GT(front.back().position, 1.8);
 
     const std::string before = content(file.path), path_before = content(path.path);

@@ -116,7 +116,7 @@ TEST_P(FluidParameters, VorticityConfinementKeepsVorticesAlive) {
     const double half = 0.5 * n * 0.1;
     Model model = bare_model(GetParam(), lattice(n, n, 4, 0.1), fluid_phase);
     model.parameters.viscosity = 8;
-    model.parameters.kinematicViscosity = 0.05;  // in scheme dfsph
+    model.parameters.kinematicViscosity = 0.05;  // in scheme conserving
     const double wall = half - 0.05 + model.parameters.collisionDistance;
     for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)})
         for (const double side : {-1.0, 1.0}) model.planes.push_back({side * axis, wall});
@@ -160,7 +160,7 @@ TEST_P(FluidParameters, FreeSurfaceDragActsOnWhatHasFewNeighbours) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, FluidParameters, testing::Values(Scheme::flex, Scheme::conserving, Scheme::dfsph),
+INSTANTIATE_TEST_SUITE_P(Schemes, FluidParameters, testing::Values(Scheme::flex, Scheme::conserving),
                          scheme_name);
 
 }  // namespace

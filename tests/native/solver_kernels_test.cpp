@@ -6,7 +6,7 @@
 #include <random>
 
 #include "solver/cpu/aligned.h"
-#include "solver/cpu/conserving/density_kernels.h"
+#include "solver/cpu/conserving/water_kernels.h"
 #include "solver/cpu/fluid_kernels.h"
 #include "solver/cpu/motion_kernels.h"
 #include "solver/cpu/neighbour_kernels.h"
@@ -29,19 +29,19 @@ struct Fluid {
         position.resize(slots, 1e9f);
         velocity.resize(slots);
         correction.resize(slots);
-        for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &lambda,
-                            &response, &lambda_sum, &gradient_square})
+        for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &volume, &response,
+                            &target, &impulse, &impulse_sum, &fastest_square})
             array->resize(slots);
-        solid_gradient.resize(slots);
-        packed.resize(4 * slots);
-        packed_velocity.resize(4 * slots);
+        crowding.resize(slots);
+        for (auto& array : water_correction) array.resize(slots);
+        for (auto* array : {&packed, &packed_velocity, &packed_correction, &packed_shear}) array->resize(4 * slots);
         for (int slot = 0; slot < far_slot; ++slot) {
             position.set(slot, {place(random), place(random), place(random)});
             velocity.set(slot, {place(random), place(random), place(random)});
             inverse_mass[slot] = positive(random);
             solid_density[slot] = positive(random) - 0.1f;
-            solid_gradient.set(slot, {place(random), place(random), place(random)});
-            gradient_square[slot] = positive(random);
+            volume[slot] = 2e-2f * positive(random);
+            target[slot] = 0.1f * positive(random);
         }
         position.set(7, position.at(3));  // a pair at distance 0
         row_begin.push_back(0);
@@ -55,6 +55,7 @@ struct Fluid {
         }
         if (!neighbour.empty()) neighbour[3] = 7;
         distance.resize(neighbour.size());
+        gradient.resize(neighbour.size());
     }
 
     FluidView<float> view() {
@@ -82,36 +83,45 @@ struct Fluid {
                 .distance = distance.data()};
     }
 
-    DensityView<float> density_view(float* inverse_distance) {
-        const FluidView<float> f = view();
-        return {.first_block = 0,
-                .end_block = blocks,
-                .row_begin = f.row_begin,
-                .neighbour = f.neighbour,
-                .far_slot = far_slot,
-                .inverse_radius = f.inverse_radius,
-                .kernel_scale = 0.7f,
-                .rest_sum = 0.4f,
-                .gradient_scale = 13,
-                .position = {f.position[0], f.position[1], f.position[2]},
-                .inverse_mass = f.inverse_mass,
-                .solid_density = f.solid_density,
-                .solid_gradient = {solid_gradient.x.data(), solid_gradient.y.data(), solid_gradient.z.data()},
-                .solid_gradient_square = gradient_square.data(),
-                .density = f.density,
-                .lambda = lambda.data(),
-                .response = response.data(),
-                .lambda_sum = lambda_sum.data(),
-                .correction = {f.correction[0], f.correction[1], f.correction[2]},
-                .velocity = {f.velocity[0], f.velocity[1], f.velocity[2]},
-                .velocity_change = {f.correction[0], f.correction[1], f.correction[2]},
-                .packed = f.packed,
-                .packed_velocity = f.packed_velocity,
-                .inverse_distance = inverse_distance};
+    WaterView<float> water_view() {
+        const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
+        const auto x = pointers(position), v = pointers(velocity), s = pointers(crowding), g = pointers(gradient);
+        WaterView<float> view{.first_block = 0,
+                              .end_block = blocks,
+                              .row_begin = row_begin.data(),
+                              .neighbour = neighbour.data(),
+                              .far_slot = far_slot,
+                              .inverse_radius = 1 / radius,
+                              .kernel_scale = 90,
+                              .slope_scale = 20 * 90 / (radius * radius),
+                              .at_spacing = 0.05f,
+                              .softening = 1e-4f,
+                              .position = {x[0], x[1], x[2]},
+                              .volume = volume.data(),
+                              .inverse_mass = inverse_mass.data(),
+                              .mobility = inverse_mass.data(),
+                              .velocity = {v[0], v[1], v[2]},
+                              .density = density.data(),
+                              .correction = {},
+                              .crowding = {s[0], s[1], s[2]},
+                              .fastest_square = fastest_square.data(),
+                              .response = response.data(),
+                              .target = target.data(),
+                              .impulse = impulse.data(),
+                              .impulse_sum = impulse_sum.data(),
+                              .packed = packed.data(),
+                              .packed_velocity = packed_velocity.data(),
+                              .packed_correction = packed_correction.data(),
+                              .packed_shear = packed_shear.data(),
+                              .gradient = {g[0], g[1], g[2]}};
+        for (int k = 0; k < 6; ++k) view.correction[k] = water_correction[k].data();
+        return view;
     }
 
-    Vector3Array<float> position, velocity, correction, solid_gradient;
-    AlignedVector<float> lambda, response, lambda_sum, gradient_square;
+    Vector3Array<float> position, velocity, correction, crowding, gradient;
+    AlignedVector<float> volume, response, target, impulse, impulse_sum, fastest_square;
+    AlignedVector<float> packed_correction, packed_shear;
+    std::array<AlignedVector<float>, 6> water_correction;
     AlignedVector<float> inverse_mass, solid_density, density, compression, constraint_count;
     AlignedVector<float> packed, packed_velocity, distance;
     std::vector<int> row_begin;
@@ -166,41 +176,29 @@ TEST_P(SolverKernels, Viscosity) {
     expect_near(fluid.correction.z, expected.correction.z);
 }
 
-/// Scheme conserving, with and without room for the pairs' distances.
-TEST_P(SolverKernels, ConservingDensity) {
-    const DensityKernels<float>& vectors = density_kernels<float>(GetParam());
-    const DensityKernels<float>& plain = scalar_density_kernels<float>(GetParam());
-    for (const bool keep : {true, false}) {
-        Fluid fluid, expected;
-        const DensityView<float> view = fluid.density_view(keep ? fluid.distance.data() : nullptr);
-        const DensityView<float> plain_view = expected.density_view(nullptr);
-        const auto expect_same_correction = [&] {
-            expect_near(fluid.correction.x, expected.correction.x);
-            expect_near(fluid.correction.y, expected.correction.y);
-            expect_near(fluid.correction.z, expected.correction.z);
-        };
-        for (const auto& [kernels_of, particles] : {std::pair{&vectors, view}, {&plain, plain_view}}) {
-            kernels_of->pack(particles);
-            kernels_of->pack_velocity(particles);
-            kernels_of->compute_lambda(particles);
-        }
-        expect_near(fluid.density, expected.density);
-        expect_near(fluid.response, expected.response);
-        expect_near(fluid.lambda, expected.lambda);
-        for (const auto& [kernels_of, particles] : {std::pair{&vectors, view}, {&plain, plain_view}}) {
-            kernels_of->pack_lambda(particles);
-            kernels_of->solve_density_constraint(particles);
-        }
-        expect_same_correction();
-        for (const auto& [kernels_of, particles] : {std::pair{&vectors, view}, {&plain, plain_view}}) {
-            kernels_of->pack(particles);
-            kernels_of->compute_rate_lambda(particles, 240);
-        }
-        expect_near(fluid.lambda, expected.lambda);
-        vectors.smooth_velocities(view);
-        plain.smooth_velocities(plain_view);
-        expect_same_correction();
-    }
+TEST_P(SolverKernels, Water) {
+    Fluid fluid, expected;
+    const WaterView<float> view = fluid.water_view(), plain_view = expected.water_view();
+    const auto by_both = [&](const auto& work) {
+        work(water_kernels<float>(GetParam()), view);
+        work(scalar_water_kernels<float>(GetParam()), plain_view);
+    };
+    by_both([](const WaterKernels<float>& set, const WaterView<float>& water) {
+        set.pack(water);
+        set.compute_moments(water);
+        set.compute_gradients(water);
+        set.add_viscosity(water, 0.1f, 1);
+        set.compute_impulse(water);
+        set.apply_impulse(water);
+    });
+    for (const auto member : {&Fluid::density, &Fluid::fastest_square, &Fluid::response, &Fluid::impulse,
+                              &Fluid::impulse_sum, &Fluid::packed_velocity})
+        expect_near(fluid.*member, expected.*member);
+    for (int k = 0; k < 6; ++k) expect_near(fluid.water_correction[k], expected.water_correction[k]);
+    expect_near(fluid.crowding.x, expected.crowding.x);
+    expect_near(fluid.velocity.x, expected.velocity.x);
+    expect_near(fluid.velocity.y, expected.velocity.y);
+    expect_near(fluid.velocity.z, expected.velocity.z);
 }
 
 /// Runs of all lengths, from all places; the longest are those of a pile of particles in one cell.
@@ -299,28 +297,17 @@ std::vector<float> what_planes_do(const PlaneKernels<float>& planes, bool displa
     Fluid fluid;
     Vector3Array<float> start = fluid.position, displacement = fluid.velocity;
     for (int slot = 0; slot < Fluid::far_slot; ++slot) {
-        fluid.lambda[slot] = -0.01f * static_cast<float>(slot % 7);
         displacement.set(slot, 0.1f * fluid.velocity.at(slot));
         fluid.position.set(slot, start.at(slot) + displacement.at(slot));
     }
     const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
-    const auto x = pointers(fluid.position), x0 = pointers(start), d = pointers(displacement),
-               g = pointers(fluid.solid_gradient), dx = pointers(fluid.correction);
+    const auto x = pointers(fluid.position), x0 = pointers(start), d = pointers(displacement);
     NearPlanes<float> slots{
         .position = {x[0], x[1], x[2]}, .start = {x0[0], x0[1], x0[2]}, .base = {}, .displacement = {}};
     for (int axis = 0; axis < 3 && displaced; ++axis) {
         slots.base[axis] = x0[axis];
         slots.displacement[axis] = d[axis];
     }
-    const PlanePressure<float> pressure{.position = {x[0], x[1], x[2]},
-                                        .scale = 3,
-                                        .gap = 0.05f,
-                                        .inverse_radius = 5,
-                                        .density = fluid.solid_density.data(),
-                                        .gradient = {g[0], g[1], g[2]},
-                                        .inverse_mass = fluid.inverse_mass.data(),
-                                        .lambda = fluid.lambda.data(),
-                                        .correction = {dx[0], dx[1], dx[2]}};
     int pushed = 0;
     for (int block = 0; block < Fluid::blocks; ++block) {
         const PlaneView<float> plane{.normal = {0.6f, 0, 0.8f},
@@ -331,13 +318,11 @@ std::vector<float> what_planes_do(const PlaneKernels<float>& planes, bool displa
                                      .dynamic_friction = 0.2f};
         const unsigned chosen = planes.near(slots, block, plane) & 0xbfffu;
         pushed += std::popcount(chosen);
-        planes.add_density(pressure, block, chosen, plane);
-        planes.apply_pressure(pressure, block, chosen, plane);
         planes.resolve_penetration(slots, block, chosen, plane);
     }
     EXPECT_GT(pushed, 10);
-    std::vector<float> all(fluid.solid_density.begin(), fluid.solid_density.end());
-    for (const auto* array : {&fluid.position, &displacement, &fluid.solid_gradient, &fluid.correction})
+    std::vector<float> all;
+    for (const auto* array : {&fluid.position, &displacement})
         for (const auto* axis : {&array->x, &array->y, &array->z}) all.insert(all.end(), axis->begin(), axis->end());
     return all;
 }

@@ -232,6 +232,52 @@ TEST(RunTest, ATrajectoryThatCannotBeWrittenIsAFailure) {
     }
 }
 
+// What was computed before is not lost to a run that does not begin.
+TEST(RunTest, WhatIsRefusedLeavesTheFileAsItWas) {
+    const TemporaryPath file("kept.csv");
+    std::ofstream(file.path) << "computed before\n";
+    const std::vector<std::vector<std::string>> refused = {
+        {"--trajectory", file.path, "--gait", R"({"frequency":1,"amplitude":[1,1,1],"phase":[0,0,0]})"},
+        {"--trajectory", file.path, "--snapshot", file.path + "2", "--at", "5"},
+        {"--trajectory", file.path, "--snapshot", file.path + "2", "--at", "nan"},
+        {"--trajectory", file.path, "--snapshot", file.path},
+        {"--trajectory", file.path, "--perturbation", "nan"},
+        {"--trajectory", file.path, "--perturbation", "inf"},
+    };
+    for (const auto& arguments : refused) {
+        std::vector<std::string> command = {"run", "thesis/creature-1-vacuum", "--duration", "0.05"};
+        command.insert(command.end(), arguments.begin(), arguments.end());
+        const Outcome outcome = run_simulator(command);
+        EXPECT_EQ(outcome.exit_code, 2) << json(command) << outcome.out;
+        EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+        EXPECT_EQ(file_lines(file.path), std::vector<std::string>{"computed before"}) << json(command);
+    }
+}
+
+// One that can't be written is told before the run; one that turns out so, after its summary.
+TEST(RunTest, ASnapshotThatCannotBeWrittenIsAFailure) {
+    const auto run = [](const std::string& path) {
+        return run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.05", "--snapshot", path});
+    };
+    const Outcome early = run("/no/such/folder/x.csv");
+    EXPECT_EQ(early.exit_code, 1);
+    EXPECT_EQ(early.out, "");
+    EXPECT_NE(early.err.find("/no/such/folder/x.csv"), std::string::npos) << early.err;
+    const Outcome late = run("/dev/full");
+    EXPECT_EQ(late.exit_code, 1);
+    EXPECT_NE(late.out.find("hash"), std::string::npos) << late.out;
+    EXPECT_NE(late.err.find("/dev/full"), std::string::npos) << late.err;
+}
+
+TEST(RunTest, ATrajectoryHasNoNumbersThatAreNone) {
+    const TemporaryPath csv("unstable.csv");
+    const Outcome outcome =
+        run_simulator({"run", "bench/small-tank", "--trajectory", csv.path, "--perturbation", "1e39"});
+    ASSERT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
+    const std::vector<std::string> rows = file_lines(csv.path);
+    EXPECT_EQ(rows, std::vector<std::string>{}) << "there was no start to write";
+}
+
 TEST(UsageTest, BadUsageIsOneLineAndExitCodeTwo) {
     const std::vector<std::vector<std::string>> commands = {
         {},

@@ -31,7 +31,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
                            .bottom_mass = 1};
     add_fluid(block, model);
     if (immerse) immerse(model);
-    if (model.scheme == Scheme::dfsph) disorder_fluid(spacing, model);
+    if (model.scheme == Scheme::conserving) disorder_fluid(spacing, model);
     model.planes = {{{0, 1, 0}, 0},
                     {{1, 0, 0}, 0},
                     {{-1, 0, 0}, count.x() * spacing},

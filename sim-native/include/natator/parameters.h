@@ -8,8 +8,7 @@ namespace natator {
 /// Which update rule advances the particles.
 enum class Scheme {
     flex,        ///< behaves as NVIDIA Flex 1.2.0 was measured to behave
-    conserving,  ///< mass-splitting projection that keeps linear and angular momentum
-    dfsph,       ///< the solids of `conserving` in incompressible water (divergence-free SPH)
+    conserving,  ///< incompressible water (divergence-free SPH) and solids by mass splitting; pair forces equal and opposite
 };
 
 /// How the summed corrections of one iteration are scaled before they are applied.
@@ -53,11 +52,11 @@ struct SolverParameters {
     /// `conserving` as a force, per (1/240 s)^2.
     double cohesion = 0.0;
     double surfaceTension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
-    double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s; not in scheme `dfsph`
-    double kernelSupport = 2.5;         ///< of the water in scheme `dfsph`, in rest distances of the fluid, [2, 4]
-    double kinematicViscosity = 0.0;    ///< of the water in scheme `dfsph`, length^2/s, >= 0
+    double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s, in scheme `flex`
+    double kernelSupport = 2.5;         ///< of the water in scheme `conserving`, in rest distances of the fluid, [2, 4]
+    double kinematicViscosity = 0.0;    ///< of the water in scheme `conserving`, length^2/s, >= 0
     double vorticityConfinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
-    double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density
+    double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density, in scheme `flex`
     double freeSurfaceDrag = 0.0;       ///< drag times the part of the rest density that a particle lacks, 1/s, >= 0
     double buoyancy = 1.0;              ///< factor on gravity for fluid particles
 
@@ -70,8 +69,7 @@ struct SolverParameters {
     /// none of them in global mode. Scheme `conserving`: a factor on every correction, 0 switches the constraints off.
     double relaxationFactor = 1.0;
 
-    /// Fluid neighbours kept per particle, the first found in cell order. Scheme `conserving` keeps at least four times
-    /// those of the rest packing, and a pair only if both keep it.
+    /// Fluid neighbours kept per particle, the first found in cell order, in scheme `flex`; `conserving` keeps all.
     int maxNeighborsPerParticle = 96;
 };
 

@@ -9,9 +9,9 @@ namespace natator {
 
 /// What a Model needs, decided once: a stage that is false here does not run and owns no memory.
 struct Plan {
-    bool fluid = false;           ///< density constraint, fluid neighbour lists
-    bool water = false;           ///< pressure solves of scheme `dfsph`, which has no density constraint
-    bool contacts = false;        ///< pairs that are not both fluid; in scheme `dfsph` of solids alone
+    bool fluid = false;           ///< density constraint of scheme `flex`, fluid neighbour lists
+    bool water = false;           ///< pressure solves of scheme `conserving`
+    bool contacts = false;        ///< pairs that are not both fluid; in scheme `conserving` of solids alone
     bool mutual_contacts = false; ///< a pair that one side feels is felt by both, so that momentum is kept
     bool solid_pressure = false;  ///< solids add to the fluid's density
     bool uniform_fluid = false;   ///< every fluid particle collides with every other: no test per pair
@@ -35,11 +35,11 @@ struct Plan {
     bool surface_tension = false;
     bool vorticity = false;
     bool free_surface_drag = false;
-    bool fluid_forces = false;  ///< any of the fluid's forces that act on velocities
+    bool fluid_forces = false;  ///< any of these that acts on velocities beside the others: all four in scheme `conserving`, tension and vorticity in `flex`
 
     /// Does anything act behind the velocities?
     constexpr bool effects() const {
-        return dissipation || free_surface_drag || fluid_forces || adhesion || restitution || sleep;
+        return dissipation || (fluid && (free_surface_drag || fluid_forces)) || adhesion || restitution || sleep;
     }
 };
 

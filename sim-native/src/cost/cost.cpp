@@ -40,7 +40,7 @@ Grid grid_over(const Model& model, double search_distance) {
     return grid;
 }
 
-/// Of particles in the planes that they are nearer to than `distance`, as scheme `dfsph` has them: as if how near one is to
+/// Of particles in the planes that they are nearer to than `distance`, as scheme `conserving` has them: as if how near one is to
 /// a plane did not depend on the others.
 double images_at_start(const Model& model, double distance) {
     const double particles = model.particles();
@@ -132,7 +132,7 @@ Cost cost_of(const Model& model) {
     const double particles = model.particles();
     const SolverParameters& p = model.parameters;
     if (model.position.empty()) return cost;
-    const bool water = model.scheme == Scheme::dfsph;
+    const bool water = model.scheme == Scheme::conserving;
     const double support = p.kernelSupport * p.fluidRestDistance;
     const double reach = water ? support : p.radius;
     const Candidates start = candidates_at_start(model, water ? reach : reach + p.particleCollisionMargin);
@@ -144,7 +144,6 @@ Cost cost_of(const Model& model) {
     const double per_cube = std::numbers::sqrt2 * ratio * ratio * ratio;
     const double at_rest = 4 * std::numbers::pi / 3 * per_cube;
     double most = p.maxNeighborsPerParticle;
-    if (model.scheme == Scheme::conserving) most = std::max(most, 4 * at_rest);
     most = water ? fluid : std::min(most, fluid);
     cost.candidates = std::max(start.fluid, fluid * std::min(20.25 * per_cube, fluid)) + start.contacts;
     const double of_fluid = fluid > 0 ? std::max(start.fluid / fluid / 2, at_rest) : 0;  // half of the cells is near

@@ -46,7 +46,7 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
     Evaluation result;
     if (frames == 0) starts = nullptr;  // the figures of a run without frames are those of settling
     State<Real> state = settled_start(model, scene.settling, solver, starts, result.instability);
-    observe(model.body, state, options.on_frame);
+    if (!result.instability) observe(model.body, state, options.on_frame);
 
     bool snapshot_due = static_cast<bool>(snapshot.take);
     std::vector<double> path{mean_x(model.body, state)};

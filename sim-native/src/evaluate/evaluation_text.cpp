@@ -11,8 +11,6 @@ const char* to_string(Scheme scheme) {
             return "flex";
         case Scheme::conserving:
             return "conserving";
-        case Scheme::dfsph:
-            return "dfsph";
     }
     return "unknown";
 }

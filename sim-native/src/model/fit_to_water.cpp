@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "physics/dfsph.h"
-#include "solver/cpu/dfsph/volumes.h"
+#include "water_volumes.h"
 
 namespace natator {
 namespace {
@@ -16,8 +16,8 @@ constexpr double longest_fall = 0.1;    ///< from rest in a substep, in rest dis
 constexpr double most_weight = 2;       ///< g H h^2 / s^2 of water of depth H that a pass holds up, in what it may take off
 
 void raise_light_solids(Model& model) {
-    const std::vector<double> volumes = cpu::particle_volumes(model);
-    const double density = cpu::fluid_density(model, volumes);
+    const std::vector<double> volumes = particle_volumes(model);
+    const double density = fluid_density(model, volumes);
     if (!(density > 0)) return;
     for (int i = 0; i < model.particles(); ++i)
         if (!model.is_fluid(i))
@@ -43,7 +43,7 @@ void raise_substeps(Model& model) {
     const double spacing = p.fluidRestDistance;
     const double passes = physics::divergence_passes + p.numIterations;
     const double held = most_weight * passes * spacing * spacing / (gravity * std::max(depth(model), spacing));
-    const double for_depth = std::min(std::sqrt(held * physics::most_excess), held * cpu::fastest_expansion(p));
+    const double for_depth = std::min(std::sqrt(held * physics::most_excess), held * fastest_expansion(p));
     const double longest = std::min(std::sqrt(longest_fall * spacing / gravity), for_depth);
     constexpr double rounding = 1e-9;
     p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));

@@ -4,7 +4,7 @@
 
 namespace natator {
 
-/// Takes a model of scheme `dfsph` to where its pressure solve holds, whatever the scene asks for:
+/// Takes a model of scheme `conserving` to where its pressure solve holds, whatever the scene asks for:
 /// - A solid particle weighs at least a fiftieth of the water in its volume. Were it lighter, the solve would move it
 ///   instead of the water. Its weight then counts as a fiftieth of its buoyancy at most.
 /// - Frames have enough substeps for gravity to move nothing further than a tenth of the rest distance in one from rest,

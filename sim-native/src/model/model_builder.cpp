@@ -110,7 +110,7 @@ Model build_model(const Scene& scene) {
         add_fluid(*scene.fluid, model);
     }
     check_inside_tank(scene, model);
-    if (scene.scheme == Scheme::dfsph && scene.fluid) {
+    if (scene.scheme == Scheme::conserving && scene.fluid) {
         disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluidRestDistance), model);
         fit_to_water(model);
     }

@@ -17,7 +17,6 @@ inline constexpr double centre_dead_band = 1e-5;  ///< of scheme `flex`: less do
 // Pairs.
 inline constexpr double least_square = 1e-30;     ///< added to r^2: 1/r stays finite, and no other r^2 changes
 inline constexpr double far_away = 1e9;           ///< where the slot is that unused list entries point to
-inline constexpr double pair_share = 0.5;         ///< of each of a pair's two density constraints, see pbf_density.h
 inline constexpr double least_response = 1e-30;   ///< below it a density constraint's neighbours are where W ends
 inline constexpr double largest_shock_exponent = 20;  ///< keeps the ratio of masses finite
 

@@ -1,4 +1,4 @@
-// The water of scheme `dfsph`: incompressible SPH by two pressure solves a substep (Bender, Koschier: Divergence-Free SPH
+// The water of scheme `conserving`: incompressible SPH by two pressure solves a substep (Bender, Koschier: Divergence-Free SPH
 // for Incompressible and Viscous Fluids, 2017), with the kernel C2 of Wendland (1995), and with gradients corrected to be
 // exact for linear fields (Bonet, Lok: Variational and momentum preservation aspects of SPH, 1999, eq. 47-49). A pair
 // takes the mean of its two corrections: its forces stay equal and opposite, and it is nearly as exact. Sums run over the neighbours j of a
@@ -7,26 +7,9 @@
 #pragma once
 
 #include "pair.h"
+#include "symmetric3.h"
 
-namespace natator::physics {
-
-/// A symmetric matrix.
-template <class T>
-struct Symmetric3 {
-    T xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
-};
-
-inline namespace NATATOR_SET {
-
-template <class T>
-NATATOR_HD Vec3<T> operator*(const Symmetric3<T>& m, const Vec3<T>& v) {
-    return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
-            m.xz * v.x + m.yz * v.y + m.zz * v.z};
-}
-template <class T>
-NATATOR_HD Symmetric3<T> operator+(const Symmetric3<T>& a, const Symmetric3<T>& b) {
-    return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
-}
+namespace natator::physics::inline NATATOR_SET {
 
 /// Wendland's C2 in space: W(q) = sigma (1 - q)^4 (4 q + 1), q = r/R, sigma = 21 / (2 pi R^3).
 template <class R>
@@ -229,5 +212,4 @@ struct ViscousSums {
     }
 };
 
-}  // namespace NATATOR_SET
-}  // namespace natator::physics
+}  // namespace natator::physics::inline NATATOR_SET

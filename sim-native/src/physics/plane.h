@@ -44,28 +44,5 @@ NATATOR_HD Vec3<T> put_before(const PlaneSurface<T>& plane, T collision_distance
     return distance < -T(overlap_tolerance) * collision_distance ? x - distance * plane.normal : x;
 }
 
-// What planes do to the fluid's density in scheme `conserving`. Behind a plane the density goes on as in fluid at rest,
-// else particles crowd at walls and floor and the pressure there is wrong: the part of the kernel A (1 - q)^3 beyond
-// distance s = q R of a particle, integrated,
-//   n0 R^3 A 2 pi ((1 - q)^5 / 20 - (1 - q)^6 / 30), n0 = particles per volume of the rest packing,
-// an idea of Koschier, Bender: Density Maps for Improved SPH Boundary Handling (2017), here in closed form.
-
-/// t = 1 - q, between 0 and 1; `gap` lies between a plane and where the fluid behind it begins.
-template <class T, class R>
-NATATOR_HD T plane_nearness(T distance, R gap, R inverse_radius) {
-    const T t = positive_part(1 - (distance + gap) * inverse_radius);
-    return t < 1 ? t : one<T>();
-}
-/// `scale` = 2 pi n0 R^3 A.
-template <class T, class R>
-NATATOR_HD T plane_density(T t, R scale) {
-    return scale * t * t * t * t * t * (R(1) / 20 - t / 30);
-}
-/// Minus its derivative by the distance.
-template <class T, class R>
-NATATOR_HD T plane_slope(T t, R scale, R inverse_radius) {
-    return scale * inverse_radius * t * t * t * t * (R(1) / 4 - t / 5);
-}
-
 }  // namespace NATATOR_SET
 }  // namespace natator::physics

@@ -99,14 +99,14 @@ void check_mirrors(const Scene& scene, const Place& place) {
             const double cosine = scene.planes[i].normal.dot(scene.planes[k].normal);
             if (std::abs(cosine) < tolerance || cosine < tolerance - 1) continue;
             std::ostringstream text;
-            text << "at a right angle to planes[" << k << "] or facing it, in scheme dfsph";
+            text << "at a right angle to planes[" << k << "] or facing it, in scheme conserving";
             const auto& n = scene.planes[i].normal;
             fields::refuse(place.key("planes").item(i), json{n.x(), n.y(), n.z(), scene.planes[i].offset}, text.str());
         }
 }
 
 void check_water(const Scene& scene, const Place& place) {
-    if (scene.scheme != Scheme::dfsph) return;
+    if (scene.scheme != Scheme::conserving) return;
     check_viscosity(scene, place);
     check_mirrors(scene, place);
 }
@@ -121,9 +121,7 @@ Scene scene_from_json(const json& document, const std::string& name) {
                         {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping"}, scene);
     if (document.contains("scheme")) {
         scene.scheme = fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"),
-                                                   {{"flex", Scheme::flex},
-                                                    {"conserving", Scheme::conserving},
-                                                    {"dfsph", Scheme::dfsph}});
+                                                   {{"flex", Scheme::flex}, {"conserving", Scheme::conserving}});
     }
     if (document.contains("solver")) scene.solver = fields::read_solver(document.at("solver"), place.key("solver"));
     if (document.contains("planes")) scene.planes = read_planes(document.at("planes"), place.key("planes"));

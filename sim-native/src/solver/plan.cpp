@@ -13,13 +13,13 @@ bool limits(double value) {
     return value < static_cast<double>(std::numeric_limits<float>::max());
 }
 
-/// Can a pair that is not fluid-fluid (in scheme `dfsph` one of solids) ever collide? Pairs of one group do only with self_collide.
+/// Can a pair that is not fluid-fluid (in scheme `conserving` one of solids) ever collide? Pairs of one group do only with self_collide.
 bool has_contacts(const Model& model) {
     std::set<std::uint32_t> groups;
     bool any_solid = false;
     bool any_self_collide = false;
     for (int i = 0; i < model.particles(); ++i) {
-        if (model.scheme == Scheme::dfsph && model.is_fluid(i)) continue;
+        if (model.scheme == Scheme::conserving && model.is_fluid(i)) continue;
         groups.insert(model.phase[i] & phase::group_mask);
         any_solid |= !model.is_fluid(i);
         any_self_collide |= (model.phase[i] & phase::self_collide) != 0;
@@ -46,8 +46,8 @@ Plan make_plan(const Model& model) {
     Plan plan;
     plan.mutual_contacts = !flex;
     const bool any_fluid = std::any_of(model.phase.begin(), model.phase.end(), is_fluid);
-    plan.water = model.scheme == Scheme::dfsph && any_fluid;
-    plan.fluid = !plan.water && any_fluid;
+    plan.water = !flex && any_fluid;
+    plan.fluid = flex && any_fluid;
     plan.contacts = has_contacts(model);
     plan.solid_pressure = plan.fluid && plan.contacts && p.solidPressure != 0;
     plan.uniform_fluid = plan.fluid && is_uniform_fluid(model);
@@ -56,7 +56,7 @@ Plan make_plan(const Model& model) {
     plan.planes = !model.planes.empty();
     plan.particle_friction = plan.contacts && p.dynamicFriction > 0 && (p.particleFriction > 0 || p.staticFriction > 0);
     plan.plane_friction = plan.planes && p.dynamicFriction > 0;
-    plan.viscosity = plan.fluid && p.viscosity != 0;
+    plan.viscosity = any_fluid && (flex ? p.viscosity != 0 : p.kinematicViscosity > 0);
     plan.damping = p.damping != 0;
     plan.clamp_acceleration = flex && limits(p.maxAcceleration);
     plan.clamp_speed = limits(p.maxSpeed);
@@ -65,11 +65,11 @@ Plan make_plan(const Model& model) {
     plan.sleep = p.sleepThreshold > 0;
     plan.shock_propagation = plan.contacts && p.shockPropagation > 0 && !p.gravity.isZero();
     plan.dissipation = plan.contacts && p.dissipation > 0;
-    plan.cohesion = plan.fluid && p.cohesion > 0;
-    plan.surface_tension = plan.fluid && p.surfaceTension > 0;
-    plan.vorticity = plan.fluid && p.vorticityConfinement > 0;
-    plan.free_surface_drag = plan.fluid && p.freeSurfaceDrag > 0;
-    plan.fluid_forces = plan.surface_tension || plan.vorticity || (plan.cohesion && !flex);
+    plan.cohesion = any_fluid && p.cohesion > 0;
+    plan.surface_tension = any_fluid && p.surfaceTension > 0;
+    plan.vorticity = any_fluid && p.vorticityConfinement > 0;
+    plan.free_surface_drag = any_fluid && p.freeSurfaceDrag > 0;
+    plan.fluid_forces = plan.surface_tension || plan.vorticity || (plan.water && (plan.cohesion || plan.free_surface_drag));
     return plan;
 }
 
@@ -83,13 +83,13 @@ Plan make_unskipped_plan(const Model& model) {
     plan.plane_friction |= p.dynamicFriction <= 0 && p.staticFriction <= 0;
     plan.damping = plan.clamp_speed = plan.sleep = plan.adhesion = plan.dissipation = true;
     plan.shock_propagation |= !p.gravity.isZero();
-    plan.solid_pressure = plan.viscosity = plan.cohesion = plan.surface_tension = plan.vorticity =
-        plan.free_surface_drag = plan.fluid_forces = plan.fluid;
+    plan.solid_pressure = plan.fluid;
+    plan.viscosity = plan.cohesion = plan.surface_tension = plan.vorticity = plan.free_surface_drag = plan.fluid_forces =
+        plan.fluid || plan.water;
     return plan;
 }
 
 std::vector<std::string> describe_plan(const Model& model) {
-    const SolverParameters& p = model.parameters;
     const Plan plan = make_plan(model);
     const bool flex = model.scheme == Scheme::flex;
     std::vector<std::string> lines;
@@ -102,11 +102,17 @@ std::vector<std::string> describe_plan(const Model& model) {
     const auto each = [&](Stage stage, const char* kind = "") {
         return std::to_string(model.parameters.numIterations) + " x per substep: " + kind + name(stage);
     };
-    add(plan.water, once("divergence and viscosity of the water"));
-    add(plan.water && p.freeSurfaceDrag > 0, once(name(Stage::free_surface_drag)));
-    add(plan.water && p.cohesion > 0, once("cohesion"));
-    add(plan.water && p.surfaceTension > 0, once("surface tension"));
-    add(plan.water && p.vorticityConfinement > 0, once("vorticity confinement"));
+    const auto forces = [&] {
+        add(plan.free_surface_drag, once(name(Stage::free_surface_drag)));
+        add(plan.cohesion && !flex, once(name(Stage::cohesion)));
+        add(plan.surface_tension, once("surface tension"));
+        add(plan.vorticity, once("vorticity confinement"));
+    };
+    add(plan.water, once("find fluid neighbours"));
+    add(plan.water, once("density and gradients"));
+    add(plan.water, once(name(Stage::divergence)));
+    add(plan.water && plan.viscosity, once(name(Stage::viscosity)));
+    if (plan.water) forces();
     add(true, once(name(Stage::predict)));
     add(plan.fluid || plan.contacts, once("sort into cells"));
     add(plan.fluid, once(std::string("find fluid neighbours") + (plan.uniform_fluid ? "" : " (test per pair)")));
@@ -124,17 +130,13 @@ std::vector<std::string> describe_plan(const Model& model) {
     add(plan.planes, each(Stage::planes) + (plan.plane_friction ? " with friction" : ""));
     std::string velocities = once(name(Stage::velocities));
     if (!flex && (plan.springs || plan.clusters)) velocities += ", body momentum";
-    if (!flex && plan.fluid) velocities += ", density rate";
-    if (plan.viscosity) velocities += ", viscosity";
+    if (flex && plan.viscosity) velocities += ", viscosity";
     if (plan.damping) velocities += ", damping";
     if (plan.clamp_acceleration) velocities += ", acceleration clamp";
     if (plan.clamp_speed) velocities += ", speed clamp";
     add(true, velocities);
     add(plan.dissipation, once(name(Stage::dissipation)));
-    add(plan.free_surface_drag, once(name(Stage::free_surface_drag)));
-    add(plan.cohesion && !flex, once("cohesion"));
-    add(plan.surface_tension, once("surface tension"));
-    add(plan.vorticity, once("vorticity confinement"));
+    if (flex) forces();
     add(plan.adhesion, once(name(Stage::adhesion)));
     add(plan.restitution, once(name(Stage::restitution)));
     add(plan.sleep, once(name(Stage::sleep)));

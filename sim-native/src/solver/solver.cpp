@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "cpu/conserving/conserving_stages.h"
-#include "cpu/dfsph/dfsph_stages.h"
 #include "cpu/flex/flex_stages.h"
 #include "natator/actuate.h"
 #include "step.h"
@@ -110,12 +109,10 @@ public:
 
 private:
     using AnyStages =
-        std::variant<std::unique_ptr<cpu::FlexStages<Real>>, std::unique_ptr<cpu::ConservingStages<Real>>,
-                     std::unique_ptr<cpu::DfsphStages<Real>>>;
+        std::variant<std::unique_ptr<cpu::FlexStages<Real>>, std::unique_ptr<cpu::ConservingStages<Real>>>;
 
     static AnyStages stages_for(const Model& model, const Plan& plan) {
         if (model.scheme == Scheme::conserving) return std::make_unique<cpu::ConservingStages<Real>>(model, plan);
-        if (model.scheme == Scheme::dfsph) return std::make_unique<cpu::DfsphStages<Real>>(model, plan);
         return std::make_unique<cpu::FlexStages<Real>>(model, plan);
     }
 

@@ -18,9 +18,8 @@ namespace natator {
 
 /// How a backend goes through the constraints of an iteration.
 enum class Grouping {
-    one_by_one,    ///< each group by itself
-    together,      ///< scheme `flex`: first all that depends on positions alone, then all corrections
-    solids_aside,  ///< scheme `conserving`: solids beside the fluid that touches none
+    one_by_one,  ///< each group by itself
+    together,    ///< scheme `flex`: first all that depends on positions alone, then all corrections; `conserving`: all solids
 };
 
 /// The groups of constraints that act on solids, in the order of all schemes.
@@ -73,23 +72,44 @@ NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterSt
     }
 }
 
-/// One iteration of the schemes `conserving` and `dfsph`: each group of constraints in turn, on the positions that the
+/// One iteration of scheme `conserving`: each group of constraints in turn, on the positions that the
 /// last one left.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) {
-    if (plan.fluid || plan.water) {
+    if (plan.water) {
         stages.solve_density_constraint();
         after(Stage::density_constraint);
     }
-    if constexpr (Stages::grouping == Grouping::solids_aside) {
-        stages.solve_solids_beside_free_fluid(after);
+    if constexpr (Stages::grouping == Grouping::together) {
+        stages.solve_solids_together();
+        after(Stage::solids);
     } else {
         solve_solids(stages, plan, after);
         if (plan.planes) {
             stages.solve_planes();
             after(Stage::planes);
         }
+    }
+}
+
+/// Scheme `conserving`, before anything moves: what the water does to the velocities that are there.
+NATATOR_ANY_SIDE
+template <class Stages, class AfterStage>
+NATATOR_STEP void begin_water(Stages& stages, const Plan& plan, const AfterStage& after) {
+    stages.find_water_neighbours();
+    after(Stage::fluid_neighbours);
+    stages.compute_water_gradients();
+    after(Stage::density);
+    stages.solve_divergence();
+    after(Stage::divergence);
+    if (plan.viscosity) {
+        stages.add_viscosity();
+        after(Stage::viscosity);
+    }
+    if (plan.fluid_forces) {
+        stages.add_fluid_forces();
+        after(Stage::fluid_forces);
     }
 }
 
@@ -102,13 +122,15 @@ NATATOR_STEP void apply_effects(Stages& stages, const Plan& plan, const AfterSta
         stages.damp_contacts();
         after(Stage::dissipation);
     }
-    if (plan.free_surface_drag) {
-        stages.drag_free_surface();
-        after(Stage::free_surface_drag);
-    }
-    if (plan.fluid_forces) {
-        stages.apply_fluid_forces();
-        after(Stage::fluid_forces);
+    if constexpr (Stages::scheme == Scheme::flex) {
+        if (plan.free_surface_drag) {
+            stages.drag_free_surface();
+            after(Stage::free_surface_drag);
+        }
+        if (plan.fluid_forces) {
+            stages.apply_fluid_forces();
+            after(Stage::fluid_forces);
+        }
     }
     if (plan.adhesion) {
         stages.apply_adhesion();
@@ -127,6 +149,8 @@ NATATOR_STEP void apply_effects(Stages& stages, const Plan& plan, const AfterSta
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
 NATATOR_STEP void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage& after) {
+    if constexpr (Stages::scheme != Scheme::flex)
+        if (plan.water) begin_water(stages, plan, after);
     stages.predict();
     after(Stage::predict);
     stages.sort_into_cells();

@@ -23,6 +23,7 @@ bool Substep<Real>::finite() const {
 template <class Real>
 void Substep<Real>::forget() {
     std::fill(new_velocity_.begin(), new_velocity_.end(), Vec3<Real>{});
+    std::fill(ws_.predicted_position.begin(), ws_.predicted_position.end(), Vector3<Real>::Zero());
     for (const int slot : ws_.slot_of) {
         ws_.position.set(slot, {});
         ws_.correction.set(slot, {});

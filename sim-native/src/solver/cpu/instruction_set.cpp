@@ -4,8 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "conserving/density_kernels.h"
-#include "dfsph/water_kernels.h"
+#include "conserving/water_kernels.h"
 #include "fluid_kernels.h"
 #include "motion_kernels.h"
 #include "natator/error.h"
@@ -115,8 +114,6 @@ NATATOR_CHOICE(PlaneKernels, plane_kernels)
 NATATOR_CHOICE(PlaneKernels, scalar_plane_kernels)
 NATATOR_CHOICE(NeighbourKernels, neighbour_kernels)
 NATATOR_CHOICE(NeighbourKernels, scalar_neighbour_kernels)
-NATATOR_CHOICE(DensityKernels, density_kernels)
-NATATOR_CHOICE(DensityKernels, scalar_density_kernels)
 NATATOR_CHOICE(WaterKernels, water_kernels)
 NATATOR_CHOICE(WaterKernels, scalar_water_kernels)
 

@@ -61,42 +61,9 @@ void resolve_penetration(const NearPlanes<Real>& slots, int block, unsigned chos
         resolve_penetration_by<Group, false>(slots, block, chosen, plane);
 }
 
-/// 1 - q of particles, between 0 and 1; 0 where not chosen.
-template <class Group, class Real>
-inline typename Group::Lane nearness(const PlanePressure<Real>& slots, int slot, typename Group::Lane one,
-                                     const PlaneSurface<Real>& surface) {
-    const auto distance = distance_to(surface, get3<Group>(slots.position, slot));
-    return one * plane_nearness(distance, slots.gap, slots.inverse_radius);
-}
-
-template <class Group, class Real>
-void add_density(const PlanePressure<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
-    using Lane = typename Group::Lane;
-    const PlaneSurface<Real> surface = surface_of(plane);
-    for_each_chosen<Group>(block, chosen, [&](int slot, Lane one) {
-        const Lane t = nearness<Group>(slots, slot, one, surface);
-        Group::put(slots.density + slot, Group::get(slots.density + slot) + plane_density(t, slots.scale));
-        const Lane down = plane_slope(t, slots.scale, slots.inverse_radius);
-        put3<Group>(slots.gradient, slot, get3<Group>(slots.gradient, slot) - down * surface.normal);
-    });
-}
-
-template <class Group, class Real>
-void apply_pressure(const PlanePressure<Real>& slots, int block, unsigned chosen, const PlaneView<Real>& plane) {
-    using Lane = typename Group::Lane;
-    const PlaneSurface<Real> surface = surface_of(plane);
-    for_each_chosen<Group>(block, chosen, [&](int slot, Lane one) {
-        const Lane t = nearness<Group>(slots, slot, one, surface);
-        const Lane push = Group::get(slots.inverse_mass + slot) * Group::get(slots.lambda + slot) *
-                          plane_slope(t, slots.scale, slots.inverse_radius);
-        put3<Group>(slots.correction, slot, get3<Group>(slots.correction, slot) - push * surface.normal);
-    });
-}
-
 template <class Group, class Real>
 PlaneKernels<Real> kernels_by() {
-    return {&near_plane<Real>, &resolve_penetration<Group, Real>, &add_density<Group, Real>,
-            &apply_pressure<Group, Real>};
+    return {&near_plane<Real>, &resolve_penetration<Group, Real>};
 }
 
 }  // namespace

@@ -196,7 +196,6 @@ protected:
 private:
     void add_surface_tension();
     void add_vorticity_confinement();
-    void add_cohesion();
 
     void number_slots();
     void gather_slots();

@@ -6,7 +6,7 @@ namespace natator::cuda {
 
 /// Takes tickets until there are none. A ticket's State may still be in the hands of another block, which then works
 /// on an earlier ticket: waiting cannot lock up.
-template <class Real, Scheme scheme, bool on_chip, bool effects>
+template <class Real, bool on_chip, bool effects>
 __global__ void __launch_bounds__(threads, 1) advance(const __grid_constant__ BatchView<Real> batch) {
     extern __shared__ __align__(128) char chip[];
     __shared__ unsigned ticket;
@@ -28,19 +28,19 @@ __global__ void __launch_bounds__(threads, 1) advance(const __grid_constant__ Ba
         }
         __syncthreads();
         if (*static_cast<volatile int*>(&batch.progress[state].stopped) < 0)
-            update<scheme, effects>(batch, state, number, block);
+            update<effects>(batch, state, number, block);
         __threadfence();
         __syncthreads();
         if (threadIdx.x == 0) *static_cast<volatile int*>(batch.updates_done + state) = number + 1;
     }
 }
 
-template <class Real, Scheme scheme, bool effects>
+template <class Real, bool effects>
 const void* batch_kernel(bool on_chip) {
     if constexpr (!effects) {
-        if (on_chip) return reinterpret_cast<const void*>(&advance<Real, scheme, true, effects>);
+        if (on_chip) return reinterpret_cast<const void*>(&advance<Real, true, effects>);
     }
-    return reinterpret_cast<const void*>(&advance<Real, scheme, false, effects>);
+    return reinterpret_cast<const void*>(&advance<Real, false, effects>);
 }
 
 }  // namespace natator::cuda

@@ -1,4 +1,4 @@
-// A batch of States of one Model: a block per State, a whole update per turn, everything between two updates on the
+// A batch of States of one Model of scheme flex: a block per State, a whole update per turn, everything between two updates on the
 // device. Blocks take (update, State) pairs from a queue, so that 150 States keep 132 multiprocessors busy.
 #include "batch_kernel.cuh"
 
@@ -10,15 +10,9 @@
 namespace natator::cuda {
 namespace {
 
-template <class Real, Scheme scheme>
-const void* kernel_of(const ModelView<Real>& model, bool on_chip) {
-    return model.plan.effects() ? batch_kernel<Real, scheme, true>(on_chip) : batch_kernel<Real, scheme, false>(on_chip);
-}
-
 template <class Real>
 const void* kernel(const ModelView<Real>& model, bool on_chip) {
-    return model.scheme != Scheme::flex ? kernel_of<Real, Scheme::conserving>(model, on_chip)
-                                              : kernel_of<Real, Scheme::flex>(model, on_chip);
+    return model.plan.effects() ? batch_kernel<Real, true>(on_chip) : batch_kernel<Real, false>(on_chip);
 }
 
 }  // namespace

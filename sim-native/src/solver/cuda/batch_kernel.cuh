@@ -65,9 +65,8 @@ template <class Real>
 int resident_blocks(const ModelView<Real>& model, bool on_chip);
 
 /// The kernel that launch_batch starts, with the code of effects (Plan::effects), which is there off chip only, or
-/// without; instantiated in a source of
-/// its own for each of both schemes.
-template <class Real, Scheme scheme, bool effects>
+/// without; each in a source of its own.
+template <class Real, bool effects>
 const void* batch_kernel(bool on_chip);
 
 }  // namespace natator::cuda

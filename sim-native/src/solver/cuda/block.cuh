@@ -19,11 +19,6 @@ struct ClusterFit {
     Real rotation[4];  ///< x, y, z, w
 };
 
-/// What gives a free body the momentum back that its internal forces took: see cpu/conserving/velocities.cpp.
-struct BodyMotion {
-    double linear[3], angular[3], centre[3];
-};
-
 /// Where an observer's view of a State is written; null where nobody looks. By slot, with the particles' numbers.
 template <class Real>
 struct Trace {
@@ -53,9 +48,7 @@ struct Layout {
     unsigned position, next, table, slot_of_solid, rest_length, fit, scan, shared;                     // on the chip
     unsigned state_velocity, next_velocity, predicted, drift, drift_before, start, number, neighbour;  // in scratch
     unsigned chunk_count, fluid_contact, solid_contact, contact_count, plane_contact, touched, contact_push, fit_before;
-    unsigned base, displacement, boundary, lambda_sum, overlap, overlap_lambda, active, internal, spring_push;
-    unsigned spring_lambda, member_displacement, member_push, motion;
-    unsigned density, overlaps, change, normal, curl;
+    unsigned density, overlaps, normal, curl;
     unsigned chip_bytes, scratch_bytes;
     int staged;  ///< neighbours per thread that `next` has room for while they are searched
 };
@@ -86,7 +79,6 @@ public:
     __device__ std::uint32_t* keys() const { return large<std::uint32_t>(at_.next); }     ///< while slots are numbered
     __device__ std::uint16_t* staging() const { return large<std::uint16_t>(at_.next); }  ///< while pairs are searched
     __device__ std::uint32_t* table() const { return large<std::uint32_t>(at_.table); }   ///< two cells in each
-    __device__ Real* lambda() const { return large<Real>(at_.table); }  ///< of fluid slots, once pairs are found
 
     // On the chip.
     __device__ std::uint16_t* slot_of_solid() const { return on_the_chip<std::uint16_t>(at_.slot_of_solid); }
@@ -118,30 +110,9 @@ public:
     __device__ Quad<Real>* contact_push() const { return in_scratch<Quad<Real>>(at_.contact_push); }
     __device__ ClusterFit<Real>* fit_before() const { return in_scratch<ClusterFit<Real>>(at_.fit_before); }
 
-    // In device memory, scheme conserving only, by slot unless said otherwise.
-    __device__ Quad<Real>* base() const { return in_scratch<Quad<Real>>(at_.base); }  ///< predicted positions
-    /// From base to the present position, apart so that it is not rounded to it.
-    __device__ Quad<Real>* displacement() const { return in_scratch<Quad<Real>>(at_.displacement); }
-    /// grad_i C_i of planes and solids, w = what solids add to sum_k w_k |grad_k C_i|^2.
-    __device__ Quad<Real>* boundary() const { return in_scratch<Quad<Real>>(at_.boundary); }
-    __device__ Real* lambda_sum() const { return in_scratch<Real>(at_.lambda_sum); }  ///< of the substep so far
-    /// C_i at the start of the substep if it is an overlap, else 0; and what has pushed it out in this substep.
-    __device__ Real* overlap() const { return in_scratch<Real>(at_.overlap); }
-    __device__ Real* overlap_lambda() const { return in_scratch<Real>(at_.overlap_lambda); }
-    __device__ std::uint16_t* active() const { return in_scratch<std::uint16_t>(at_.active); }  ///< contacts not apart
-    /// By solid: its displacement by springs and clusters.
-    __device__ Quad<Real>* internal() const { return in_scratch<Quad<Real>>(at_.internal); }
-    __device__ Quad<Real>* spring_push() const { return in_scratch<Quad<Real>>(at_.spring_push); }  ///< by spring
-    __device__ Real* spring_lambda() const { return in_scratch<Real>(at_.spring_lambda); }          ///< by spring
-    /// By member of a cluster: sum of the substep's corrections, and the last one.
-    __device__ Quad<Real>* member_displacement() const { return in_scratch<Quad<Real>>(at_.member_displacement); }
-    __device__ Quad<Real>* member_push() const { return in_scratch<Quad<Real>>(at_.member_push); }
-    __device__ BodyMotion* motion() const { return in_scratch<BodyMotion>(at_.motion); }  ///< by free body
-
     // In device memory, by slot, each where an effect needs it.
     __device__ Real* density() const { return in_scratch<Real>(at_.density); }    ///< in units of rest density
     __device__ Real* overlaps() const { return in_scratch<Real>(at_.overlaps); }  ///< contacts that are, when predicted
-    __device__ Quad<Real>* change() const { return in_scratch<Quad<Real>>(at_.change); }  ///< of velocity
     __device__ Quad<Real>* normal() const { return in_scratch<Quad<Real>>(at_.normal); }
     __device__ Quad<Real>* curl() const { return in_scratch<Quad<Real>>(at_.curl); }
 
@@ -153,7 +124,6 @@ public:
 
     Quad<Real>* velocity = nullptr;  ///< of the State
     Real h = 0;                      ///< substep, s
-    bool overlapping = false;        ///< in this substep
     int phase = 0;                   ///< of for_each_unit
 
 private:

@@ -24,10 +24,10 @@ std::optional<std::string> refusal(const Model& model) {
     if (!make_plan(model).water) return std::nullopt;
     if (model.planes.size() > most_mirrors)
         return std::to_string(model.planes.size()) + " planes; must be at most " + std::to_string(most_mirrors) +
-               " in scheme dfsph";
+               " in scheme conserving";
     if (model.particles() >= 1 << most_slot_bits)
         return std::to_string(model.particles()) + " particles; must be fewer than " +
-               std::to_string(1 << most_slot_bits) + " in scheme dfsph";
+               std::to_string(1 << most_slot_bits) + " in scheme conserving";
     return std::nullopt;
 }
 

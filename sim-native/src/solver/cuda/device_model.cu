@@ -7,8 +7,8 @@
 #include "natator/error.h"
 #include "physics/effects.h"
 #include "solver/cpu/cell_grid.h"
-#include "solver/cpu/conserving/constants.h"
-#include "solver/cpu/dfsph/volumes.h"
+#include "model/water_volumes.h"
+#include "solver/cpu/conserving/solids.h"
 #include "solver/cpu/substep.h"
 
 namespace natator::cuda {
@@ -125,19 +125,19 @@ Reflection<Real> reflected(const Reflection<Real>& first, const physics::PlaneSu
 template <class Real>
 void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
     WaterModel<Real>& water = view_.water;
-    const double radius = cpu::support(model), spacing = model.parameters.fluidRestDistance;
-    const std::vector<double> volumes = cpu::particle_volumes(model);
+    const double radius = support(model), spacing = model.parameters.fluidRestDistance;
+    const std::vector<double> volumes = particle_volumes(model);
     water.radius = static_cast<Real>(radius);
     water.spacing = static_cast<Real>(spacing);
-    water.at_spacing = static_cast<Real>(1 / cpu::wendland(spacing, radius));
+    water.at_spacing = static_cast<Real>(1 / wendland(spacing, radius));
     water.softening = Real(0.01) * water.spacing * water.spacing;
-    const double density = cpu::fluid_density(model, volumes);
+    const double density = fluid_density(model, volumes);
     water.density = static_cast<Real>(density);
     water.dynamic_viscosity = static_cast<Real>(model.parameters.kinematicViscosity * density);
-    water.fastest_expansion = static_cast<Real>(cpu::fastest_expansion(model.parameters));
-    const auto scale = static_cast<Real>(cpu::wendland(0, radius));
+    water.fastest_expansion = static_cast<Real>(fastest_expansion(model.parameters));
+    const auto scale = static_cast<Real>(wendland(0, radius));
     water.kernel = {1 / water.radius, scale, 20 * scale / (water.radius * water.radius)};
-    const double reach = cpu::effect_radius(model);
+    const double reach = effect_radius(model);
     water.effect_radius = static_cast<Real>(reach);
     water.cohesion_strength = static_cast<Real>(model.parameters.cohesion * reach);
     water.cohesion_slope = static_cast<Real>(physics::cohesion_slope(spacing / reach));
@@ -169,22 +169,8 @@ void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
 
 template <class Real>
 void DeviceModel<Real>::set_conserving(const Model& model) {
-    const cpu::ConservingConstants<Real> own(model.parameters);
-    view_.most_neighbours = own.most_neighbours;
-    view_.fluid_kernel = {own.kernel_scale, own.gradient_scale, own.rest_sum};
-    view_.plane_scale = own.plane_scale;
-    view_.plane_gap = own.plane_gap;
-    view_.overlap_acceleration = own.overlap_acceleration;
+    view_.overlap_acceleration = static_cast<Real>(cpu::overlap_acceleration(model.parameters));
     view_.plane_search_distance += view_.radius;
-    view_.fluid_inverse_mass = -1;
-    bool first = true;
-    for (int i = 0; i < model.particles(); ++i) {
-        if (!model.is_fluid(i)) continue;
-        const Real w = static_cast<Real>(model.inverse_mass[i]);
-        view_.fluid_inverse_mass = first || w == view_.fluid_inverse_mass ? w : -1;
-        first = false;
-        if (view_.fluid_inverse_mass < 0) break;
-    }
     std::vector<int> begin{0}, particles;
     for (const std::vector<int>& body : cpu::free_bodies(model)) {
         for (const int i : body) particles.push_back(number_of_[i] - view_.fluid);

@@ -43,25 +43,28 @@ __device__ void count_overlaps(const ModelView<Real>& model, const Block& block,
     block.overlaps()[s] = static_cast<Real>(count);
 }
 
-/// Dissipation: in scheme flex at once, in scheme conserving into `change`.
-template <Scheme scheme, class Real, class Block>
+/// Dissipation of scheme flex.
+template <class Real, class Block>
 __device__ void damp(const ModelView<Real>& model, const Block& block, int s) {
-    const Real step = block.h * model.dissipation, n = block.overlaps()[s];
     const Vec3<Real> v = velocity_of<Real>(block, s);
-    const Real inverse_mass = block.position()[s].w;
-    if constexpr (scheme == Scheme::flex) {
-        if (inverse_mass > 0) set_velocity(block, s, v - physics::dissipated(n, step) * v);
-    } else {
-        Vec3<Real> change{};
-        if (inverse_mass > 0)
-            for_each_contact(model, block, s, [&](int other) {
-                if (!overlaps(model, block.base(), s, other)) return;
-                const Real share = physics::impulse_share(inverse_mass, block.position()[other].w);
-                change += share * physics::dissipated_by_pair(n + block.overlaps()[other], step) *
-                          (velocity_of<Real>(block, other) - v);
-            });
-        block.change()[s] = quad(change, Real(0));
-    }
+    if (block.position()[s].w > 0)
+        set_velocity(block, s, v - physics::dissipated(block.overlaps()[s], block.h * model.dissipation) * v);
+}
+
+/// Dissipation of scheme conserving, into `change`.
+template <class Real, class Block>
+__device__ void measure_damping(const ModelView<Real>& model, const Block& block, int s) {
+    const Real step = block.h * model.dissipation, n = block.overlaps()[s], inverse_mass = block.position()[s].w;
+    const Vec3<Real> v = velocity_of<Real>(block, s);
+    Vec3<Real> change{};
+    if (inverse_mass > 0)
+        for_each_contact(model, block, s, [&](int other) {
+            if (!overlaps(model, block.base(), s, other)) return;
+            const Real share = physics::impulse_share(inverse_mass, block.position()[other].w);
+            change += share * physics::dissipated_by_pair(n + block.overlaps()[other], step) *
+                      (velocity_of<Real>(block, other) - v);
+        });
+    block.change()[s] = quad(change, Real(0));
 }
 
 /// What `change` says.
@@ -95,27 +98,23 @@ __device__ void measure_fluid(const ModelView<Real>& model, const Block& block, 
         block.curl()[s] = quad(model.gradient_estimate * model.inverse_radius * curl, Real(0));
 }
 
-/// Cohesion of scheme conserving, surface tension and vorticity confinement of fluid slot s.
-template <Scheme scheme, class Real, class Block>
+/// Surface tension and vorticity confinement of fluid slot s.
+template <class Real, class Block>
 __device__ void push_fluid_by_forces(const ModelView<Real>& model, const Block& block, int s) {
     const Real w = block.position()[s].w;
     if (!(w > 0)) return;
-    const bool cohesion = model.plan.cohesion && scheme == Scheme::conserving;
     const Vec3<Real> n = model.plan.surface_tension ? xyz(block.normal()[s]) : Vec3<Real>{};
     const Vec3<Real> curl = model.plan.vorticity ? xyz(block.curl()[s]) : Vec3<Real>{};
-    Vec3<Real> pull{}, tension{}, towards_stronger{};
+    Vec3<Real> tension{}, towards_stronger{};
     for_each_near_neighbour(
         model, block, s, block.position(), [&](int other, const Vec3<Real>& difference, Real r, Real q) {
             const Real share = physics::impulse_share(w, block.position()[other].w);
-            if (cohesion) pull += share * physics::cohesion_pull(q, model.cohesion_slope) / r * difference;
             if (model.plan.surface_tension) tension += share * (n - xyz(block.normal()[other]));
             if (model.plan.vorticity)
                 towards_stronger -=
                     physics::gradient_part(norm(xyz(block.curl()[other])) - norm(curl), difference, r, q);
         });
     Vec3<Real> v = velocity_of<Real>(block, s);
-    const Real thesis_substep = static_cast<Real>(physics::thesis_substep);
-    if (cohesion) v -= block.h / (thesis_substep * thesis_substep) * model.cohesion_strength * pull;
     v -= block.h * model.surface_tension * tension;
     v += physics::confinement(towards_stronger, curl, block.h * model.vorticity);
     set_velocity(block, s, model.plan.clamp_speed ? clamped(v, model.max_speed) : v);

@@ -167,11 +167,11 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     cuda::choose_device(options.device);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
-    const bool water = make_plan(model).water;
+    const bool small = model.particles() <= cuda::most_particles_of_a_block;
     if (path == GpuPath::by_size)
-        path = water || model.particles() > cuda::most_particles_of_a_block ? GpuPath::whole_gpu : GpuPath::block;
-    if (path == GpuPath::block && water)
-        throw InputError("backend cuda: scheme dfsph in one block; must be on the whole GPU");
+        path = model.scheme == Scheme::flex && small ? GpuPath::block : GpuPath::whole_gpu;
+    if (path == GpuPath::block && model.scheme != Scheme::flex)
+        throw InputError("backend cuda: scheme conserving in one block; must be on the whole GPU");
     if (path == GpuPath::block && model.particles() > 65535)
         throw InputError("backend cuda: " + std::to_string(model.particles()) +
                          " particles in one block; must be at most 65535");

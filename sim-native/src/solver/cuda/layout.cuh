@@ -22,7 +22,7 @@ private:
     std::size_t used_ = 0;
 };
 
-/// `on_chip` says where positions are kept. The table of cells gives its room to lambda.
+/// `on_chip` says where positions are kept.
 template <class Real>
 Layout layout_of(const ModelView<Real>& model, bool on_chip) {
     Layout at{};
@@ -35,8 +35,7 @@ Layout layout_of(const ModelView<Real>& model, bool on_chip) {
     at.next = large.take<Quad<Real>>(next);
     const std::size_t cells =
         static_cast<std::size_t>(model.grid.cells) * sizeof(std::uint32_t);  // of fluid and solids
-    const std::size_t lambdas = model.scheme != Scheme::flex ? (particles + 1) * sizeof(Real) : 0;
-    at.table = large.take<char>(std::max(cells, lambdas));
+    at.table = large.take<char>(cells);
     at.slot_of_solid = chip.take<std::uint16_t>(solids);
     at.rest_length = chip.take<Real>(model.springs);
     at.fit = chip.take<ClusterFit<Real>>(model.clusters);
@@ -61,24 +60,8 @@ Layout layout_of(const ModelView<Real>& model, bool on_chip) {
     const Plan& plan = model.plan;
     at.density = scratch.take<Real>(plan.free_surface_drag ? fluid : 0);
     at.overlaps = scratch.take<Real>(plan.dissipation ? particles : 0);
-    at.change = scratch.take<Quad<Real>>(plan.dissipation ? particles : 0);
     at.normal = scratch.take<Quad<Real>>(plan.surface_tension ? fluid : 0);
     at.curl = scratch.take<Quad<Real>>(plan.vorticity ? fluid : 0);
-    if (model.scheme != Scheme::flex) {
-        at.active = scratch.take<std::uint16_t>(particles);
-        at.base = scratch.take<Quad<Real>>(particles);
-        at.displacement = scratch.take<Quad<Real>>(particles);
-        at.boundary = scratch.take<Quad<Real>>(fluid);
-        at.lambda_sum = scratch.take<Real>(fluid);
-        at.overlap = scratch.take<Real>(fluid);
-        at.overlap_lambda = scratch.take<Real>(fluid);
-        at.internal = scratch.take<Quad<Real>>(solids);
-        at.spring_push = scratch.take<Quad<Real>>(model.springs);
-        at.spring_lambda = scratch.take<Real>(model.springs);
-        at.member_displacement = scratch.take<Quad<Real>>(model.members);
-        at.member_push = scratch.take<Quad<Real>>(model.members);
-        at.motion = scratch.take<BodyMotion>(model.free_bodies);
-    }
     at.chip_bytes = chip.used();
     at.scratch_bytes = scratch.used();
     const std::size_t rows = next * sizeof(Quad<Real>) / (threads * sizeof(std::uint16_t));

@@ -4,7 +4,6 @@
 
 #include "natator/plan.h"
 #include "physics/dfsph.h"
-#include "physics/pbf_density.h"
 #include "physics/plane.h"
 #include "physics/velocity.h"
 #include "vec3.cuh"
@@ -55,7 +54,7 @@ template <class Real>
 struct SpringView {
     int a, b;  ///< solid ids
     Real rest_length, stiffness;
-    double softness;  ///< see cpu/conserving/constants.h
+    double softness;  ///< see cpu::softness
 };
 
 struct MuscleView {
@@ -85,7 +84,7 @@ struct Reflection {
     Vec3<Real> shift;
 };
 
-/// The water of scheme `dfsph`. Mirrors are planes without friction: what is beyond is the ghost of what is before them.
+/// The water of scheme `conserving`. Mirrors are planes without friction: what is beyond is the ghost of what is before them.
 /// A ghost is known by its particle and the set of planes that it was reflected at, in their order: bit k for plane k.
 template <class Real>
 struct WaterModel {
@@ -122,12 +121,9 @@ struct ModelView {
     Real adhesion, sleep_threshold, surface_tension, vorticity, free_surface_drag, shock_propagation;
     Vec3<Real> up;  ///< against gravity
 
-    // Scheme conserving, see cpu/conserving/constants.h.
-    physics::FluidKernel<Real> fluid_kernel;
-    Real plane_scale, plane_gap, overlap_acceleration;
-    Real fluid_inverse_mass;  ///< of every fluid particle; negative if they differ
-
-    WaterModel<Real> water;  ///< scheme `dfsph`
+    // Scheme conserving.
+    Real overlap_acceleration;  ///< see cpu::overlap_acceleration
+    WaterModel<Real> water;
 
     GridView<Real> grid;
     int planes;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "conserving_overlap.cuh"
+#include "contacts.cuh"
 
 namespace natator::cuda {
 
@@ -18,19 +18,15 @@ __device__ Vec3<Real> drift_velocity(const ModelView<Real>& model, const Vec3<Re
 }
 
 /// v*, x* = x + h v*; counts the particles of each cell, the fluid's first. Ends with a barrier.
-template <Scheme scheme, class Real, class Block>
+template <class Real, class Block>
 __device__ void predict(const ModelView<Real>& model, Block& block) {
     std::uint32_t* const table = block.table();
     for (int c = threadIdx.x; c < model.grid.cells; c += threads) table[c] = 0;
     __syncthreads();
     for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit_before()[k] = block.fit()[k];
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        Quad<Real> x = block.position()[s];
+        const Quad<Real> x = block.position()[s];
         const Real inverse_mass = x.w;
-        if (scheme == Scheme::conserving && inverse_mass > 0) {
-            x = quad(put_before_planes(model, xyz(x), model.collision_distance), x.w);
-            block.position()[s] = x;
-        }
         const Vec3<Real> v = drift_velocity(model, xyz(block.velocity[s]), inverse_mass, s < model.fluid, block.h);
         const Vec3<Real> there = xyz(x) + block.h * v;
         block.predicted()[s] = quad(there, as_number<Real>(block.number()[s]));
@@ -98,7 +94,7 @@ __device__ void sort_keys(const ModelView<Real>& model, Block& block) {
 }
 
 /// Numbers the slots anew and puts everything in its new place. Ends with a barrier.
-template <Scheme scheme, class Real, class Block>
+template <class Real, class Block>
 __device__ void sort_into_cells(const ModelView<Real>& model, Block& block) {
     sort_keys(model, block);
     const std::uint32_t* const keys = block.keys();
@@ -114,7 +110,6 @@ __device__ void sort_into_cells(const ModelView<Real>& model, Block& block) {
         const Quad<Real> there = quad(xyz(block.predicted()[key & 0xffff]), block.drift()[s].w);
         block.position()[s] = there;
         block.number()[s] = static_cast<std::uint16_t>(number);
-        if (scheme == Scheme::conserving) block.base()[s] = there;
         if (s >= model.fluid) block.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);
     }
     __syncthreads();

@@ -1,8 +1,7 @@
 #pragma once
 
-// One update of one State by one block of threads.
+// One update of one State by one block of threads, scheme flex.
 #include "batch_kernel.cuh"
-#include "conserving.cuh"
 #include "flex.cuh"
 #include "measure.cuh"
 #include "neighbours.cuh"
@@ -22,16 +21,15 @@ __device__ void rest(const BatchView<Real>& batch, int state, Block& block) {
 }
 
 /// Ends with a barrier.
-template <Scheme scheme, class Real, class Block>
+template <class Real, class Block>
 __device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time, Block& block) {
     if (!gait.frequency) return;
-    const double ramp = scheme == Scheme::conserving ? physics::start_ramp(time) : 1;
     for (int m = threadIdx.x; m < model.muscles; m += threads) {
         const MuscleView muscle = model.muscle[m];
         const int a = state * model.actuators + muscle.actuator;
         const double activation =
             physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
-        const double drive = ramp * gait.amplitude[a] * activation;
+        const double drive = gait.amplitude[a] * activation;
         block.rest_length()[muscle.spring] =
             static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }
@@ -47,12 +45,12 @@ __device__ void record(const Block& block, int particles, Quad<Real>* to, int ro
 }
 
 /// The stages of substep `number` of an update, by the threads of a block, with the code of effects or without.
-template <Scheme scheme_of_step, bool with_effects, class R, class Block>
+template <bool with_effects, class R, class Block>
 struct BlockStages {
     using Real = R;
-    static constexpr Scheme scheme = scheme_of_step;
+    static constexpr Scheme scheme = Scheme::flex;
     static constexpr bool effects = with_effects;
-    static constexpr Grouping grouping = scheme == Scheme::flex ? Grouping::together : Grouping::one_by_one;
+    static constexpr Grouping grouping = Grouping::together;
 
     const ModelView<Real>& model;
     const Trace<Real>& trace;
@@ -61,14 +59,13 @@ struct BlockStages {
     int iteration = 0;
     bool finite = true;  ///< of all velocities, before what acts behind them
 
-    __device__ void predict() { cuda::predict<scheme>(model, block); }
-    __device__ void sort_into_cells() { cuda::sort_into_cells<scheme>(model, block); }
+    __device__ void predict() { cuda::predict(model, block); }
+    __device__ void sort_into_cells() { cuda::sort_into_cells(model, block); }
     template <class AfterStage>
     __device__ void find_neighbours(const AfterStage&) {
         cuda::find_neighbours(model, block);
     }
     __device__ void begin_iterations() {
-        if constexpr (scheme == Scheme::conserving) cuda::begin_iterations(model, block);
         if constexpr (effects)
             if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, block, s); });
     }
@@ -77,29 +74,19 @@ struct BlockStages {
         cuda::apply_corrections(model, block);
         __syncthreads();
     }
-    __device__ void solve_density_constraint() { cuda::solve_density_constraint(model, block, iteration == 0); }
-    __device__ void solve_contacts() { cuda::solve_contacts(model, block); }
-    __device__ void solve_springs() { cuda::solve_springs(model, block); }
-    __device__ void solve_clusters() { cuda::solve_clusters(model, block); }
-    __device__ void solve_planes() { solve_planes_in_turn(model, block); }
     __device__ void update_velocities() {
-        if constexpr (scheme == Scheme::conserving)
-            finite = update_velocities_in_turn(model, block);
-        else
-            finite = cuda::update_velocities(model, block);
+        finite = cuda::update_velocities(model, block);
         finite = !__syncthreads_or(!finite);
     }
     __device__ void damp_contacts() {
-        for_each(model.particles, [&](int s) { damp<scheme>(model, block, s); });
-        if constexpr (scheme == Scheme::conserving)
-            for_each(model.particles, [&](int s) { apply_change<Real>(block, s); });
+        for_each(model.particles, [&](int s) { damp(model, block, s); });
     }
     __device__ void drag_free_surface() {
         for_each(model.fluid, [&](int s) { drag(model, block, s); });
     }
     __device__ void apply_fluid_forces() {
         for_each(model.fluid, [&](int s) { measure_fluid(model, block, s); });
-        for_each(model.fluid, [&](int s) { push_fluid_by_forces<scheme>(model, block, s); });
+        for_each(model.fluid, [&](int s) { push_fluid_by_forces(model, block, s); });
     }
     __device__ void apply_adhesion() {
         for_each(model.particles, [&](int s) { cuda::apply_adhesion(model, block, s); });
@@ -185,7 +172,7 @@ __device__ void note_instability(const ModelView<Real>& model, Block& block, dou
 }
 
 /// What the last update of a State leaves for those who ask.
-template <Scheme scheme, class Real, class Block>
+template <class Real, class Block>
 __device__ void report(const BatchView<Real>& batch, int state, Block& block) {
     const ModelView<Real>& model = batch.model;
     if (batch.neighbours) {
@@ -195,10 +182,7 @@ __device__ void report(const BatchView<Real>& batch, int state, Block& block) {
                                         (model.plan.contacts ? block.contact_count()[s] : 0);
     }
     if (!batch.density || !model.plan.fluid) return;
-    if constexpr (scheme == Scheme::conserving)
-        compute_density_above_rest(model, block);
-    else
-        compute_density(model, block, Real(-1));
+    compute_density(model, block, Real(-1));
     for (int s = threadIdx.x; s < model.fluid; s += threads)
         batch.density[static_cast<std::size_t>(state) * model.fluid + block.number()[s]] = block.next()[s].w + 1;
 }
@@ -221,7 +205,7 @@ __device__ void end_frame(const BatchView<Real>& batch, int state, int update, B
 }
 
 /// Update `number` of a State.
-template <Scheme scheme, bool effects, class Real, class Block>
+template <bool effects, class Real, class Block>
 __device__ void update(const BatchView<Real>& batch, int state, int number, Block& block) {
     const ModelView<Real>& model = batch.model;
     Quad<Real>* const position = batch.position + static_cast<std::size_t>(state) * model.particles;
@@ -244,15 +228,13 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
     const Trace<Real> trace = last ? batch.trace : Trace<Real>{};
     const double time = batch.start_time + (batch.settling ? 0 : number * batch.time_step);
     rest(batch, state, block);
-    if constexpr (scheme == Scheme::flex) actuate<scheme>(model, batch.gait, state, time, block);
+    actuate(model, batch.gait, state, time, block);
     if (!batch.settling && number == 0)
         measure_path(model, block, batch.path + static_cast<std::size_t>(state) * (batch.updates + 1));
     block.book(Stage::load);
 
     for (int k = 0; k < batch.substeps; ++k) {
-        if constexpr (scheme == Scheme::conserving)
-            actuate<scheme>(model, batch.gait, state, time + batch.time_step * (k + 1) / batch.substeps, block);
-        using Stages = BlockStages<scheme, effects, Real, Block>;
+        using Stages = BlockStages<effects, Real, Block>;
         Stages stages{model, trace, block, k};
         natator::substep(stages, model.plan, model.iterations, AfterBlockStage<Stages>{stages});
         if (!stages.all_finite()) {
@@ -269,7 +251,7 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
     for (int k = threadIdx.x; k < model.clusters; k += threads) fit[k] = block.fit()[k];
     if (progress.stopped >= 0) return;
     if (!batch.settling) end_frame(batch, state, number, block);
-    if (progress.stopped >= 0 || last) report<scheme>(batch, state, block);
+    if (progress.stopped >= 0 || last) report(batch, state, block);
     block.book(Stage::measure);
 }
 

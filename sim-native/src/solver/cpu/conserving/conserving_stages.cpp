@@ -6,23 +6,13 @@ namespace natator::cpu {
 
 template <class Real>
 ConservingStages<Real>::ConservingStages(const Model& model, const Plan& plan)
-    : Substep<Real>(model, plan),
-      density_kernels_(&cpu::density_kernels<Real>(instruction_set())),
-      own_(model.parameters),
-      springs_per_particle_(model.particles(), 0),
-      spring_lambda_(model.springs.size()) {
+    : Substep<Real>(model, plan), bodies_(free_bodies(model)), springs_per_particle_(model.particles(), 0), spring_lambda_(model.springs.size()) {
+    if (plan_.water) water_.emplace(model);
     // Planes must hold whatever is pushed against them in the course of a substep, not just what starts close to them.
     constants_.plane_search_distance += constants_.radius;
     const std::size_t all = ws_.position.x.size();
     base_.resize(all);
     displacement_.resize(all);
-    for (std::vector<int>& particles : free_bodies(model)) bodies_.push_back({.particles = std::move(particles)});
-    if (plan_.fluid) {
-        this->most_neighbours_ = own_.most_neighbours;
-        for (auto* array : {&lambda_, &response_, &lambda_sum_, &solid_gradient_square_, &overlap_, &overlap_lambda_})
-            array->resize(all);
-        solid_gradient_.resize(all);
-    }
 
     std::vector<bool> bonded(model.particles(), false);
     for (const Spring& spring : model.springs) {
@@ -48,12 +38,10 @@ ConservingStages<Real>::ConservingStages(const Model& model, const Plan& plan)
 template <class Real>
 void ConservingStages<Real>::begin_iterations() {
     base_ = ws_.position;
-    overlap_push_ = own_.overlap_acceleration * h_ * h_;
-    looked_for_overlap_ = overlapping_ = false;
+    overlap_push_ = static_cast<Real>(overlap_acceleration(model_.parameters)) * h_ * h_;
     for (auto* array : {&displacement_, &ws_.correction})
         for (auto* coordinate : {&array->x, &array->y, &array->z})
             std::fill(coordinate->begin(), coordinate->end(), Real(0));
-    std::fill(lambda_sum_.begin(), lambda_sum_.end(), Real(0));
     std::fill(internal_.begin(), internal_.end(), Vec3<Real>{});
     std::fill(spring_lambda_.begin(), spring_lambda_.end(), Real(0));
     for (auto& displacements : cluster_displacement_)
@@ -61,8 +49,8 @@ void ConservingStages<Real>::begin_iterations() {
 }
 
 template <class Real>
-void ConservingStages<Real>::apply_correction(int slot, Real share) {
-    if (ws_.inverse_mass[slot] > 0) move(slot, constants_.relaxation_factor * share * ws_.correction.at(slot));
+void ConservingStages<Real>::apply_correction(int slot) {
+    if (ws_.inverse_mass[slot] > 0) move(slot, constants_.relaxation_factor * ws_.correction.at(slot));
     ws_.correction.set(slot, {});
 }
 
@@ -73,6 +61,29 @@ void ConservingStages<Real>::apply_internal_corrections() {
         if (ws_.inverse_mass[slot] > 0) internal_[i] += constants_.relaxation_factor * ws_.correction.at(slot);
         apply_correction(slot);
     }
+}
+
+template <class Real>
+std::vector<Real> ConservingStages<Real>::densities() const {
+    std::vector<Real> densities(ws_.particles, Real(0));
+    for (const int i : ws_.fluid_ids)
+        if (inverse_mass_[i] > 0) densities[i] = water_->density(i);
+    return densities;
+}
+
+template <class Real>
+std::vector<Real> ConservingStages<Real>::pressures() const {
+    std::vector<Real> pressures(ws_.particles, Real(0));
+    for (const int i : ws_.fluid_ids) pressures[i] = water_->pressure(i);
+    return pressures;
+}
+
+template <class Real>
+std::vector<int> ConservingStages<Real>::neighbour_counts() const {
+    if (!water_) return Substep<Real>::neighbour_counts();
+    std::vector<int> counts(ws_.particles, 0);
+    for (int i = 0; i < ws_.particles; ++i) counts[i] = water_->neighbours(i);
+    return counts;
 }
 
 template class ConservingStages<float>;

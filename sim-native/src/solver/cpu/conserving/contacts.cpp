@@ -2,7 +2,16 @@
 
 namespace natator::cpu {
 
-/// Pair that is not fluid-fluid, depth e = solidRestDistance - r > 0, less where it started too deep, n = contacts with
+/// Starts that overlap, what a scene, a request or a hand put too close, are pushed apart at a limited acceleration (see
+/// overlap_acceleration) instead of within one substep, which would fling it away.
+template <class Real>
+Real ConservingStages<Real>::contact_depth(int i, int j) const {
+    return physics::limited_depth(
+        constants_.solid_rest_distance, norm(position_of_slot(i) - position_of_slot(j)), overlap_push_,
+        [&] { return norm(start_of_slot(i) - start_of_slot(j)); }, [&] { return norm(base_.at(i) - base_.at(j)); });
+}
+
+/// Pair of solids, depth e = solidRestDistance - r > 0, less where it started too deep, n = contacts with
 /// e > 0 of a particle: Dx_i = w_i / (w_i n_i + w_j n_j) (e n - friction).
 template <class Real>
 void ConservingStages<Real>::solve_contacts() {

@@ -2,6 +2,14 @@
 
 namespace natator::cpu {
 
+/// Of solids.
+template <class Real>
+void ConservingStages<Real>::find_plane_contacts() {
+    Substep<Real>::find_plane_contacts();
+    const int first_solid = ws_.solid_begin / lanes;
+    std::erase_if(ws_.plane_groups, [&](const auto& group) { return group.block < first_solid; });
+}
+
 template <class Real>
 void ConservingStages<Real>::solve_planes() {
     NearPlanes<Real> slots = this->near_planes();
@@ -15,6 +23,8 @@ void ConservingStages<Real>::solve_planes() {
     this->resolve_plane_penetrations(slots);
 }
 
+template void ConservingStages<float>::find_plane_contacts();
+template void ConservingStages<double>::find_plane_contacts();
 template void ConservingStages<float>::solve_planes();
 template void ConservingStages<double>::solve_planes();
 

@@ -50,29 +50,10 @@ void Substep<Real>::add_vorticity_confinement() {
     }
 }
 
-/// The pull of scheme `flex` as a force, in units of R per h0^2, h0 the substep of the thesis.
-template <class Real>
-void Substep<Real>::add_cohesion() {
-    constexpr Real thesis_substep = static_cast<Real>(physics::thesis_substep);
-    const Real strength = static_cast<Real>(model_.parameters.cohesion) * constants_.radius;
-    const Real step = h_ / (thesis_substep * thesis_substep);
-    for (int slot = 0; slot < ws_.fluid; ++slot) {
-        const Real w = ws_.inverse_mass[slot];
-        if (w == 0) continue;
-        Vec3<Real> sum{};
-        for_each_fluid_neighbour(slot, [&](int other, const Vec3<Real>& difference, Real r, Real q) {
-            sum += physics::impulse_share(w, ws_.inverse_mass[other]) *
-                   physics::cohesion_pull(q, constants_.cohesion_slope) / r * difference;
-        });
-        velocity_change_[ws_.particle_of[slot]] -= step * strength * sum;
-    }
-}
-
 /// All from the same final positions and velocities.
 template <class Real>
 void Substep<Real>::apply_fluid_forces() {
     std::fill(velocity_change_.begin(), velocity_change_.end(), Vec3<Real>{});
-    if (plan_.cohesion && model_.scheme == Scheme::conserving) add_cohesion();
     if (plan_.surface_tension) add_surface_tension();
     if (plan_.vorticity) add_vorticity_confinement();
     for (const int i : ws_.fluid_ids) {

@@ -8,6 +8,13 @@ __device__ inline int own_index() {
     return static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
 }
 
+/// Puts what starts behind a plane, or nearer to one than `distance`, there: see physics::put_before.
+template <class Real>
+__device__ Vec3<Real> put_before_planes(const ModelView<Real>& model, Vec3<Real> x, Real distance) {
+    for (int k = 0; k < model.planes; ++k) x = put_before(model.plane[k].surface, distance, x);
+    return x;
+}
+
 /// v* = v + h g, |v*| <= maxSpeed, x* = x + h v*; counts the particles of each cell, the fluid's first.
 template <Scheme scheme, class Real>
 __global__ void __launch_bounds__(large_threads)
@@ -75,7 +82,7 @@ __global__ void prepare_search(const __grid_constant__ ModelView<Real> model,
     bound_solids(model, slots);
     if (threadIdx.x > 0) return;
     LargeShared<Real>& shared = slots.shared();
-    shared.touched = shared.high = shared.overlapping = shared.full = 0;
+    shared.touched = 0;
 }
 
 }  // namespace natator::cuda

@@ -9,6 +9,7 @@ namespace natator::cuda {
 enum class Effect {
     count_overlaps,
     damp,
+    measure_damping,
     apply_change,
     drag,
     measure_fluid,
@@ -20,7 +21,7 @@ enum class Effect {
 };
 
 /// Does one of them to every slot.
-template <Effect effect, Scheme scheme, class Real>
+template <Effect effect, class Real>
 __global__ void __launch_bounds__(large_threads)
     effect_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
     const Slots<Real> slots = states.state(blockIdx.y);
@@ -28,11 +29,12 @@ __global__ void __launch_bounds__(large_threads)
     const int s = own_index();
     if (s >= (of_fluid ? model.fluid : model.particles) || slots.failed()) return;
     if constexpr (effect == Effect::count_overlaps) count_overlaps(model, slots, s);
-    if constexpr (effect == Effect::damp) damp<scheme>(model, slots, s);
+    if constexpr (effect == Effect::damp) damp(model, slots, s);
+    if constexpr (effect == Effect::measure_damping) measure_damping(model, slots, s);
     if constexpr (effect == Effect::apply_change) apply_change<Real>(slots, s);
     if constexpr (effect == Effect::drag) drag(model, slots, s);
     if constexpr (effect == Effect::measure_fluid) measure_fluid(model, slots, s);
-    if constexpr (effect == Effect::push_fluid) push_fluid_by_forces<scheme>(model, slots, s);
+    if constexpr (effect == Effect::push_fluid) push_fluid_by_forces(model, slots, s);
     if constexpr (effect == Effect::adhesion) apply_adhesion(model, slots, s);
     if constexpr (effect == Effect::restitution) apply_restitution(model, slots, s);
     if constexpr (effect == Effect::sleep) apply_sleep(model, slots, s);
@@ -45,15 +47,16 @@ template <Scheme scheme, class Real>
 struct LaunchEffects : LaunchStages<scheme, Real> {
     template <Effect effect>
     void launch_effect() const {
-        effect_large<effect, scheme>
+        effect_large<effect>
             <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
     }
     void begin_iterations() {
         if (this->model.plan.dissipation) launch_effect<Effect::count_overlaps>();
     }
     void damp_contacts() {
-        launch_effect<Effect::damp>();
-        if (scheme == Scheme::conserving) launch_effect<Effect::apply_change>();
+        if constexpr (scheme == Scheme::flex) return launch_effect<Effect::damp>();
+        launch_effect<Effect::measure_damping>();
+        launch_effect<Effect::apply_change>();
     }
     void drag_free_surface() { launch_effect<Effect::drag>(); }
     void apply_fluid_forces() {

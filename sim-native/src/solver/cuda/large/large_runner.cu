@@ -42,11 +42,6 @@ LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room)
     base_.states = states;
     base_.slots.room = room;
     check(cudaStreamCreateWithFlags(&base_.stream, cudaStreamNonBlocking), "stream");
-    int least = 0, greatest = 0;
-    check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "priority");
-    check(cudaStreamCreateWithPriority(&base_.side, cudaStreamNonBlocking, greatest), "stream");
-    check(cudaEventCreateWithFlags(&base_.fork, cudaEventDisableTiming), "event");
-    check(cudaEventCreateWithFlags(&base_.joint, cudaEventDisableTiming), "event");
     allocate();
     check(cudaMallocHost(&end_, states * sizeof *end_), "host memory");
     const std::size_t particles = base_.model.particles;
@@ -62,9 +57,6 @@ LargeRunner<Real>::~LargeRunner() {
     graphs_.clear();
     cudaFreeHost(rest_lengths_);
     cudaFreeHost(end_);
-    cudaEventDestroy(base_.fork);
-    cudaEventDestroy(base_.joint);
-    cudaStreamDestroy(base_.side);
     cudaStreamDestroy(base_.stream);
 }
 

@@ -1,4 +1,3 @@
-#include "conserving_kernels.cuh"
 #include "flex_kernels.cuh"
 #include "solver/cuda/measure.cuh"
 #include "substep.cuh"
@@ -13,15 +12,12 @@ __global__ void densities_large(const __grid_constant__ ModelView<Real> model,
     const int s = own_index();
     if (s >= model.fluid) return;
     density += static_cast<std::size_t>(blockIdx.y) * model.fluid;
-    const Vec3<Real> x = xyz(slots.position()[s]);
     if (model.plan.water) {
         density[s] = slots.water.density_of[s];
         return;
     }
-    const Real above = model.scheme != Scheme::flex
-                           ? density_of(model, slots, s, slots.position(), boundary_terms(model, slots, s, x)).above
-                           : compression_of(model, slots, s, x);
-    density[slots.number()[s]] = above + 1;
+    const Vec3<Real> x = xyz(slots.position()[s]);
+    density[slots.number()[s]] = compression_of(model, slots, s, x) + 1;
 }
 
 template <class Real>
@@ -61,7 +57,6 @@ __global__ void far_slot_large(const __grid_constant__ ModelView<Real> model,
     const Slots<Real> slots = states.state(blockIdx.y);
     for (Quad<Real>* const array : {slots.at.state_position, slots.position(), slots.next(), slots.start()})
         array[model.particles] = far_away<Real>();
-    if (model.scheme != Scheme::flex) slots.lambda()[model.particles] = 0;
 }
 
 template <class Real>
@@ -89,9 +84,7 @@ int blocks_of(const LargeLaunch<Real>& launch) {
 
 template <class Real>
 void launch_substep(const LargeLaunch<Real>& launch) {
-    if (launch.model.plan.water)
-        launch_water_substep(launch);
-    else if (launch.model.scheme != Scheme::flex)
+    if (launch.model.scheme == Scheme::conserving)
         launch_substep_of<Real, Scheme::conserving>(launch);
     else
         launch_substep_of<Real, Scheme::flex>(launch);

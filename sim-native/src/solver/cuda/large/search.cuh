@@ -75,9 +75,7 @@ __global__ void __launch_bounds__(search_threads, 12)
     const Vec3<Real> x = xyz(here);
     const bool water = model.plan.water && s < model.fluid;  // its walls are mirrors
     if (s < model.fluid && model.plan.fluid) {
-        const int n = list_fluid_neighbours(model, slots, s, x, staging + threadIdx.x);
-        slots.neighbour_count()[s] = n;
-        if (n == model.most_neighbours) slots.shared().full = 1;
+        slots.neighbour_count()[s] = list_fluid_neighbours(model, slots, s, x, staging + threadIdx.x);
     }
     if (model.plan.contacts) {
         const int contacts = water ? 0 : list_contacts(model, slots, s, x);

@@ -10,11 +10,9 @@ namespace natator::cuda {
 template <class Real>
 struct LargeShared : Shared<Real> {
     unsigned long long bad;  ///< substep << 32 | particle of the first that is not finite; `none_bad` if all are
-    int high;                ///< some density is far above rest: of this iteration, or of this substep in scheme dfsph
-    int overlapping;         ///< scheme conserving: some particles began this substep overlapping
-    int full;                ///< scheme conserving: some neighbour list is full
+    int high;                ///< scheme conserving: some density is far above rest in this substep
     int touches;             ///< the body touches a plane
-    int most_neighbours;     ///< scheme dfsph: of any particle, also where lists have no room for them
+    int most_neighbours;     ///< scheme conserving: of any particle, also where lists have no room for them
     double mean_x;           ///< of the body
 };
 
@@ -54,27 +52,21 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(int, fluid_contact, plan.contacts && plan.fluid ? size.fluid * size.room.fluid : 0)                             \
     X(int, solid_contact, plan.contacts ? size.solids * size.room.solid : 0)                                          \
     /* Where an effect needs them. */                                                                                 \
-    X(Real, density, plan.free_surface_drag ? all : 0)                                                                \
+    X(Real, density, plan.fluid && plan.free_surface_drag ? all : 0)                                                  \
     X(Real, overlaps, plan.dissipation ? all : 0)                                                                     \
     X(Quad<Real>, change, plan.dissipation ? all : 0)                                                                 \
-    X(Quad<Real>, normal, plan.surface_tension ? all : 0)                                                             \
-    X(Quad<Real>, curl, plan.vorticity ? all : 0)                                                                     \
-    /* Not in scheme flex. */                                                                                         \
+    X(Quad<Real>, normal, plan.fluid && plan.surface_tension ? all : 0)                                               \
+    X(Quad<Real>, curl, plan.fluid && plan.vorticity ? all : 0)                                                       \
+    /* Of solids, in scheme conserving. */                                                                            \
     X(int, active, turns ? all : 0)                                                                                   \
     X(Quad<Real>, displacement, turns ? all : 0)                                                                      \
-    X(Quad<Real>, boundary, turns && plan.fluid ? all : 0)                                                            \
-    X(Real, lambda, turns ? all : 0)                                                                                  \
-    X(Real, lambda_sum, turns ? all : 0)                                                                              \
-    X(Real, overlap, turns && plan.fluid ? all : 0)                                                                   \
-    X(Real, overlap_lambda, turns && plan.fluid ? all : 0)                                                            \
     X(Quad<Real>, internal, turns ? size.solids : 0)                                                                  \
     X(Quad<Real>, spring_push, turns ? size.springs : 0)                                                              \
     X(Real, spring_lambda, turns ? size.springs : 0)                                                                  \
     X(Quad<Real>, member_displacement, turns ? size.members : 0)                                                      \
-    X(Quad<Real>, member_push, turns ? size.members : 0)                                                              \
-    X(BodyMotion, motion, turns ? size.free_bodies : 0)
+    X(Quad<Real>, member_push, turns ? size.members : 0)
 
-// The water of scheme dfsph, by slot of the State as the last substep left it, unless said otherwise. An entry is a slot
+// The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise. An entry is a slot
 // with the set of planes that it is the ghost of: planes << most_slot_bits | slot.
 #define NATATOR_WATER_ARRAYS(X)                                                                                       \
     /* Ends of the cells; of particles and ghosts, cell by cell: planes << 58 | number << 32 | slot; their */         \
@@ -185,7 +177,6 @@ public:
     int water_neighbours = 0; ///< that a slot has room for in the water's lists
     Real h = 0;               ///< substep, s
     int substep = 0;
-    bool overlapping = false;
 };
 
 inline constexpr int large_threads = 256;  ///< of a block

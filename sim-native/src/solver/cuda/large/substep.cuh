@@ -16,8 +16,6 @@ struct LargeLaunch {
     void* scan_room;
     std::size_t scan_bytes;
     cudaStream_t stream;
-    cudaStream_t side;        ///< for stages of one block beside those of the stream, which would leave no room later
-    cudaEvent_t fork, joint;  ///< where the two part and meet
     Trace<Real> trace;        ///< null where nobody looks
     StageClock* clock = nullptr;  ///< likewise
 
@@ -36,19 +34,6 @@ struct LargeLaunch {
     void mark(Stage stage) const {
         if (clock) clock->mark(stage);
     }
-
-    /// The stream for stages that run beside the next ones, until join(). With a clock they run before these.
-    cudaStream_t part() const {
-        if (clock) return stream;
-        check(cudaEventRecord(fork, stream), "fork");
-        check(cudaStreamWaitEvent(side, fork), "fork");
-        return side;
-    }
-    void join() const {
-        if (clock) return;
-        check(cudaEventRecord(joint, side), "join");
-        check(cudaStreamWaitEvent(stream, joint), "join");
-    }
 };
 
 /// Launches the stages of substep `slots.substep`.
@@ -56,10 +41,6 @@ template <class Real>
 void launch_substep(const LargeLaunch<Real>& launch);
 template <class Real, Scheme scheme>
 void launch_substep_of(const LargeLaunch<Real>& launch);
-
-/// Of scheme dfsph, where there is fluid.
-template <class Real>
-void launch_water_substep(const LargeLaunch<Real>& launch);
 
 template <class Real, Scheme scheme>
 void launch_predict(const LargeLaunch<Real>& launch);

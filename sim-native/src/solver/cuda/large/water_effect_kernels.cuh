@@ -1,6 +1,6 @@
 #pragma once
 
-// Forces and losses that the thesis leaves off, between water and water: cpu/dfsph/water_effects.cpp for a large State.
+// Forces and losses that the thesis leaves off, between water and water: cpu/conserving/water_effects.cpp for a large State.
 // They act on what the viscosity has left in `pushed`. The slots of the fluid are before those of the solids.
 #include "physics/water_effects.h"
 #include "water_kernels.cuh"
@@ -64,7 +64,7 @@ __global__ void __launch_bounds__(large_threads)
     tension = sum_of_lanes(tension);
     towards_stronger = sum_of_lanes(towards_stronger);
     if (own_lane() != 0) return;
-    const Quad<Real> pushed = water.pushed[s];
+    const Quad<Real> pushed = pushed_by_viscosity(model, water, s);
     Vec3<Real> v = physics::dragged(xyz(pushed), water.density[s], slots.h * model.free_surface_drag);
     if (pushed.w > 0) {
         constexpr Real thesis_substep = static_cast<Real>(physics::thesis_substep);

@@ -1,10 +1,9 @@
 #pragma once
 
-// The water of scheme dfsph for a large State: a kernel per sum over neighbours, which pair_lanes threads share. See
-// cpu/dfsph/water.h.
-#include "cells.cuh"
-#include "search.cuh"
-#include "solver/cuda/conserving.cuh"
+// The water of scheme conserving: a kernel per sum over neighbours, which pair_lanes threads share. See
+// cpu/conserving/water.h.
+#include "body_momentum.cuh"
+#include "solids.cuh"
 
 namespace natator::cuda {
 
@@ -134,7 +133,7 @@ __device__ Real largest_of_lanes(Real value) {
 /// Lists what is within the kernel's support of each particle, solids and ghosts too, in the order of the cells.
 template <class Real>
 __global__ void __launch_bounds__(search_threads)
-    find_water_neighbours(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    find_water_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
     const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_slot(), lane = own_lane();
     if (s >= model.particles || slots.failed()) return;
@@ -263,7 +262,7 @@ __global__ void __launch_bounds__(large_threads)
     if (own_lane() == 0) water.response[s] = sums.response(own_shear.z);
 }
 
-/// What the passes of a substep are for, see cpu/dfsph/water.cpp.
+/// What the passes of a substep are for, see cpu/conserving/water.cpp.
 enum class Pass {
     first_parting,  ///< of overlaps, on velocities that begin at 0 and are forgotten; only where there are any
     parting,
@@ -329,7 +328,7 @@ __global__ void __launch_bounds__(large_threads)
         move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
 }
 
-/// Viscosity, beside the velocities.
+/// Viscosity; the velocities that neighbours see stay as they were.
 template <class Real>
 __global__ void __launch_bounds__(large_threads)
     water_viscosity(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
@@ -338,21 +337,29 @@ __global__ void __launch_bounds__(large_threads)
     if (s >= model.particles || slots.failed()) return;
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
-    Vec3<Real> v = xyz(moves);
-    if (model.water.dynamic_viscosity > 0) {
-        const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
-        const Real most = physics::viscous_limit(model.water.spacing, strength);
-        physics::ViscousSums<Real> sums;
-        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
-            const Quad<Real> there = water.position[other];
-            const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-            const Quad<Real> u = seen(model, water.velocity, other, planes);
-            const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
-            sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
-        });
-        v += (strength * moves.w) * sum_of_lanes(sums.impulse);
-    }
+    const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
+    const Real most = physics::viscous_limit(model.water.spacing, strength);
+    physics::ViscousSums<Real> sums;
+    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
+        const Quad<Real> there = water.position[other];
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+        const Quad<Real> u = seen(model, water.velocity, other, planes);
+        const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
+        sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
+    });
+    const Vec3<Real> v = xyz(moves) + (strength * moves.w) * sum_of_lanes(sums.impulse);
     if (own_lane() == 0) water.pushed[s] = quad(v, moves.w);
+}
+
+/// What slot s moves with by the stages so far.
+template <class Real>
+__device__ Quad<Real> pushed_by_viscosity(const ModelView<Real>& model, const WaterArrays<Real>& water, int s) {
+    return model.plan.viscosity ? water.pushed[s] : water.velocity[s];
+}
+template <class Real>
+__device__ Quad<Real> pushed_by_forces(const ModelView<Real>& model, const WaterArrays<Real>& water, int s,
+                                       bool fluid) {
+    return model.plan.fluid_forces && fluid ? water.pushed[s] : pushed_by_viscosity(model, water, s);
 }
 
 /// Gravity; then x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
@@ -363,9 +370,10 @@ __global__ void __launch_bounds__(large_threads)
     const int s = own_index();
     if (s >= model.particles || slots.failed()) return;
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> x = slots.at.state_position[s], pushed = water.pushed[s], crowding = water.crowding[s];
+    const Quad<Real> x = slots.at.state_position[s], crowding = water.crowding[s];
     const Real number = slots.at.state_velocity[s].w;
     const bool fluid = number_in(number) < model.fluid;
+    const Quad<Real> pushed = pushed_by_forces(model, water, s, fluid);
     Vec3<Real> with_gravity = xyz(pushed);
     if (pushed.w > 0) with_gravity += slots.h * (fluid ? model.fluid_gravity : model.gravity);
     const Vec3<Real> v = model.plan.clamp_speed ? clamped(with_gravity, model.max_speed) : with_gravity;
@@ -381,20 +389,6 @@ __global__ void __launch_bounds__(large_threads)
     slots.at.drift_before[s] = quad(v, number);
     slots.at.cell[s] = cell;
     atomicAdd(slots.at.table + cell, 1);
-}
-
-/// Contacts, springs, clusters and planes of the solids; tells the water how they move by then. One block.
-template <class Real>
-__global__ void __launch_bounds__(threads)
-    solids_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    if (slots.failed()) return;
-    solve_bodies(model, slots);
-    for (int solid = threadIdx.x; solid < model.solids; solid += threads) {
-        const int s = slots.slot_of_solid()[solid];
-        solve_planes_of(model, slots, s);
-        slots.water.velocity[slots.water.slot_of_solid[solid]] = constrained_velocity<Real>(slots, s);
-    }
 }
 
 /// The fluid goes where its velocities take it.

@@ -32,7 +32,7 @@ import picocli.CommandLine.Spec;
         description = {"Evolves the gait of a creature.",
             "Prints the best gait; keeps everything in a run folder."},
         footer = {"", "Examples:",
-            "  natator evolve --creature 2 --scheme conserving --preset quick",
+            "  natator evolve --creature 2 --generations 6",
             "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
             "  natator evolve --preset thesis --dry-run"})
 final class EvolveCommand implements Callable<Integer> {
@@ -59,8 +59,8 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
-            description = "quick (population 16, 3 generations, scheme conserving, 2 s) or thesis (150, 100, as the scene "
-                    + "has it). Other options change parts of it. Default: ${DEFAULT-VALUE}.")
+            description = "quick (population 16, 3 generations of 2 s in pool/creature-N) or thesis (150, 100, as "
+                    + "thesis/creature-N has it). Other options change parts of it. Default: ${DEFAULT-VALUE}.")
     private Preset preset;
 
     @Section(Topic.EXTENT)
@@ -165,14 +165,14 @@ final class EvolveCommand implements Callable<Integer> {
     }
 
     private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
-        String sceneName = choice.scene(spec);
+        String sceneName = choice.scene(spec, preset);
         EncodingKind kind = encoding != null ? encoding : EncodingKind.usualFor(sceneName);
         int actuators = SceneInfo.toEvolve(sceneName, kind, sceneOptions.overrides(), execution.simulator()).actuators();
         return EvolutionSettings.of(sceneName, kind, actuators)
                 .withSize(population != null ? population : preset.population(), generations())
                 .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)
                 .withFitness(fitness, vacuumCheck).withBackend(execution.backend())
-                .withScene(sceneOptions.scheme() != null ? sceneOptions.scheme() : preset.scheme(),
+                .withScene(sceneOptions.scheme(),
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
                         sceneOptions.overrides());
     }

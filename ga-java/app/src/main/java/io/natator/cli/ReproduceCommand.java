@@ -16,7 +16,6 @@ import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
-import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
 /** {@code natator reproduce}: the thesis done again, from evolution to the report. */
@@ -100,10 +99,6 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        if (schemes.contains(Scheme.DFSPH)) {
-            throw new ParameterException(spec.commandLine(), "--scheme dfsph; must be flex, conserving or both: "
-                    + "bodies sink in the thesis' tank where its fluid is incompressible");
-        }
         Double stopAfter = queueOptions.stopAfter();
         ExecutionSettings execution = executionOptions.execution(Backend.CPU);
         EvolutionPlan plan = new EvolutionPlan(creatures, schemes, seeds, population, generations, duration,

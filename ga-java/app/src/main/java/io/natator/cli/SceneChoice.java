@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Preset;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
@@ -13,7 +14,7 @@ final class SceneChoice {
     @Option(names = "--creature", paramLabel = "1..4", description = "Creature of the thesis. Default: 1.")
     private Integer creature;
 
-    @Option(names = "--scene", paramLabel = "NAME|FILE", description = "Default: thesis/creature-N.")
+    @Option(names = "--scene", paramLabel = "NAME|FILE", description = "Default: thesis/creature-N; of evolve the preset's.")
     private String scene;
 
     /** Whether either was given. */
@@ -21,14 +22,19 @@ final class SceneChoice {
         return creature != null || scene != null;
     }
 
-    /** The scene as {@link SceneOptions#scene} has it. */
+    /** The scene as {@link SceneOptions#scene} has it; by number, or if none is given, in the thesis' tank. */
     String scene(CommandSpec command) {
+        return scene(command, Preset.THESIS);
+    }
+
+    /** The same by number, or if none is given, as the preset has it. */
+    String scene(CommandSpec command, Preset preset) {
         if (creature != null && scene != null) {
             throw new ParameterException(command.commandLine(), "--creature and --scene exclude each other");
         }
         if (creature != null && (creature < 1 || creature > 4)) {
             throw new InvalidInputException("--creature is " + creature + "; expected 1, 2, 3 or 4");
         }
-        return scene != null ? SceneOptions.scene(scene) : "thesis/creature-" + (creature != null ? creature : 1);
+        return scene != null ? SceneOptions.scene(scene) : preset.sceneOf(creature != null ? creature : 1);
     }
 }

@@ -24,8 +24,8 @@ public enum EncodingKind {
         return this == DENSE ? new DenseEncoding(actuators) : new SparseEncoding(actuators);
     }
 
-    /** The encoding that the thesis used for a scene (2.7): sparse for creature 2, dense for the others. */
+    /** The encoding that the thesis used for a creature (2.7), by the scene's name: sparse for creature 2, else dense. */
     public static EncodingKind usualFor(String scene) {
-        return scene.startsWith("thesis/creature-2") ? SPARSE : DENSE;
+        return scene.matches("[a-z-]+/creature-2(-vacuum)?") ? SPARSE : DENSE;
     }
 }

@@ -2,20 +2,20 @@ package io.natator.config;
 
 /** Settings of an evolution that belong together; each can be given by itself too. */
 public enum Preset {
-    /** Some 90 evaluations of 2 s, by the scheme in which only swimming pays: about a minute on two cores. */
-    QUICK(16, 3, Scheme.CONSERVING, 2.0),
-    /** The thesis' size (2.6): some 22 500 evaluations, as the scene has it (in the thesis' own: scheme flex, 4 s). */
-    THESIS(150, 100, null, null);
+    /** Some 90 evaluations of 2 s in a small pool of water in which only swimming pays: minutes on two cores. */
+    QUICK(16, 3, "pool", 2.0),
+    /** The thesis' size (2.6): some 22 500 evaluations in its tank, as the scene has it (scheme flex, 4 s). */
+    THESIS(150, 100, "thesis", null);
 
     private final int population;
     private final int generations;
-    private final Scheme scheme;
+    private final String scenes;
     private final Double duration;
 
-    Preset(int population, int generations, Scheme scheme, Double duration) {
+    Preset(int population, int generations, String scenes, Double duration) {
         this.population = population;
         this.generations = generations;
-        this.scheme = scheme;
+        this.scenes = scenes;
         this.duration = duration;
     }
 
@@ -29,9 +29,9 @@ public enum Preset {
         return generations;
     }
 
-    /** How to solve, or null for the scene's own scheme. */
-    public Scheme scheme() {
-        return scheme;
+    /** Name of the scene of a creature, 1 to 4. */
+    public String sceneOf(int creature) {
+        return scenes + "/creature-" + creature;
     }
 
     /** Simulated time of an evaluation in seconds, or null for the scene's own. */

@@ -7,10 +7,7 @@ public enum Scheme {
     /** As NVIDIA Flex 1.2.0 was measured. */
     @JsonProperty("flex")
     FLEX,
-    /** Keeps the momentum of internal forces. */
+    /** Incompressible water, and bodies that move by their own forces alone. */
     @JsonProperty("conserving")
-    CONSERVING,
-    /** In incompressible water: divergence-free SPH. */
-    @JsonProperty("dfsph")
-    DFSPH
+    CONSERVING
 }

@@ -97,7 +97,7 @@ class Player {
     this.#figures.name(this.#recording.title, `${scene.scheme}, ${scene.particles} particles`);
     this.#showFacts();
     this.seek(0);
-    byId('status').textContent = `${frames} frames, ${duration.toFixed(1)} s`;
+    byId('status').textContent = `${duration.toFixed(1)} s`;
     byId('status').dataset.state = 'open';
   }
 
@@ -165,7 +165,7 @@ class Player {
     const gait = scene.gait;
     const list = numbers => numbers.map(one => one.toFixed(3)).join(', ');
     const perSecond = duration > 0 ? Math.round(10 * (frames - 1) / duration) / 10 : 0;
-    const facts = [['Scene', scene.scene], ['Scheme', scene.scheme], ['Frames', `${perSecond} per second`]];
+    const facts = [['Scene', scene.scene], ['Scheme', scene.scheme], ['Frames', `${frames}, ${perSecond} per second`]];
     if (this.#recording.verdict !== null) {
       facts.unshift(['Verdict', this.#recording.verdict]);
     }

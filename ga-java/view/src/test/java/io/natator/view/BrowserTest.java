@@ -114,6 +114,20 @@ abstract class BrowserTest {
                 })""", count);
     }
 
+    /** The menus whose chosen entry is not seen whole. */
+    List<?> cutMenus() {
+        return (List<?>) page.evaluate("""
+                () => [...document.querySelectorAll('select')].filter(one => one.checkVisibility()).filter(one => {
+                  const whole = one.cloneNode();
+                  whole.append(new Option(one.selectedOptions[0].text));
+                  whole.style.cssText = 'position: absolute; width: max-content; max-width: none;';
+                  one.parentNode.append(whole);
+                  const isCut = whole.offsetWidth > one.offsetWidth + 1;
+                  whole.remove();
+                  return isCut;
+                }).map(one => one.id)""");
+    }
+
     /** What an element looks like when it has come to rest. */
     BufferedImage stillPicture(Locator element) {
         BufferedImage last = picture(element);

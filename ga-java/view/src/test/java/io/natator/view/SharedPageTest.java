@@ -5,6 +5,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.microsoft.playwright.Browser.NewContextOptions;
+import com.microsoft.playwright.options.BoundingBox;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
 import io.natator.replay.Replay;
@@ -59,6 +61,29 @@ class SharedPageTest extends BrowserTest {
         assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");
         await("natator.time() > 0.9");
         await("natator.time() < 0.5");
+    }
+
+    @Test
+    void aSmallScreenIsEnough() {
+        useBrowser(new NewContextOptions().setViewportSize(390, 844).setDeviceScaleFactor(2).setHasTouch(true)
+                .setIsMobile(true));
+        page.navigate(file.toUri().toString());
+        assertThat(get("status")).hasAttribute("data-state", "open");
+
+        assertThat(number("document.documentElement.scrollWidth")).as("width").isLessThanOrEqualTo(390);
+        assertThat(cutMenus()).isEmpty();
+        BoundingBox title = page.locator("h1").boundingBox();
+        BoundingBox help = get("help-open").boundingBox();
+        assertThat(help.y + help.height / 2).as("in the first row").isCloseTo(title.y + title.height / 2, within(2.0));
+        BoundingBox speed = get("chart-speed").boundingBox();
+        BoundingBox momentum = get("chart-momentum").boundingBox();
+        assertThat(momentum.x + momentum.width - speed.x).as("width of two charts").isGreaterThan(330);
+        assertThat((List<?>) page.evaluate("""
+                () => [...document.querySelectorAll('.charts .key')].map(one => one.parentNode)
+                    .filter(one => one.getClientRects().length !== 1).map(one => one.outerHTML)"""))
+                .as("lines of a legend parted from their names").isEmpty();
+        get("play").tap();
+        assertThat(get("play")).hasText("Play");
     }
 
     @Test

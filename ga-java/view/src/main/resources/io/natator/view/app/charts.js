@@ -155,7 +155,7 @@ export class TimeChart extends Chart {
     this.#least = least;
   }
 
-  /** Draws up to two histories; `until` ends the axis of time, by default where the longest ends. */
+  /** Draws one history, or two, each in one colour; `until` ends the axis of time, by default where the longest ends. */
   draw(histories, {from = null, until = null, cursor = null} = {}) {
     const filled = histories.filter(history => history.length > 1);
     const end = until ?? Math.max(WINDOW_S, ...filled.map(history => history.last('time')));
@@ -163,8 +163,8 @@ export class TimeChart extends Chart {
     const [low, high] = this.#extent(filled, start);
     const marks = axis(start, end, 5);
     this.begin({...marks, low: start, high: end}, axis(low, high, 3));
-    filled.forEach((history, which) => this.#columns.forEach((column, i) => this.#series(history, column, start, {
-      colour: which === 0 ? this.colours.series[i] : this.colours.other,
+    histories.forEach((history, which) => this.#columns.forEach((column, i) => this.#series(history, column, start, {
+      colour: which === 1 ? this.colours.other : this.colours.series[histories.length === 1 ? i : 0],
       dash: i === 0 ? [] : [4, 3],
       width: i === 0 ? 1.8 : 1.2,
     })));

@@ -4,7 +4,7 @@
 
 #include "natator/model.h"
 
-namespace natator::cpu {
+namespace natator {
 
 /// Volume of each particle, length^3. Of a fluid particle what makes the density of a cubic lattice at the rest distance
 /// 1; of a solid one the cube of the distance to the nearest other of its group at rest, but no more than that.
@@ -25,4 +25,4 @@ double effect_radius(const Model& model);
 /// W(r) of physics::WendlandKernel with this support, 1/length^3.
 double wendland(double r, double radius);
 
-}  // namespace natator::cpu
+}  // namespace natator

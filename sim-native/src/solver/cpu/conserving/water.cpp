@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "../workspace.h"
+#include "model/water_volumes.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
-#include "volumes.h"
 
 namespace natator::cpu {
 
@@ -150,7 +150,7 @@ void Water<Real>::lay_out(const State<Real>& state) {
 
 /// Of all particles with all particles and images.
 template <class Real>
-void Water<Real>::find_neighbours(ThreadTeam& team) {
+void Water<Real>::list_neighbours(ThreadTeam& team) {
     const auto candidates = [this](int slot, RowsAround<Real>& around, SlotRuns& runs) {
         if (slot >= particles_) return -1;
         const int cell = cell_of_[particle_of_[slot]];
@@ -242,10 +242,10 @@ void Water<Real>::push_apart(ThreadTeam& team) {
 }
 
 template <class Real>
-void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
+void Water<Real>::find_neighbours(const State<Real>& state, Real h, ThreadTeam& team) {
     h_ = h;
     lay_out(state);
-    find_neighbours(team);
+    list_neighbours(team);
     on_all_threads(team, kernels_->pack);
     for (int slot = image_begin_; slot <= far_slot_; ++slot) {
         const Real quadruples[8] = {position_.x[slot], position_.y[slot], position_.z[slot], volume_[slot],
@@ -253,27 +253,40 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
         std::copy_n(quadruples, 4, packed_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
         std::copy_n(quadruples + 4, 4, packed_velocity_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
     }
+}
+
+template <class Real>
+void Water<Real>::compute_gradients(ThreadTeam& team) {
     on_all_threads(team, kernels_->compute_moments);
     mirror_corrections();
     on_all_threads(team, kernels_->compute_gradients);
+}
 
+template <class Real>
+void Water<Real>::solve_divergence(ThreadTeam& team) {
     part_overlaps(team);
     std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
     for (int pass = 0; pass < physics::divergence_passes; ++pass) push_apart(team);
-    if (dynamic_viscosity_ > 0) {
-        const Real strength = 10 * h * dynamic_viscosity_;
-        const Real most = physics::viscous_limit(spacing_, strength);
-        on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
-    }
-    add_effects(team);
-    const Real limit = physics::velocity_limit(h, fastest_expansion_);
+}
+
+template <class Real>
+void Water<Real>::add_viscosity(ThreadTeam& team) {
+    if (!(dynamic_viscosity_ > 0)) return;
+    const Real strength = 10 * h_ * dynamic_viscosity_;
+    const Real most = physics::viscous_limit(spacing_, strength);
+    on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
+}
+
+template <class Real>
+void Water<Real>::add_gravity(ThreadTeam& team) {
+    const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
     const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
     for (int slot = 0; slot < particles_; ++slot) {
         if (inverse_mass_[slot] > 0)
-            velocity_.add(slot, h * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
-        target_[slot] = physics::density_target(volume_[slot], density_[slot], limit, h);
+            velocity_.add(slot, h_ * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
+        target_[slot] = physics::density_target(volume_[slot], density_[slot], limit, h_);
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();

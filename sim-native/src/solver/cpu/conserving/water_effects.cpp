@@ -121,7 +121,7 @@ void Water<Real>::drag_free_surface(ThreadTeam& team) {
 }
 
 template <class Real>
-void Water<Real>::add_effects(ThreadTeam& team) {
+void Water<Real>::add_forces(ThreadTeam& team) {
     const SolverParameters& p = model_.parameters;
     if (p.freeSurfaceDrag > 0) drag_free_surface(team);
     if (p.cohesion > 0) add_cohesion(team);
@@ -129,7 +129,7 @@ void Water<Real>::add_effects(ThreadTeam& team) {
     if (p.vorticityConfinement > 0) add_vorticity_confinement(team);
 }
 
-template void Water<float>::add_effects(ThreadTeam&);
-template void Water<double>::add_effects(ThreadTeam&);
+template void Water<float>::add_forces(ThreadTeam&);
+template void Water<double>::add_forces(ThreadTeam&);
 
 }  // namespace natator::cpu

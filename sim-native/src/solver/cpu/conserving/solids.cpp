@@ -1,12 +1,9 @@
-#include "constants.h"
+#include "solids.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
-
-#include "../rest_packing.h"
 
 namespace natator::cpu {
 
@@ -16,27 +13,8 @@ double softness(double stiffness) {
     return left_over / (1 - left_over);
 }
 
-/// Overlaps are pushed apart at maxAcceleration, but enough to win against gravity. Unlimited only nominally, so that
-/// it can be multiplied.
-template <class Real>
-ConservingConstants<Real>::ConservingConstants(const SolverParameters& p)
-    : most_neighbours(p.maxNeighborsPerParticle),
-      kernel_scale(0),
-      gradient_scale(0),
-      rest_sum(0),
-      plane_scale(0),
-      plane_gap(static_cast<Real>(p.fluidRestDistance / 2 - p.collisionDistance)),
-      overlap_acceleration(static_cast<Real>(std::min(std::max(p.maxAcceleration, 10 * p.gravity.norm()), 1e30))) {
-    if (!(p.fluidRestDistance > 0)) return;
-    const double neighbours =
-        close_packing_sum(p.fluidRestDistance / p.radius, [](double q) { return std::pow(1 - q, 3); });
-    const double close_neighbours = close_packing_sum(p.fluidRestDistance / p.radius, [](double) { return 1; });
-    most_neighbours = std::max(p.maxNeighborsPerParticle, 4 * static_cast<int>(close_neighbours));
-    rest_sum = static_cast<Real>(neighbours);
-    kernel_scale = static_cast<Real>(1 / (1 + neighbours));
-    gradient_scale = static_cast<Real>(3 / (p.radius * (1 + neighbours)));
-    const double per_radius_cubed = std::pow(p.radius / p.fluidRestDistance, 3) * std::numbers::sqrt2;
-    plane_scale = static_cast<Real>(2 * std::numbers::pi * per_radius_cubed / (1 + neighbours));
+double overlap_acceleration(const SolverParameters& p) {
+    return std::min(std::max(p.maxAcceleration, 10 * p.gravity.norm()), 1e30);
 }
 
 std::vector<std::vector<int>> free_bodies(const Model& model) {
@@ -86,8 +64,6 @@ std::vector<SplitCluster<Real>> split_clusters(const Model& model) {
     return result;
 }
 
-template struct ConservingConstants<float>;
-template struct ConservingConstants<double>;
 template std::vector<SplitCluster<float>> split_clusters(const Model&);
 template std::vector<SplitCluster<double>> split_clusters(const Model&);
 

@@ -7,19 +7,9 @@
 
 namespace natator::cpu {
 
-/// Numbers of scheme `conserving` that follow from the parameters, for both backends.
-template <class Real>
-struct ConservingConstants {
-    explicit ConservingConstants(const SolverParameters& parameters);
-
-    int most_neighbours;        ///< fluid neighbours kept per particle
-    Real kernel_scale;          ///< A: W(r)/rho0 = A (1 - q)^3
-    Real gradient_scale;        ///< B: |grad W(r)|/rho0 = B (1 - q)^2
-    Real rest_sum;              ///< sum of (1 - q)^3 over the neighbours in the rest packing
-    Real plane_scale;           ///< 2 pi n0 R^3 A
-    Real plane_gap;             ///< from a plane to where the fluid behind it begins, half a spacing from particles
-    Real overlap_acceleration;  ///< at which overlaps are pushed apart
-};
+/// At which solids are pushed apart that overlap, length/s^2: maxAcceleration, but enough to win against gravity. Unlimited
+/// only nominally, so that it can be multiplied.
+double overlap_acceleration(const SolverParameters& parameters);
 
 /// Groups of particles that springs and clusters hang together; none with a particle of infinite mass.
 std::vector<std::vector<int>> free_bodies(const Model& model);

@@ -14,7 +14,7 @@
 
 namespace natator::cpu {
 
-/// The water of scheme `dfsph` and the bodies in it: what a substep's pressure and viscosity do to the velocities of all
+/// The water of scheme `conserving` and the bodies in it: what a substep's pressure and viscosity do to the velocities of all
 /// particles. Solids take part like fluid that has their mass, volume and velocity: that is the coupling of body and
 /// water, pressure and no-slip viscosity alike, with equal and opposite impulses.
 template <class Real>
@@ -22,11 +22,20 @@ class Water {
 public:
     explicit Water(const Model& model);
 
-    /// Takes the state at the start of a substep of length h (s): puts overlaps into shift(), takes off part of what
-    /// compresses, then adds viscosity, the forces that the thesis leaves off, and gravity.
-    void begin(const State<Real>& state, Real h, ThreadTeam& team);
-    /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after begin() is where
-    /// they lead to more than rest density.
+    // The stages of a substep, in this order.
+
+    /// Takes the state at the start of a substep of length h (s).
+    void find_neighbours(const State<Real>& state, Real h, ThreadTeam& team);
+    /// Density and G_ij.
+    void compute_gradients(ThreadTeam& team);
+    /// Puts overlaps into shift(), takes off part of what compresses.
+    void solve_divergence(ThreadTeam& team);
+    void add_viscosity(ThreadTeam& team);
+    /// Cohesion, surface tension, vorticity confinement and free-surface drag.
+    void add_forces(ThreadTeam& team);
+    void add_gravity(ThreadTeam& team);
+    /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after add_gravity() is
+    /// where they lead to more than rest density.
     void push_apart(ThreadTeam& team);
 
     /// As the last call left it, by particle, length/s.
@@ -52,12 +61,11 @@ public:
 
 private:
     void lay_out(const State<Real>& state);
-    void find_neighbours(ThreadTeam& team);
+    void list_neighbours(ThreadTeam& team);
     void mirror_corrections();
     void part_overlaps(ThreadTeam& team);
     WaterView<Real> view();
 
-    void add_effects(ThreadTeam& team);
     void drag_free_surface(ThreadTeam& team);
     void add_cohesion(ThreadTeam& team);
     void add_surface_tension(ThreadTeam& team);
@@ -105,7 +113,7 @@ private:
 
     Vector3Array<Real> position_, velocity_, crowding_;
     Vector3Array<Real> kept_velocity_;  ///< room for part_overlaps
-    Vector3Array<Real> field_;          ///< of add_effects, also of images: normals, then vorticity
+    Vector3Array<Real> field_;          ///< of add_forces, also of images: normals, then vorticity
     std::vector<Real> strength_;        ///< of the vorticity, also of images
     std::vector<Vec3<Real>> parting_;   ///< displacement by part_overlaps, by slot; empty where nothing overlaps
     AlignedVector<Real> volume_, inverse_mass_, mobility_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;

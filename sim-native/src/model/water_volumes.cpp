@@ -1,4 +1,4 @@
-#include "volumes.h"
+#include "water_volumes.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "physics/dfsph.h"
 
-namespace natator::cpu {
+namespace natator {
 namespace {
 
 double lattice_volume(double spacing, double radius) {
@@ -80,4 +80,4 @@ double fastest_expansion(const SolverParameters& parameters) {
     return physics::expansion * std::sqrt(acceleration / parameters.fluidRestDistance);
 }
 
-}  // namespace natator::cpu
+}  // namespace natator

@@ -1,4 +1,4 @@
-// Scheme dfsph: what its water must do as water, and what it must keep as a solver.
+// Scheme conserving: what its water must do as water, and what it must keep as a solver.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "model/disorder_fluid.h"
-#include "model/fluid_block.h"
+#include "law_models.h"
 #include "natator/model_builder.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
@@ -18,29 +17,9 @@
 namespace natator {
 namespace {
 
-constexpr double spacing = 0.1;
+using namespace test;
 
-/// A box of water with a free surface, walls at 0 and behind the last particles.
-Model box_of_water(const Eigen::Vector3i& count) {
-    Model model;
-    model.scheme = Scheme::dfsph;
-    SolverParameters& p = model.parameters;
-    p.substeps = 2;
-    p.viscosity = p.damping = p.dynamicFriction = p.particleFriction = 0;
-    const FluidBlock block{.count = count,
-                           .spacing = spacing,
-                           .origin = Eigen::Vector3d::Constant(spacing / 2),
-                           .gradient = MassGradient::uniform,
-                           .bottom_mass = 1};
-    add_fluid(block, model);
-    disorder_fluid(spacing, model);
-    model.planes = {{{0, 1, 0}, 0},
-                    {{1, 0, 0}, 0},
-                    {{-1, 0, 0}, count.x() * spacing},
-                    {{0, 0, 1}, 0},
-                    {{0, 0, -1}, count.z() * spacing}};
-    return model;
-}
+constexpr double spacing = water_spacing;
 
 template <class Real>
 void advance_frames(Solver<Real>& solver, const Model& model, State<Real>& state, int frames) {
@@ -62,7 +41,7 @@ struct Momenta {
 
 /// Pair forces are equal and opposite: a drop that turns while it falls together keeps its momentum to rounding. Its
 /// angular momentum is kept only as far as the corrected gradients lie along their pairs.
-TEST(Dfsph, ADropKeepsItsMomentum) {
+TEST(Water, ADropKeepsItsMomentum) {
     Model model = box_of_water({8, 8, 8});
     model.planes.clear();
     model.parameters.gravity.setZero();
@@ -81,7 +60,7 @@ TEST(Dfsph, ADropKeepsItsMomentum) {
 }
 
 /// p = rho g (H - y), rho = mass per volume of the lattice, in the lower part of the water.
-TEST(Dfsph, PressureIsHydrostatic) {
+TEST(Water, PressureIsHydrostatic) {
     constexpr int layers = 10;
     const Model model = box_of_water({8, layers, 8});
     State<float> state = initial_state<float>(model);
@@ -111,19 +90,19 @@ bench::WaterFigure figure_of(const std::string& water_case, Scheme scheme, int r
     throw std::logic_error("no such case: " + water_case);
 }
 
-TEST(Dfsph, ViscosityIsWhatItIsSetTo) {
-    const bench::WaterFigure viscosity = figure_of("viscous-vortex", Scheme::dfsph, 12);
+TEST(Water, ViscosityIsWhatItIsSetTo) {
+    const bench::WaterFigure viscosity = figure_of("viscous-vortex", Scheme::conserving, 12);
     EXPECT_NEAR(viscosity.value / viscosity.reference, 1, 0.1);
 }
 
 /// An ideal vortex has all of its amplitude left after a turn, a packing of grains none.
-TEST(Dfsph, AVortexOutlivesATurn) {
-    EXPECT_GE(figure_of("vortex", Scheme::dfsph, 12).value, 0.9);
-    EXPECT_LE(figure_of("vortex", Scheme::conserving, 12).value, 0.2);
+TEST(Water, AVortexOutlivesATurn) {
+    EXPECT_GE(figure_of("vortex", Scheme::conserving, 12).value, 0.9);
+    EXPECT_LE(figure_of("vortex", Scheme::flex, 12).value, 0.2);
 }
 
 /// As heavy as the water that it displaces, a body whose muscles rest neither sinks nor rises.
-TEST(Dfsph, ANeutralBodyHovers) {
+TEST(Water, ANeutralBodyHovers) {
     Model model = build_model(load_scene("open-water/creature-2"));
     model.parameters.substeps = 2;
     State<float> state = initial_state<float>(model);
@@ -142,7 +121,7 @@ TEST(Dfsph, ANeutralBodyHovers) {
 /// A short swimmer in a small tank, with one thing made worse.
 bench::StabilityResult made_worse(const std::string& axis, double value, double viscosity = 0) {
     bench::StabilityCase subject = bench::calm_case();
-    subject.scene.scheme = Scheme::dfsph;
+    subject.scene.scheme = Scheme::conserving;
     subject.scene.duration = 0.3;
     subject.scene.solver.kinematicViscosity = viscosity;
     bench::stability_axis(axis).set(subject, value);
@@ -150,14 +129,14 @@ bench::StabilityResult made_worse(const std::string& axis, double value, double 
 }
 
 /// What starts too close is parted, not flung away.
-TEST(Dfsph, StartsThatOverlapAreBorne) {
+TEST(Water, StartsThatOverlapAreBorne) {
     for (const double factor : {0.8, 0.25, 0.01})
         EXPECT_EQ(made_worse("overlap", factor).verdict, bench::Verdict::ok) << "spacing times " << factor;
     EXPECT_EQ(made_worse("body-clearance", 0).verdict, bench::Verdict::ok);
 }
 
 /// A block squeezed to half its volume, in weightlessness: it is parted, and hardly flies apart.
-TEST(Dfsph, OverlapsArePartedWithoutSpeed) {
+TEST(Water, OverlapsArePartedWithoutSpeed) {
     Model model = box_of_water({8, 8, 8});
     model.planes.clear();
     model.parameters.gravity.setZero();
@@ -172,35 +151,35 @@ TEST(Dfsph, OverlapsArePartedWithoutSpeed) {
     for (const double density : solver.densities()) EXPECT_LE(density, 1.1);
 }
 
-TEST(Dfsph, LightBodiesAreBorne) {
+TEST(Water, LightBodiesAreBorne) {
     EXPECT_EQ(made_worse("mass-ratio", 1e-4).verdict, bench::Verdict::ok);
     EXPECT_EQ(made_worse("mass-ratio", 0.003, 0.2).verdict, bench::Verdict::ok) << "in viscous water";
 }
 
 /// Only what is too light is made heavier, and only frames that are too long get more substeps.
-TEST(Dfsph, ScenesAreFittedToTheWater) {
+TEST(Water, ScenesAreFittedToTheWater) {
     const Model neutral = build_model(load_scene("open-water/creature-2"));
     EXPECT_NEAR(neutral.inverse_mass[neutral.body.particles.front()], 1 / 0.421875, 1e-9);
     EXPECT_EQ(neutral.parameters.substeps, load_scene("open-water/creature-2").solver.substeps);
 
     Scene scene = bench::calm_case().scene;
-    scene.scheme = Scheme::dfsph;
+    scene.scheme = Scheme::conserving;
     scene.creature->particle_mass = 1e-4;
     scene.time_step *= 32;
     const Model model = build_model(scene);
     const double displaced = std::pow(0.075 / 0.1, 3);  // fluid particles weigh 1, those of the body are 0.075 apart
     EXPECT_NEAR(1 / model.inverse_mass[model.body.particles.front()], 0.02 * displaced, 1e-4);
     EXPECT_EQ(model.parameters.substeps, 19);  // 32/60 s in steps of sqrt(0.1 0.1 / 10) s are 17; the depth asks for more
-    scene.scheme = Scheme::conserving;
+    scene.scheme = Scheme::flex;
     EXPECT_EQ(build_model(scene).parameters.substeps, 4);
 }
 
-TEST(Dfsph, LongTimeStepsAreBorne) {
+TEST(Water, LongTimeStepsAreBorne) {
     EXPECT_EQ(made_worse("dt", 32).verdict, bench::Verdict::ok);
 }
 
 /// Images of the water behind walls take part in its forces: what walls do is along their normals.
-TEST(Dfsph, WallsPullTheWaterAlongTheirNormalsOnly) {
+TEST(Water, WallsPullTheWaterAlongTheirNormalsOnly) {
     Model model = box_of_water({6, 4, 5});
     model.planes.resize(1);  // the floor
     model.parameters.gravity.setZero();
@@ -221,7 +200,7 @@ TEST(Dfsph, WallsPullTheWaterAlongTheirNormalsOnly) {
     EXPECT_GE(std::abs(momentum.y()), 1e-6 * size);
 }
 
-TEST(Dfsph, AnyNumberOfThreadsGivesTheSameBits) {
+TEST(Water, AnyNumberOfThreadsGivesTheSameBits) {
     const Model model = build_model(load_scene("open-water/creature-1"));
     const auto after = [&](int threads) {
         State<float> state = initial_state<float>(model);

@@ -1,0 +1,77 @@
+package io.natator.view;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.microsoft.playwright.Locator;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Path;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.io.TempDir;
+
+/** Tests of the page of {@code natator view} in a real browser, with the real simulator. */
+abstract class ViewBrowserTest extends BrowserTest {
+
+    @TempDir
+    private static Path folder;
+    static ViewServer water;
+    static ViewServer vacuum;
+
+    private ViewServer server;
+
+    @BeforeAll
+    static void start() throws InterruptedException {
+        Path run = ViewFixture.evolve(folder);
+        water = ViewFixture.server("thesis/creature-1", run);
+        vacuum = ViewFixture.server(ViewFixture.SCENE, run);
+    }
+
+    @AfterAll
+    static void stop() {
+        water.close();
+        vacuum.close();
+    }
+
+    @BeforeEach
+    void noSimulatorIsLeft() throws InterruptedException {
+        ViewFixture.await("the end of the last page", () -> ViewFixture.simulators(ProcessHandle.current()).isEmpty());
+    }
+
+    @Override
+    boolean isOwn(URI address) {
+        return address.getScheme().matches("blob|data") || server.address().getAuthority().equals(address.getAuthority());
+    }
+
+    /** Opens the page and waits until it swims. */
+    void open(ViewServer on) {
+        server = on;
+        page.navigate(server.address().toString());
+        awaitSwimming();
+    }
+
+    void awaitSwimming() {
+        await("window.natator && natator.frame() > 5");
+        assertThat(get("status")).hasAttribute("data-state", "open");
+    }
+
+    /** Without water, which is quick to draw, and paused at its start. */
+    void openAtRest() {
+        open(vacuum);
+        get("run").click();
+        get("reset").click();
+        await("natator.frame() === 0");
+    }
+
+    /** Presses one of several buttons in a row; the radio button itself is hidden. */
+    void choose(String testId) {
+        get(testId).check(new Locator.CheckOptions().setForce(true));
+    }
+
+    JsonNode gait() throws IOException {
+        return Json.parse((String) page.evaluate("() => JSON.stringify(natator.scene().gait)"), JsonNode.class);
+    }
+}

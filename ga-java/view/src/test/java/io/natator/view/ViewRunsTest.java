@@ -1,0 +1,151 @@
+package io.natator.view;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+
+/** The gaits of runs, and two swimmers side by side. */
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
+class ViewRunsTest extends ViewBrowserTest {
+
+    @Test
+    void theGenerationsOfARunAreWatched() throws IOException {
+        open(vacuum);
+
+        get("chart-fitness").focus();
+        page.keyboard().press("Home");
+
+        assertThat(get("run-chosen")).containsText("Generation 0");
+        JsonNode first = best(0);
+        await("Math.abs(natator.scene().gait.frequency - " + first.get("frequency") + ") < 1e-9");
+        assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");
+        page.keyboard().press("End");
+        await("Math.abs(natator.scene().gait.frequency - " + best(3).get("frequency") + ") < 1e-9");
+    }
+
+    private JsonNode best(int generation) throws IOException {
+        return Json.parse((String) page.evaluate("async () => (await fetch('/api/runs/0')).text()"), JsonNode.class)
+                .get("bests").get(generation).get("gait");
+    }
+
+    @Test
+    void twoSwimSideBySide() {
+        open(vacuum);
+
+        get("compare").click();
+        await("natator.views[1].frame() > 5");
+
+        assertThat(get("stage-b")).isVisible();
+        assertThat(ViewFixture.simulators(ProcessHandle.current())).hasSize(2);
+        assertThat(colours(picture(get("picture-b")))).isGreaterThan(100);
+        get("compare").click();
+        assertThat(get("stage-b")).isHidden();
+        assertThat(get("run")).hasText("Pause");
+        double frame = number("natator.frame()");
+        await("natator.frame() > " + (frame + 5));
+    }
+
+    /** Whose a line in a chart is shows by its colour, which is that of the caption; what it is, by its dashes. */
+    @Test
+    void twoSwimInColoursOfTheirOwn() {
+        open(vacuum);
+        await("(" + PIXELS + ")('momentum', '--series-2') > 20");
+        get("compare").click();
+        choose("which-1");
+        get("amplitude-1").fill("0.2");
+        await("natator.views.length === 2 && natator.views[1].time() > 0.5");
+        get("run").click();
+        assertThat(get("run")).hasText("Run");
+        awaitDrawings(60);
+
+        assertThat(number("(" + PIXELS + ")('momentum', '--series-1')")).as("of the left one").isGreaterThan(20);
+        assertThat(number("(" + PIXELS + ")('momentum', '--series-b')")).as("of the right one").isGreaterThan(20);
+        assertThat(number("(" + PIXELS + ")('momentum', '--series-2')")).as("of neither").isZero();
+        assertThat(get("charts").locator("figure:has(#chart-momentum) .key").first())
+                .hasCSS("color", (String) page.evaluate("() => getComputedStyle(document.querySelector('.hint')).color"));
+    }
+
+    /** How many pixels of a chart have about a colour of the page. */
+    private static final String PIXELS = """
+            (chart, colour) => {
+              const canvas = document.getElementById(`chart-${chart}`);
+              const hex = getComputedStyle(canvas).getPropertyValue(colour).trim();
+              const wanted = [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16));
+              const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+              let count = 0;
+              for (let i = 0; i < data.length; i += 4) {
+                const isNear = wanted.every((value, k) => Math.abs(value - data[i + k]) < 24);
+                count += isNear && data[i + 3] > 128 ? 1 : 0;
+              }
+              return count;
+            }""";
+
+    /** One swims in water, which takes longer; the other one waits. */
+    @Test
+    void twoSwimInStep() {
+        open(vacuum);
+        get("compare").click();
+        await("natator.views[1].frame() > 5");
+        choose("which-1");
+        get("vacuum").uncheck();
+        // The other one goes back to the start with it.
+        await("natator.views[1].position().length > 3000 && natator.views[0].frame() === natator.views[1].frame()");
+
+        Object apart = page.evaluate("""
+                () => new Promise(done => {
+                  let most = 0, count = 40;
+                  const next = () => {
+                    most = Math.max(most, Math.abs(natator.views[0].time() - natator.views[1].time()));
+                    count-- > 0 ? requestAnimationFrame(next) : done(most);
+                  };
+                  requestAnimationFrame(next);
+                })""");
+        assertThat(((Number) apart).doubleValue()).as("simulated seconds between them").isLessThan(1e-9);
+        get("run").click();
+        assertThat(get("run")).hasText("Run");
+        get("reset").click();
+        await("natator.views[0].frame() === 0 && natator.views[1].frame() === 0");
+        for (int i = 1; i <= 3; i++) {
+            get("step").click();
+            await("natator.views[0].frame() === " + i + " && natator.views[1].frame() === " + i);
+        }
+        assertThat(get("time-b")).hasText("0.05 s");
+        assertThat(get("time-a")).hasText("0.05 s");
+        get("run").click();
+        await("natator.views[0].frame() > 10 && natator.views[1].frame() > 10");
+    }
+
+    @Test
+    void generationsAreComparedByName() {
+        open(vacuum);
+        assertThat(get("run-chosen")).containsText("What swims is not of this run");
+        get("chart-fitness").focus();
+        page.keyboard().press("Home");
+        assertThat(get("stage-a").locator("figcaption")).containsText("my-run, generation 0");
+
+        get("run-compare").click();
+        assertThat(get("stage-b").locator("figcaption")).containsText("my-run, generation 0");
+        assertThat(get("stage-a").locator("figcaption")).containsText("creature-1-vacuum, gait of your own");
+
+        choose("which-0");
+        get("chart-fitness").focus();
+        page.keyboard().press("Home");
+        assertThat(get("stage-a").locator("figcaption")).containsText("my-run, generation 0");
+        get("compare").click();
+        assertThat(get("stage-b")).isHidden();
+        await("(views => views?.length === 1 && JSON.stringify(views[0].gait) === JSON.stringify(natator.scene().gait))"
+                + "(JSON.parse(decodeURIComponent(location.hash.slice(1)) || '{}').views)");  // the address remembers soon, not at once
+        page.reload();
+        awaitSwimming();
+        assertThat(get("run-chosen")).containsText("Generation 0");
+        get("run-compare").click();
+        assertThat(get("run-error")).hasText("This gait swims already: choose another generation first.");
+        assertThat(get("stage-b")).isHidden();
+    }
+}

@@ -1,0 +1,8 @@
+#include "advance.cuh"
+
+namespace natator::cuda {
+
+template const void* batch_kernel<float, true>(bool);
+template const void* batch_kernel<double, true>(bool);
+
+}  // namespace natator::cuda
