@@ -1,4 +1,5 @@
 // The effects that the thesis leaves off: on the GPU as on the CPU, by a block and by the whole GPU.
+#include "../native/bare_particles.h"
 #include "gpu_test.h"
 #include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
@@ -49,19 +50,51 @@ TEST_P(GpuEffects, GiveWhatTheyGiveOnTheCpu) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, GpuEffects,
-    testing::Combine(testing::Values(Effect{"Restitution", &SolverParameters::restitution, 0.5},
-                                     Effect{"Adhesion", &SolverParameters::adhesion, 50},
-                                     Effect{"Sleep", &SolverParameters::sleepThreshold, 0.2},
-                                     Effect{"ShockPropagation", &SolverParameters::shockPropagation, 1.5},
-                                     Effect{"Dissipation", &SolverParameters::dissipation, 3},
-                                     Effect{"Cohesion", &SolverParameters::cohesion, 0.02},
-                                     Effect{"SurfaceTension", &SolverParameters::surfaceTension, 0.5},
-                                     Effect{"Vorticity", &SolverParameters::vorticityConfinement, 0.5},
-                                     Effect{"FreeSurfaceDrag", &SolverParameters::freeSurfaceDrag, 1}),
-                     testing::Values(Scheme::flex, Scheme::conserving)),
-    case_name);
+const Effect restitution{"Restitution", &SolverParameters::restitution, 0.5},
+    adhesion{"Adhesion", &SolverParameters::adhesion, 50}, sleep{"Sleep", &SolverParameters::sleepThreshold, 0.2},
+    shock_propagation{"ShockPropagation", &SolverParameters::shockPropagation, 1.5},
+    dissipation{"Dissipation", &SolverParameters::dissipation, 3},
+    cohesion{"Cohesion", &SolverParameters::cohesion, 0.02},
+    surface_tension{"SurfaceTension", &SolverParameters::surfaceTension, 0.5},
+    vorticity{"Vorticity", &SolverParameters::vorticityConfinement, 0.5},
+    free_surface_drag{"FreeSurfaceDrag", &SolverParameters::freeSurfaceDrag, 1};
+
+INSTANTIATE_TEST_SUITE_P(All, GpuEffects,
+                         testing::Combine(testing::Values(adhesion, sleep, cohesion, surface_tension, vorticity,
+                                                          free_surface_drag),
+                                          testing::Values(Scheme::flex, Scheme::conserving)),
+                         case_name);
+/// In scheme conserving water has neither contacts nor planes, so that the scene feels nothing of these.
+INSTANTIATE_TEST_SUITE_P(OfContacts, GpuEffects,
+                         testing::Combine(testing::Values(restitution, shock_propagation, dissipation),
+                                          testing::Values(Scheme::flex)),
+                         case_name);
+
+/// Grains that fall on the floor and on each other, without water.
+class GpuEffectsOnGrains : public OnGpu<testing::TestWithParam<Effect>> {};
+
+TEST_P(GpuEffectsOnGrains, AreTheCpus) {
+    Model model = bare_model(Scheme::conserving, lattice(4, 4, 4, 0.14, {0.3, 0.35, 0.3}), solid_phase);
+    for (int i = 0; i < model.particles(); ++i) {
+        model.position[i] += 0.01 * Eigen::Vector3d(std::sin(1.7 * i), std::sin(2.3 * i), std::sin(3.1 * i));
+        model.velocity[i] = {0, -1, 0};
+    }
+    model.parameters.gravity = {0, -10, 0};
+    model.planes = {{{0, 1, 0}, 0}};
+    const auto after_four_frames = [&](auto&& solver) {
+        State<double> state = initial_state<double>(model);
+        for (int frame = 0; frame < 4; ++frame) EXPECT_FALSE(solver.update(state, 4 * substep, 4));
+        return state;
+    };
+    const State<double> without = after_four_frames(Solver<double>(model));
+    model.parameters.*GetParam().strength = GetParam().value;
+    const State<double> cpu = after_four_frames(Solver<double>(model));
+    EXPECT_GT(largest_distance(cpu, without), 1e-3);
+    EXPECT_LE(largest_distance(cpu, after_four_frames(GpuSolver<double>(model, {.path = GpuPath::whole_gpu}))), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GpuEffectsOnGrains, testing::Values(restitution, sleep, shock_propagation, dissipation),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace natator::test
