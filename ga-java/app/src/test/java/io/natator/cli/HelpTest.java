@@ -42,6 +42,11 @@ class HelpTest {
             assertThat(help.contains("\nWhat swims:\n"))
                     .isEqualTo(options.stream().anyMatch(option -> option.longestName().matches("--(gait|scheme|variants)")));
         }
+        assertThat(help).as("paths in one piece").doesNotContainPattern("~[/.]*\\n");
+        if (help.contains("--preset") && help.contains("--duration")) {
+            assertThat(help.replaceAll("\\s+", " ")).contains("Simulated time. Default: the preset's")
+                    .containsPattern("How to solve: [^.]*\\. Default: the preset's");
+        }
         assertThat(help).doesNotContainPattern("\\([Tt]hesis \\d|eq\\. \\d");
     }
 
