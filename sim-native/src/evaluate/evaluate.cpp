@@ -49,12 +49,13 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
     observe(model.body, state, options.on_frame);
 
     bool snapshot_due = static_cast<bool>(snapshot.take);
-    std::vector<double> path{mean_x(model.body, state)};
+    std::vector<double> path{mean_x(model.body, state)}, tail{tail_z(model.body, state)};
     while (!result.instability && result.stopped == StopReason::completed && result.frames < frames) {
         result.instability = solver.frame(state, gait);
         if (result.instability) break;
         state.time = ++result.frames * scene.time_step;  // free of summed rounding
         path.push_back(mean_x(model.body, state));
+        tail.push_back(tail_z(model.body, state));
         observe(model.body, state, options.on_frame);
         if (snapshot_due && state.time > snapshot.at - scene.time_step / 1000) {
             snapshot_due = false;
@@ -66,13 +67,15 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
             result.stopped = StopReason::no_progress;
         }
     }
+    result.distance = path.back() - path.front();
+    result.simulated = result.frames * scene.time_step;
     if (result.instability) {
         result.stopped = StopReason::unstable;
     } else {
         result.errors = conservation_errors(model, state, solver.densities());
+        result.swimming = swimming_numbers(model, gait, result.distance, result.simulated, tail);
+        if (has_muscle_work(model)) result.work = solver.muscle_work();
     }
-    result.distance = path.back() - path.front();
-    result.simulated = result.frames * scene.time_step;
     result.hash = state_hash(state);
     return result;
 }

@@ -21,21 +21,48 @@ __device__ void rest(const BatchView<Real>& batch, int state, Block& block) {
     __syncthreads();
 }
 
+/// What drives the muscles of an actuator, see natator::drive.
+template <Scheme scheme>
+__device__ double drive(const GaitView& gait, int state, int actuator, double time) {
+    const double ramp = scheme == Scheme::conserving ? physics::start_ramp(time) : 1;
+    const double activation =
+        physics::activation(gait.frequency[state], gait.power[state], gait.phase[actuator], time);
+    return ramp * gait.amplitude[actuator] * activation;
+}
+
+template <Scheme scheme, class Real>
+__device__ Real muscle_length(const ModelView<Real>& model, const GaitView& gait, int state, const MuscleView& muscle,
+                              double time) {
+    const double driven = drive<scheme>(gait, state, state * model.actuators + muscle.actuator, time);
+    return static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, driven));
+}
+
 /// Ends with a barrier.
 template <Scheme scheme, class Real, class Block>
 __device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time, Block& block) {
     if (!gait.frequency) return;
-    const double ramp = scheme == Scheme::conserving ? physics::start_ramp(time) : 1;
     for (int m = threadIdx.x; m < model.muscles; m += threads) {
         const MuscleView muscle = model.muscle[m];
-        const int a = state * model.actuators + muscle.actuator;
-        const double activation =
-            physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
-        const double drive = ramp * gait.amplitude[a] * activation;
-        block.rest_length()[muscle.spring] =
-            static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
+        block.rest_length()[muscle.spring] = muscle_length<scheme>(model, gait, state, muscle, time);
     }
     __syncthreads();
+}
+
+/// Adds the work of the muscles from one time to the next, a substep's, to the State's. One warp, in a fixed order.
+template <class Real, class Block>
+__device__ void add_work(const ModelView<Real>& model, const GaitView& gait, int state, double from, double to,
+                         Block& block, Progress& progress) {
+    if (!gait.frequency || threadIdx.x >= 32) return;
+    double sum = 0;
+    for (int m = threadIdx.x; m < model.muscles; m += 32) {
+        const MuscleView muscle = model.muscle[m];
+        const double change = double(muscle_length<Scheme::conserving>(model, gait, state, muscle, to)) -
+                              double(muscle_length<Scheme::conserving>(model, gait, state, muscle, from));
+        sum += physics::spring_work(double(model.relaxation_factor) * block.spring_lambda()[muscle.spring],
+                                    double(block.h), change);
+    }
+    for (int step = 16; step > 0; step /= 2) sum += __shfl_xor_sync(0xffffffff, sum, step);
+    if (threadIdx.x == 0) progress.muscle_work += sum;
 }
 
 template <class Real, class Block>
@@ -259,6 +286,9 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
             note_instability(model, block, time + k * batch.time_step / batch.substeps, progress);
             break;
         }
+        if constexpr (scheme == Scheme::conserving)
+            add_work(model, batch.gait, state, time + batch.time_step * k / batch.substeps,
+                     time + batch.time_step * (k + 1) / batch.substeps, block, progress);
         commit(model, trace, block, k);
         block.book(Stage::commit);
     }

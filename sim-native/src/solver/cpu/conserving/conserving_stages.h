@@ -38,6 +38,8 @@ public:
     void keep_body_momentum();
     void solve_density_rate();
     void update_velocities();
+    /// Work of the changes of rest length from `before` to those of the last substep, mass length^2/s^2.
+    double spring_work(const std::vector<Real>& before) const;
 
     /// Density at the present positions by particle, in units of rest density; 0 for solids and infinite masses.
     std::vector<Real> densities() {

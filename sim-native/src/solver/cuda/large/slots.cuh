@@ -16,6 +16,8 @@ struct LargeShared : Shared<Real> {
     int touches;             ///< the body touches a plane
     int most_neighbours;     ///< scheme dfsph: of any particle, also where lists have no room for them
     double mean_x;           ///< of the body
+    double tail_z;           ///< of its last slice
+    double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
 };
 
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
