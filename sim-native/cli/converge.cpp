@@ -77,7 +77,7 @@ json read_converge_request(const std::string& argument) {
 LevelRuns read_level(const Level& level, const json& request, const BackendChoice& backend) {
     LevelRuns runs{.level = level, .request = request, .job = read_job(request, backend), .results = {}};
     if (!runs.job.scene.creature)
-        throw InputError("request: scene " + quoted(runs.job.request.scene) + ": has no creature; must have one that swims");
+        throw InputError("request: scene " + natator::quoted(runs.job.request.scene) + ": has no creature; must have one that swims");
     const Model model = build_model(runs.job.scene);
     check_gait(runs.job.gait, runs.job.scene.creature->actuators());
     check_evaluation_cost(runs.job.scene, model);

@@ -14,22 +14,22 @@ RunRecord::RunRecord(const std::string& path) : path_(path) {
     std::error_code failed;
     if (path.empty() || !std::filesystem::exists(path, failed)) return;
     if (!std::filesystem::is_regular_file(path, failed))
-        throw InputError("--output " + quoted(path) + ": is no regular file; must be one, or a new name");
+        throw InputError("--output " + natator::quoted(path) + ": is no regular file; must be one, or a new name");
     std::ifstream file(path, std::ios::binary);
     std::ostringstream content;
     content << file.rdbuf();
-    if (!file) throw InputError("--output " + quoted(path) + ": cannot be read");
+    if (!file) throw InputError("--output " + natator::quoted(path) + ": cannot be read");
     const std::string text = std::move(content).str();
     std::size_t begin = 0;
     for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
         const nlohmann::json line = nlohmann::json::parse(text.substr(begin, end - begin), nullptr, false);
         if (!line.is_object() || !line.contains("of") || !line.contains("result"))
-            throw InputError("--output " + quoted(path) + ": line " + std::to_string(lines_.size() + 1) +
+            throw InputError("--output " + natator::quoted(path) + ": line " + std::to_string(lines_.size() + 1) +
                              " is no run of natator-sim converge; must be such a file, or a new name");
         lines_.push_back(line);
     }
     if (begin < text.size() && lines_.empty())
-        throw InputError("--output " + quoted(path) +
+        throw InputError("--output " + natator::quoted(path) +
                          ": holds no run of natator-sim converge; must be such a file, or a new name");
     if (begin < text.size()) std::filesystem::resize_file(path, begin);
 }
@@ -48,7 +48,7 @@ void RunRecord::add(const nlohmann::json& of, const nlohmann::json& request, con
     line["result"] = result;
     std::ofstream file(path_, std::ios::binary | std::ios::app);
     file << line.dump() + "\n" << std::flush;
-    if (!file) throw std::runtime_error("--output " + quoted(path_) + ": cannot be written");
+    if (!file) throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written");
 }
 
 }  // namespace natator::cli
