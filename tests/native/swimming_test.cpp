@@ -46,7 +46,7 @@ TEST(Swimming, PeakToPeakIsTwiceTheAmplitudeWhateverDrifts) {
 
 TEST(Swimming, PeakToPeakIsThatOfTheLastThreePeriods) {
     std::vector<double> path = beating(1.5, 0.4, 0, 2);  // three beats
-    const std::vector<double> later = beating(1.5, 0.1, 0, 2);
+    const std::vector<double> later = beating(1.5, 0.1, 0, 8 / 3.0);
     path.insert(path.end(), later.begin() + 1, later.end());
     EXPECT_NEAR(peak_to_peak(path, time_step, 1 / 1.5).value_or(0), 0.2, 0.002);
 }

@@ -131,8 +131,8 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
     refused({"converge", "-"}, "[]", "request");
     refused({"converge", "-"}, R"({"id":1,"scene":"thesis/tank"})", "creature");
     json beyond = asked;
-    beyond["overrides"] = {{"creature", {{"refinement", 8}}}};
-    refused({"converge", "-"}, beyond.dump(), "refinement = 16");
+    beyond["overrides"] = {{"creature", {{"refinement", 5}}}};
+    refused({"converge", "-"}, beyond.dump(), "refinement = 10");
     beyond["overrides"] = {{"solver", {{"substeps", 600}}}};
     refused({"converge", "-"}, beyond.dump(), "substeps = 1200");
     std::ofstream(record) << "not a run\n";
