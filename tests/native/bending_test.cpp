@@ -38,13 +38,13 @@ Eigen::Vector3d between(const Model& model, const State<float>& state, int from,
     return sum;
 }
 
-/// Peak-to-peak angle between the axis at the tail and at the head, rad.
+/// Peak-to-peak angle between the axis at the tail and at the head in the second to fourth beat, rad.
 double bending(const Model& model) {
     Solver<float> solver(model);
     State<float> state = initial_state<float>(model);
     std::vector<double> angle{0};
     const int last = static_cast<int>(model.body.slices.size()) - 1;
-    for (int frame = 1; frame <= 120; ++frame) {
+    for (int frame = 1; frame <= 160; ++frame) {
         EXPECT_FALSE(solver.frame(state, fish_like));
         state.time = frame * model.time_step;
         const Eigen::Vector3d head = between(model, state, 2, 0), tail = between(model, state, last, last - 2);
@@ -58,14 +58,14 @@ double bending(const Model& model) {
 TEST(Bending, IsTheSameAtAnyTimeStepAndNumberOfIterations) {
     const double exact = bending(creature_2_in_vacuum(32, 32, 1));
     EXPECT_GT(exact, 1);
-    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 8, 1)) / exact, 1, 0.02);
+    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 8, 1)) / exact, 1, 0.03);
     EXPECT_NEAR(bending(creature_2_in_vacuum(16, 8, 1)) / exact, 1, 0.015);
     EXPECT_NEAR(bending(creature_2_in_vacuum(32, 8, 1)) / exact, 1, 0.015);
     EXPECT_NEAR(bending(creature_2_in_vacuum(8, 16, 1)) / exact, 1, 0.015);
 }
 
 TEST(Bending, IsNearlyTheSameAtHalfTheSpacing) {
-    EXPECT_NEAR(bending(creature_2_in_vacuum(16, 8, 2)) / bending(creature_2_in_vacuum(16, 8, 1)), 1, 0.1);
+    EXPECT_NEAR(bending(creature_2_in_vacuum(16, 8, 2)) / bending(creature_2_in_vacuum(16, 8, 1)), 1, 0.12);
 }
 
 }  // namespace

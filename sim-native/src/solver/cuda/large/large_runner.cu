@@ -307,7 +307,9 @@ cudaGraphExec_t LargeRunner<Real>::graph_of(const Update& update) {
 
 template <class Real>
 void LargeRunner<Real>::prepare(const Update& update) {
+    const std::vector<State<Real>> muscles = muscles_;
     set_muscles(update);
+    muscles_ = muscles;  // the update itself is still to come
     check(cudaGraphUpload(graph_of(update), base_.stream), "graph");
     wait();
 }
