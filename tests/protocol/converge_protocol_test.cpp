@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-const json asked = {{"id", 5},
+const json swim = {{"id", 5},
                     {"scene", "thesis/creature-1-vacuum"},
                     {"gait", json::parse(gait)},
                     {"duration", 0.1}};
@@ -44,7 +44,7 @@ private:
 };
 
 TEST_F(ConvergeTest, EveryLevelHasItsFigures) {
-    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2"}, asked.dump());
+    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2"}, swim.dump());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(lines(outcome.out), 1);
     const json result = json::parse(outcome.out);
@@ -76,23 +76,23 @@ TEST_F(ConvergeTest, EveryLevelHasItsFigures) {
 
 TEST_F(ConvergeTest, RunsThatAreRecordedAreNotDoneAgain) {
     const std::vector<std::string> command = {"converge", "-", "--starts", "2", "--levels", "time/2", "--output", record};
-    const Outcome first = run_simulator(command, asked.dump());
+    const Outcome first = run_simulator(command, swim.dump());
     ASSERT_EQ(first.exit_code, 0) << first.err;
     const std::string all = recorded();
     ASSERT_EQ(lines(all), 4);
     // Interrupted while the third line was written: it and the fourth are done again.
     const std::size_t second_end = all.find('\n', all.find('\n') + 1) + 1;
     std::ofstream(record, std::ios::trunc) << all.substr(0, second_end + 30);
-    const Outcome second = run_simulator(command, asked.dump());
+    const Outcome second = run_simulator(command, swim.dump());
     EXPECT_EQ(second.exit_code, 0) << second.err;
     EXPECT_EQ(second.out, first.out);
     EXPECT_NE(second.err.find("base: 2 runs are recorded"), std::string::npos) << second.err;
     EXPECT_EQ(second.err.find("base: run"), std::string::npos) << second.err;
     EXPECT_EQ(recorded(), all);
     // More starts use what is there; another gait does not.
-    json other = asked;
+    json other = swim;
     other["gait"]["frequency"] = 1.2;
-    EXPECT_EQ(run_simulator({"converge", "-", "--starts", "3", "--levels", "time/2", "--output", record}, asked.dump())
+    EXPECT_EQ(run_simulator({"converge", "-", "--starts", "3", "--levels", "time/2", "--output", record}, swim.dump())
                   .exit_code, 0);
     EXPECT_EQ(lines(recorded()), 6);
     EXPECT_EQ(run_simulator(command, other.dump()).exit_code, 0);
@@ -100,7 +100,7 @@ TEST_F(ConvergeTest, RunsThatAreRecordedAreNotDoneAgain) {
 }
 
 TEST_F(ConvergeTest, ARecordedRequestGivesItsResult) {
-    ASSERT_EQ(run_simulator({"converge", "-", "--starts", "2", "--levels", "spacing/2", "--output", record}, asked.dump())
+    ASSERT_EQ(run_simulator({"converge", "-", "--starts", "2", "--levels", "spacing/2", "--output", record}, swim.dump())
                   .exit_code, 0);
     std::istringstream text(recorded());
     std::string line;
@@ -111,7 +111,7 @@ TEST_F(ConvergeTest, ARecordedRequestGivesItsResult) {
 }
 
 TEST_F(ConvergeTest, PlainWritesTheTable) {
-    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2", "--plain"}, asked.dump());
+    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2", "--plain"}, swim.dump());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("level ", 0), 0u) << outcome.out;
     EXPECT_EQ(lines(outcome.out), 4);
@@ -125,23 +125,23 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
         EXPECT_EQ(outcome.out, "");
         EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err;
     };
-    refused({"converge", "-", "--levels", "time/3"}, asked.dump(), "time/3");
-    refused({"converge", "-", "--starts", "1"}, asked.dump(), "--starts");
+    refused({"converge", "-", "--levels", "time/3"}, swim.dump(), "time/3");
+    refused({"converge", "-", "--starts", "1"}, swim.dump(), "--starts");
     refused({"converge", "no-such-file.json"}, "", "no-such-file.json");
     refused({"converge", "-"}, "[]", "request");
     refused({"converge", "-"}, R"({"id":1,"scene":"thesis/tank"})", "creature");
-    json beyond = asked;
+    json beyond = swim;
     beyond["overrides"] = {{"creature", {{"refinement", 5}}}};
     refused({"converge", "-"}, beyond.dump(), "refinement = 10");
     beyond["overrides"] = {{"solver", {{"substeps", 600}}}};
     refused({"converge", "-"}, beyond.dump(), "substeps = 1200");
     std::ofstream(record) << "not a run\n";
-    refused({"converge", "-", "--output", record}, asked.dump(), "line 1");
+    refused({"converge", "-", "--output", record}, swim.dump(), "line 1");
     EXPECT_EQ(recorded(), "not a run\n");
 }
 
 TEST_F(ConvergeTest, UnstableRunsAreLeftOutAndToldByTheExitCode) {
-    json wild = asked;
+    json wild = swim;
     wild["scene"] = "thesis/creature-1";
     wild["overrides"] = {{"solver", {{"relaxationMode", "global"}}}};
     const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2"}, wild.dump());
