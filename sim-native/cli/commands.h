@@ -10,6 +10,7 @@ namespace natator::cli {
 
 /// Each adds a subcommand to `app`. When it runs it sets `status`.
 void add_evaluate(CLI::App& app, int& status);
+void add_converge(CLI::App& app, int& status);
 void add_serve(CLI::App& app, int& status);
 void add_run(CLI::App& app, int& status);
 void add_stream(CLI::App& app, int& status);

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
         "Scenes are names (see `natator-sim info`) or paths ending in .json.");
     int status = ok;
     add_evaluate(app, status);
+    add_converge(app, status);
     add_serve(app, status);
     add_run(app, status);
     add_stream(app, status);

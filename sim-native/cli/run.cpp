@@ -83,6 +83,16 @@ void check_outputs(const RunOptions& options) {
 /// For people, who take -0 for a mistake.
 double without_sign_of_zero(double value) { return value == 0 ? 0 : value; }
 
+std::string swimming_line(const SwimmingNumbers& numbers) {
+    std::ostringstream text;
+    text << "tail       " << numbers.tail_amplitude << " units from side to side";
+    if (numbers.strouhal) text << ", Strouhal number " << *numbers.strouhal;
+    if (numbers.reynolds) text << ", Reynolds number " << *numbers.reynolds;
+    if (numbers.swimming_number) text << ", swimming number " << *numbers.swimming_number;
+    text << "\n";
+    return text.str();
+}
+
 std::string summary(const RunOptions& options, const Scene& scene, const Evaluation& result, double wall_seconds) {
     std::ostringstream text;
     text << "scene      " << scene.name << "\n";
@@ -106,6 +116,8 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
         text << "speed      " << without_sign_of_zero(speed) << " units/s";
         if (length > 0) text << ", " << without_sign_of_zero(speed / length) << " body lengths/s";
         text << "\n";
+        if (result.swimming) text << swimming_line(*result.swimming);
+        if (result.work) text << "work       " << *result.work << " by the muscles\n";
     }
     text << "hash       " << hash_text(result.hash) << "\n";
     text << "wall time  " << wall_seconds << " s\n";

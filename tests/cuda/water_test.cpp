@@ -1,4 +1,4 @@
-// Scheme conserving on the GPU: what its water must keep, and that it is the CPU's. native/dfsph_test.cpp says more about it.
+// Scheme conserving on the GPU: what its water must keep, and that it is the CPU's. native/water_test.cpp says more about it.
 #include <iostream>
 
 #include "../native/bare_particles.h"

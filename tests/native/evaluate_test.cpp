@@ -3,8 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "evaluate/perturb.h"
+#include "evaluate/settle.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
+#include "natator/measure.h"
+#include "natator/model_builder.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -96,6 +100,24 @@ TEST(EvaluateTest, TheSameInputGivesTheSameBits) {
     Gait other = creature_one;
     other.phase[1] += 1e-3;
     EXPECT_NE(evaluate(scene, other).hash, first.hash);
+}
+
+/// A perturbation moves particles from their places, it makes no other body: its volume in water is that at rest.
+TEST(EvaluateTest, APerturbedStartHasTheModelOfThePlainOne) {
+    const Scene scene = load_scene("thesis/creature-1", json::parse(R"({"scheme":"conserving","duration":0.1,
+        "solver":{"substeps":2},"settling":{"updates":2}})"));
+    const Perturbation perturbation{1e-3, 7};
+    const Model model = build_model(scene);
+    Model moved = model;
+    perturb(perturbation, moved);
+    Solver<float> solver(model);
+    State<float> state = initial_state<float>(moved);
+    ASSERT_FALSE(settle(scene.settling, solver, state));
+    for (int frame = 1; frame <= 6; ++frame) {
+        ASSERT_FALSE(solver.frame(state, creature_one));
+        state.time = frame * scene.time_step;
+    }
+    EXPECT_EQ(evaluate(scene, creature_one, {.perturbation = perturbation}).hash, state_hash(state));
 }
 
 TEST(EvaluateTest, PerturbationsDependOnTheSeedAndAreSmall) {

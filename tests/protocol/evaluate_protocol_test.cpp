@@ -1,6 +1,7 @@
 // natator-sim evaluate: what a caller on the other end of the pipes relies on.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "child_process.h"
@@ -46,6 +47,21 @@ TEST(EvaluateProtocolTest, AResultHasExactlyTheDocumentedFields) {
     const std::string hash = result["hash"];
     EXPECT_EQ(hash.size(), 16u);
     EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << hash;
+}
+
+TEST(EvaluateProtocolTest, ASwimmerInWaterHasItsNumbers) {
+    json asked = request("thesis/creature-1", 0.8);
+    asked["scheme"] = "conserving";
+    asked["overrides"] = {{"solver", {{"substeps", 2}, {"kinematicViscosity", 0.01}}},
+                          {"stopping", {{"planeContact", false}}}};
+    const json result = result_of(asked), numbers = result.at("swimming");
+    const double speed = std::abs(result["distance"].get<double>()) / result["simulated"].get<double>(), length = 1.2;
+    const double amplitude = numbers.at("tailAmplitude");
+    EXPECT_GT(amplitude, 0.01);
+    EXPECT_NEAR(numbers.at("reynolds").get<double>(), speed * length / 0.01, 1e-6);
+    EXPECT_NEAR(numbers.at("strouhal").get<double>(), 1.861 * amplitude / speed, 1e-6);
+    EXPECT_NEAR(numbers.at("swimmingNumber").get<double>(), 2 * 3.14159265358979 * 1.861 * amplitude * length / 0.01, 1e-6);
+    EXPECT_GT(result.at("work").get<double>(), 0);
 }
 
 TEST(EvaluateProtocolTest, TheSameRequestGivesTheSameAnswer) {

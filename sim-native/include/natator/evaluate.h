@@ -11,6 +11,7 @@
 #include "natator/scene.h"
 #include "natator/snapshot.h"
 #include "natator/solver.h"
+#include "natator/swimming.h"
 
 namespace natator {
 
@@ -51,6 +52,10 @@ struct Evaluation {
     std::uint64_t hash = 0;  ///< of the final positions and velocities
     std::optional<Instability> instability;
     ConservationErrors errors;
+    std::optional<SwimmingNumbers> swimming;
+    /// Work that the muscles did by their changes of length (Solver::muscle_work), mass length^2/s^2; none in scheme
+    /// `flex`, which has no forces, and without muscles.
+    std::optional<double> work;
 };
 
 /// One body position per frame, for callers that want a trajectory.

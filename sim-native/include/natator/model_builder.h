@@ -7,7 +7,8 @@ namespace natator {
 
 /// Lays out the particles, clusters and muscles of a scene: first the body (by slice from the head, then y, then z),
 /// then the fluid (by x, then y, then z). Springs are sorted by actuator, front particle, rear particle; springs that
-/// join the same two particles are separate, neighbouring entries.
+/// join the same two particles are separate, neighbouring entries. A creature's `refinement` n makes each particle of its
+/// body n x n x n of them, one after the other by x, then y, then z, as model/refine_body.h says.
 /// Throws InputError when the scene has no particles, or more particles or springs than limits.h allows, when a particle starts beyond a plane, or when an
 /// actuator has no muscle.
 Model build_model(const Scene& scene);

@@ -25,5 +25,6 @@
 #include "natator/snapshot.h"
 #include "natator/solver.h"
 #include "natator/state.h"
+#include "natator/swimming.h"
 #include "natator/trajectory.h"
 #include "natator/version.h"

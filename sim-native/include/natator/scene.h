@@ -46,9 +46,13 @@ struct Creature {
     double spring_stiffness = 1.0;     ///< stiffness of every muscle spring, [0, 1]
     int springs_per_particle = 4;      ///< springs that each connected particle gives (thesis 2.4)
     Eigen::Vector3d rear_centre{0.45, 0.6, 0.6};  ///< start of the centre of the last slice
+    /// n: each particle described here is made of n x n x n, on a lattice n times as fine (model_builder.h).
+    int refinement = 1;
 
     const std::vector<int>& muscle_ends() const { return muscle_slices.empty() ? joints : muscle_slices; }
     int actuators() const { return muscle_ends().empty() ? 0 : static_cast<int>(muscle_ends().size()) - 1; }
+    /// Particles that one described here is made of.
+    int parts() const { return refinement * refinement * refinement; }
 };
 
 /// Brings the initial block to rest before time 0 (thesis 2.3): short updates, velocities zeroed after each.

@@ -49,6 +49,11 @@ public:
     /// One frame of the model: sets the muscles for the state's time, then updates by the model's time step.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
 
+    /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each spring
+    /// and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what the time
+    /// step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
+    double muscle_work() const;
+
     /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids.
     std::vector<Real> densities();
     /// Pressure of each fluid particle in the last substep, mass/(length s^2): the virial of its density
@@ -61,6 +66,9 @@ private:
     class Implementation;
     std::unique_ptr<Implementation> implementation_;
 };
+
+/// Whether Solver::muscle_work means something: the model has muscles, and a scheme with forces.
+inline bool has_muscle_work(const Model& model) { return model.scheme != Scheme::flex && !model.muscles.empty(); }
 
 extern template class Solver<float>;
 extern template class Solver<double>;

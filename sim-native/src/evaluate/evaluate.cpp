@@ -33,9 +33,10 @@ Snapshot snapshot_of(const State<Real>& state, const std::vector<Real>& densitie
     return snapshot;
 }
 
-/// Runs frame by frame to the duration or an early stop.
+/// Runs frame by frame to the duration or an early stop, from the places of `start`: the model, or the model perturbed.
 template <class Real>
-Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait, const EvaluationOptions& options) {
+Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& start, const Gait& gait,
+                       const EvaluationOptions& options) {
     const SnapshotRequest& snapshot = options.snapshot;
     const bool swims = !model.body.particles.empty();
     const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
@@ -45,16 +46,17 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
     const SettledStateCache* starts = options.execution.starts;
     Evaluation result;
     if (frames == 0) starts = nullptr;  // the figures of a run without frames are those of settling
-    State<Real> state = settled_start(model, scene.settling, solver, starts, result.instability);
+    State<Real> state = settled_start(start, scene.settling, solver, starts, result.instability);
     if (!result.instability) observe(model.body, state, options.on_frame);
 
     bool snapshot_due = static_cast<bool>(snapshot.take);
-    std::vector<double> path{mean_x(model.body, state)};
+    std::vector<double> path{mean_x(model.body, state)}, tail{tail_z(model.body, state)};
     while (!result.instability && result.stopped == StopReason::completed && result.frames < frames) {
         result.instability = solver.frame(state, gait);
         if (result.instability) break;
         state.time = ++result.frames * scene.time_step;  // free of summed rounding
         path.push_back(mean_x(model.body, state));
+        tail.push_back(tail_z(model.body, state));
         observe(model.body, state, options.on_frame);
         if (snapshot_due && state.time > snapshot.at - scene.time_step / 1000) {
             snapshot_due = false;
@@ -66,13 +68,15 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
             result.stopped = StopReason::no_progress;
         }
     }
+    result.distance = path.back() - path.front();
+    result.simulated = result.frames * scene.time_step;
     if (result.instability) {
         result.stopped = StopReason::unstable;
     } else {
         result.errors = conservation_errors(model, state, solver.densities());
+        result.swimming = swimming_numbers(model, gait, result.distance, result.simulated, tail);
+        if (has_muscle_work(model)) result.work = solver.muscle_work();
     }
-    result.distance = path.back() - path.front();
-    result.simulated = result.frames * scene.time_step;
     result.hash = state_hash(state);
     return result;
 }
@@ -81,13 +85,14 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Gait& gait,
 
 Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);
-    Model model = build_model(scene);
+    const Model model = build_model(scene);
     check_evaluation_cost(scene, model);
-    perturb(options.perturbation, model);
+    Model start = model;  // volumes, and all else that is measured at rest, are those of the model
+    perturb(options.perturbation, start);
     EvaluationOptions own = options;
     if (options.perturbation.amplitude != 0) own.execution.starts = nullptr;  // such starts are as many as seeds
-    return options.precision == Precision::double_precision ? evaluate_as<double>(scene, model, gait, own)
-                                                            : evaluate_as<float>(scene, model, gait, own);
+    return options.precision == Precision::double_precision ? evaluate_as<double>(scene, model, start, gait, own)
+                                                            : evaluate_as<float>(scene, model, start, gait, own);
 }
 
 }  // namespace natator

@@ -4,6 +4,19 @@ namespace natator {
 
 using nlohmann::ordered_json;
 
+namespace {
+
+ordered_json swimming_json(const SwimmingNumbers& numbers) {
+    ordered_json result;
+    result["tailAmplitude"] = numbers.tail_amplitude;
+    if (numbers.strouhal) result["strouhal"] = *numbers.strouhal;
+    if (numbers.reynolds) result["reynolds"] = *numbers.reynolds;
+    if (numbers.swimming_number) result["swimmingNumber"] = *numbers.swimming_number;
+    return result;
+}
+
+}  // namespace
+
 ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation, Scheme scheme, Precision precision) {
     const bool stable = !evaluation.instability;
     ordered_json result;
@@ -23,6 +36,8 @@ ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation,
                           {"angularMomentum", laws.angular_momentum},
                           {"densityErrorMean", laws.density_error_mean},
                           {"densityErrorMax", laws.density_error_max}};
+        if (evaluation.swimming) result["swimming"] = swimming_json(*evaluation.swimming);
+        if (evaluation.work) result["work"] = *evaluation.work;
     } else {
         const Instability& where = *evaluation.instability;
         result["unstable"] = {{"particle", where.particle}, {"stage", where.stage}, {"time", where.time}};

@@ -12,6 +12,7 @@
 #include "muscles.h"
 #include "natator/error.h"
 #include "natator/limits.h"
+#include "refine_body.h"
 
 namespace natator {
 namespace {
@@ -24,7 +25,8 @@ namespace {
 void check_size(const Scene& scene) {
     std::int64_t particles = 0;
     if (scene.creature) {
-        for (const Slice& slice : scene.creature->slices) particles += std::int64_t{slice.height} * slice.width;
+        for (const Slice& slice : scene.creature->slices)
+            particles += std::int64_t{slice.height} * slice.width * scene.creature->parts();
     }
     if (scene.fluid) {
         const auto count = scene.fluid->count.cast<std::int64_t>();
@@ -42,7 +44,7 @@ void check_springs(const Scene& scene) {
     const auto size = [&](int slice) { return std::int64_t{creature.slices[slice].height} * creature.slices[slice].width; };
     std::int64_t springs = 0;
     for (int i = 0; i < creature.actuators(); ++i)
-        springs += std::min(size(ends[i]), size(ends[i + 1])) * creature.springs_per_particle;
+        springs += std::min(size(ends[i]), size(ends[i + 1])) * creature.springs_per_particle * creature.parts();
     if (springs > limits::springs)
         refuse(scene, std::to_string(springs) + " springs (creature.slices, joints and springsPerParticle together): " +
                           "must be at most " + std::to_string(limits::springs));
@@ -104,6 +106,7 @@ Model build_model(const Scene& scene) {
         add_body(*scene.creature, layout, model);
         add_muscles(*scene.creature, layout, model);
         check_muscles(scene, model);
+        refine_body(*scene.creature, model);
     }
     if (scene.fluid) {
         check_clearance(scene, model.particles());

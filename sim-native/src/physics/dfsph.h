@@ -176,6 +176,17 @@ NATATOR_HD T pressure_impulse(T target, T rate, T response, T density) {
     return density > R(wet_density) ? all : T{};
 }
 
+/// Pressure impulse of a ghost beyond its owner's: the weight of the water between them, as dp/dn = rho g n at a wall, at
+/// most as much as the owner's. The pressure of mirror images has a kink at the wall, of which gradients see but a part:
+/// what lies on a floor would go on falling. `own`, `volume`: the owner's inverse mass and volume; `to_ghost`: from owner to
+/// ghost.
+template <class T>
+NATATOR_HD T weight_to_ghost(T own, T volume, T h, const Vec3<T>& gravity, const Vec3<T>& to_ghost, T impulse) {
+    if (!(own > 0)) return T{};
+    const T weight = h / (own * volume) * dot(gravity, to_ghost);
+    return smaller(-smaller(-weight, impulse), impulse);
+}
+
 /// What keeps a particle of the fluid evenly spread in its substep, length; no velocity comes with it.
 template <class T>
 NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square, T radius, T spacing, T h) {

@@ -32,4 +32,11 @@ NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T length, T rest_
     return change / length * difference;
 }
 
+/// Work of a change of rest length in a substep of length h, against the push lambda / h^2 with which the spring ends it:
+/// dW = lambda / h^2 dl0. With the energy 1/2 k (l - l0)^2 of the spring and implicit Euler this is what the energy of masses
+/// and springs grows by, and what the step takes off: 1/2 sum m |dv|^2 + 1/2 k (dl - dl0)^2 >= 0, of first order in h.
+NATATOR_HD double spring_work(double lambda, double h, double change) {
+    return lambda / (h * h) * change;
+}
+
 }  // namespace natator::physics::inline NATATOR_SET

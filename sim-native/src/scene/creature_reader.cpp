@@ -17,6 +17,7 @@ const std::vector<Field<Creature>>& creature_fields() {
         {"springStiffness", &C::spring_stiffness, {0, 1}},
         {"springsPerParticle", &C::springs_per_particle, {1, 64}},
         {"rearCentre", &C::rear_centre, {-10000, 10000, false, "length"}},
+        {"refinement", &C::refinement, {1, 8}},
     };
     return fields;
 }

@@ -97,6 +97,8 @@ public:
         return update(state, model_.time_step, model_.parameters.substeps, nullptr, per_substep ? &gait : nullptr);
     }
 
+    double muscle_work() const { return muscle_work_; }
+
     std::vector<Real> densities() {
         return std::visit([](auto& stages) { return stages->densities(); }, stages_);
     }
@@ -134,13 +136,17 @@ private:
         const double start = state.time;
         for (int k = 0; k < substeps; ++k) {
             const double end = start + time_step * (k + 1) / substeps;
-            if (gait) actuate(model_, *gait, end, state);
+            if (gait) {
+                rest_lengths_before_ = state.spring_rest_length;
+                actuate(model_, *gait, end, state);
+            }
             stages.begin_substep(state, h);
             const bool finite = observer             ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
                                 : execution_.profile ? advance(stages, ProfileHook(*execution_.profile))
                                                      : advance(stages, NoHook{});
             if (!finite) return locate_instability(stages, model_, state.time);
             state.time = end;
+            if (gait) muscle_work_ += stages.spring_work(rest_lengths_before_);
             if (observer) observer->substep_ended(state.velocity);
         }
         return std::nullopt;
@@ -149,6 +155,8 @@ private:
     const Model& model_;
     Execution execution_;
     AnyStages stages_;
+    std::vector<Real> rest_lengths_before_;  ///< of the springs, at the substep's start
+    double muscle_work_ = 0;
 };
 
 template <class Real>
@@ -170,6 +178,11 @@ std::optional<Instability> Solver<Real>::update(State<Real>& state, double time_
 template <class Real>
 std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Gait& gait) {
     return implementation_->frame(state, gait);
+}
+
+template <class Real>
+double Solver<Real>::muscle_work() const {
+    return implementation_->muscle_work();
 }
 
 template <class Real>

@@ -84,6 +84,9 @@ public:
     /// Writes the substep's outcome into the state; particles of infinite mass keep theirs.
     void commit();
 
+    /// Work of the last substep's changes of rest length, mass length^2/s^2; scheme flex knows no forces.
+    double spring_work(const std::vector<Real>&) const { return 0; }
+
     /// Positions by particle at this point of the substep.
     std::vector<Vector3<Real>> positions() const;
     /// Fluid neighbours and contacts by particle.

@@ -11,6 +11,7 @@ struct Progress {
     int frames = 0;
     int bad_particle = 0;  ///< of an unstable one: device number
     double bad_time = 0;   ///< start of the substep that made it
+    double muscle_work = 0;  ///< see Solver::muscle_work; none in scheme flex
 };
 
 /// The gaits of a batch, row by row; without frequencies the muscles stay as they are.

@@ -235,6 +235,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
     view_.members = static_cast<int>(members.size());
     view_.actuators = model.actuators;
     view_.body = static_cast<int>(body.size());
+    view_.tail = model.body.slices.empty() ? 0 : static_cast<int>(model.body.slices.back().size());
     view_.spring = keep(spring_, springs);
     view_.muscle = keep(muscle_, muscles);
     view_.cluster = keep(cluster_, clusters);

@@ -151,7 +151,7 @@ private:
             const Gait* const gait = settled[k].stopped >= 0 ? nullptr : &members[k].gait;
             const auto first = densities.begin() + static_cast<std::ptrdiff_t>(k) * view.fluid;
             evaluations[k] = evaluation_of(scene_, model_, runner_.model().particle_of(), progress[k], gait,
-                                           &path[static_cast<std::size_t>(k) * (frames + 1)], ends.state(k, like),
+                                           &path[static_cast<std::size_t>(k) * (frames + 1)], {}, ends.state(k, like),
                                            std::vector<Real>(first, first + view.fluid));
         });
         return evaluations;

@@ -7,11 +7,12 @@
 namespace natator::cuda {
 
 /// What a member's run has come to. `gait` is null for a State that became unstable while it settled; `path` has the
-/// body's mean x by frame, `densities` the fluid's by device number.
+/// body's mean x by frame, `tail` the mean z of its last slice (empty where nobody swims in water), `densities` the fluid's
+/// by device number.
 template <class Real>
 Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vector<int>& particle_of,
-                         const Progress& progress, const Gait* gait, const double* path, const State<Real>& end,
-                         const std::vector<Real>& densities) {
+                         const Progress& progress, const Gait* gait, const double* path, const std::vector<double>& tail,
+                         const State<Real>& end, const std::vector<Real>& densities) {
     Evaluation evaluation;
     evaluation.frames = progress.frames;
     evaluation.simulated = progress.frames * scene.time_step;
@@ -32,6 +33,9 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
     for (std::size_t number = 0; number < densities.size(); ++number)
         if (model.inverse_mass[particle_of[number]] > 0) density[particle_of[number]] = densities[number];
     evaluation.errors = conservation_errors(model, end, density);
+    if (gait && !tail.empty())
+        evaluation.swimming = swimming_numbers(model, *gait, evaluation.distance, evaluation.simulated, tail);
+    if (has_muscle_work(model)) evaluation.work = progress.muscle_work;
     return evaluation;
 }
 

@@ -18,6 +18,19 @@ __device__ void measure_path(const ModelView<Real>& model, const Block& block, d
     __syncthreads();
 }
 
+/// Mean z of the body's last slice. Ends with a barrier.
+template <class Real, class Block>
+__device__ void measure_tail(const ModelView<Real>& model, const Block& block, double* tail_z) {
+    if (threadIdx.x < 32) {
+        double sum = 0;
+        for (int b = model.body - model.tail + threadIdx.x; b < model.body; b += 32)
+            sum += block.position()[block.slot_of_solid()[model.body_particle[b]]].z;
+        for (int step = 16; step > 0; step /= 2) sum += __shfl_xor_sync(0xffffffff, sum, step);
+        if (threadIdx.x == 0) *tail_z = model.tail > 0 ? sum / model.tail : 0;
+    }
+    __syncthreads();
+}
+
 /// Does a particle of the body touch a plane?
 template <class Real, class Block>
 __device__ bool touches_plane(const ModelView<Real>& model, const Block& block) {

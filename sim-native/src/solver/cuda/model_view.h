@@ -151,6 +151,7 @@ struct ModelView {
 
     int body;                  ///< particles of the swimmer
     const int* body_particle;  ///< solid ids
+    int tail;                  ///< particles of its last slice, the last of body_particle
 };
 
 }  // namespace natator::cuda

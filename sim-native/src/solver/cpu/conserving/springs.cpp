@@ -28,7 +28,20 @@ void ConservingStages<Real>::solve_springs() {
     apply_internal_corrections();
 }
 
+template <class Real>
+double ConservingStages<Real>::spring_work(const std::vector<Real>& before) const {
+    const double relaxation = static_cast<double>(constants_.relaxation_factor), h = static_cast<double>(h_);
+    double work = 0;
+    for (std::size_t s = 0; s < before.size(); ++s) {
+        const double change = static_cast<double>(state_->spring_rest_length[s]) - static_cast<double>(before[s]);
+        work += physics::spring_work(relaxation * static_cast<double>(spring_lambda_[s]), h, change);
+    }
+    return work;
+}
+
 template void ConservingStages<float>::solve_springs();
 template void ConservingStages<double>::solve_springs();
+template double ConservingStages<float>::spring_work(const std::vector<float>&) const;
+template double ConservingStages<double>::spring_work(const std::vector<double>&) const;
 
 }  // namespace natator::cpu

@@ -23,6 +23,7 @@ Water<Real>::Water(const Model& model)
       particles_(model.particles()),
       image_begin_(round_up_to_block(model.particles())) {
     effect_radius_ = static_cast<Real>(effect_radius(model));
+    fluid_gravity_ = vec3<Real>((model.parameters.buoyancy * model.parameters.gravity).template cast<Real>().eval());
     fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
@@ -282,14 +283,28 @@ template <class Real>
 void Water<Real>::add_gravity(ThreadTeam& team) {
     const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
-    const Vec3<Real> fluid_gravity = Real(model_.parameters.buoyancy) * gravity;
     for (int slot = 0; slot < particles_; ++slot) {
         if (inverse_mass_[slot] > 0)
-            velocity_.add(slot, h_ * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity : gravity));
+            velocity_.add(slot, h_ * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity_ : gravity));
         target_[slot] = physics::density_target(volume_[slot], density_[slot], limit, h_);
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();
+}
+
+template <class Real>
+void Water<Real>::hold_at_walls(ThreadTeam& team) {
+    if (image_owner_.empty() || !(norm(fluid_gravity_) > 0)) return;
+    std::fill_n(impulse_.begin(), image_begin_, Real(0));
+    for (int slot = image_begin_; slot < far_slot_; ++slot) {
+        const int owner = image_owner_[slot - image_begin_];
+        impulse_[slot] = is_fluid_slot(owner) ? physics::weight_to_ghost(inverse_mass_[owner], volume_[owner], h_,
+                                                                         fluid_gravity_,
+                                                                         position_.at(slot) - position_.at(owner),
+                                                                         impulse_sum_[owner])
+                                              : Real(0);
+    }
+    on_all_threads(team, kernels_->apply_impulse);
 }
 
 template class Water<float>;

@@ -48,6 +48,8 @@ public:
         packed_velocity_[4 * slot + 1] = v.y;
         packed_velocity_[4 * slot + 2] = v.z;
     }
+    /// Once all passes are done: holds up what lies at walls, see physics::weight_to_ghost.
+    void hold_at_walls(ThreadTeam& team);
     /// Gives the images the velocities of what they are images of.
     void mirror_velocities();
     /// What keeps particles evenly spread and takes off overlaps, by particle, length; no velocity comes with it.
@@ -103,6 +105,7 @@ private:
     std::vector<Real> volume_of_, inverse_mass_of_, mobility_of_;  ///< by particle
     Mirror<Real> mirror_;
     CellGrid<Real> grid_;
+    Vec3<Real> fluid_gravity_;  ///< of the fluid, length/s^2
     Real h_ = 1;
 
     int particles_, image_begin_, far_slot_ = 0;

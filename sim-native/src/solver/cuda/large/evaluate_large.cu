@@ -38,8 +38,12 @@ public:
         for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
         runner_.prepare(update);
         path_.assign(runner_.states(), {});
-        const std::vector<double> begin = runner_.mean_x();
-        for (int k = 0; k < runner_.states(); ++k) path_[k].push_back(begin[k]);
+        tail_.assign(runner_.states(), {});
+        const std::vector<typename Runner::Place> begin = runner_.places();
+        for (int k = 0; k < runner_.states(); ++k) {
+            path_[k].push_back(begin[k].mean_x);
+            tail_[k].push_back(begin[k].tail_z);
+        }
         const HostClock watch;
         const auto frames = static_cast<int>(std::lround(scene_.duration / scene_.time_step));
         for (int frame = 0; frame < frames && let_rest(count); ++frame) {
@@ -53,7 +57,7 @@ public:
             const auto own = densities.begin() + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : k * fluid);
             evaluations.push_back(evaluation_of(
                 scene_, model_, runner_.model().particle_of(), progress_[k],
-                settled[k].stopped >= 0 ? nullptr : &members[k].gait, path_[k].data(),
+                settled[k].stopped >= 0 ? nullptr : &members[k].gait, path_[k].data(), tail_[k],
                 runner_.download(k, initial_state<Real>(model_)),
                 std::vector<Real>(own, own + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : fluid))));
         }
@@ -114,6 +118,8 @@ private:
             Progress& progress = progress_[k];
             if (idle_[k] || note_instability(ends[k], update, progress)) continue;
             path_[k].push_back(ends[k].mean_x);
+            tail_[k].push_back(ends[k].tail_z);
+            progress.muscle_work += ends[k].muscle_work;
             ++progress.frames;
             if (scene_.stopping.plane_contact && ends[k].touches_plane)
                 progress.stopped = static_cast<int>(StopReason::touched_plane);
@@ -136,7 +142,7 @@ private:
     BatchTimes* times_;
     Runner runner_;
     std::vector<Progress> progress_;
-    std::vector<std::vector<double>> path_;
+    std::vector<std::vector<double>> path_, tail_;  ///< mean x of the body, mean z of its last slice
     std::vector<bool> idle_;
     std::optional<std::pair<State<Real>, Progress>> shared_start_;
 };

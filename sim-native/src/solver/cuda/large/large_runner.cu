@@ -220,7 +220,7 @@ void LargeRunner<Real>::set_idle(const std::vector<bool>& idle) {
 /// Scheme flex sets the muscles once for a frame, the others for the end of every substep.
 template <class Real>
 void LargeRunner<Real>::set_muscles(const Update& update) {
-    const std::size_t springs = base_.model.springs, of_state = springs * update.substeps;
+    const std::size_t springs = base_.model.springs, of_state = springs * (update.substeps + 1);
     const std::size_t size = of_state * base_.states;
     if (size > rest_lengths_size_) {
         graphs_.clear();  // they know the old place
@@ -233,12 +233,14 @@ void LargeRunner<Real>::set_muscles(const Update& update) {
     const bool by_substep = base_.model.scheme != Scheme::flex;
     for (int state = 0; state < base_.states; ++state) {
         const Gait* const gait = update.gaits.empty() ? nullptr : update.gaits[state];
+        const std::vector<Real>& before = muscles_[state].spring_rest_length;
+        std::copy(before.begin(), before.end(), rest_lengths_ + state * of_state);
         for (int k = 0; k < update.substeps; ++k) {
             const double end = update.start_time + update.time_step * (k + 1) / update.substeps;
             if (gait && (by_substep || k == 0))
                 actuate(host_model_, *gait, by_substep ? end : update.start_time, muscles_[state]);
             const std::vector<Real>& lengths = muscles_[state].spring_rest_length;
-            std::copy(lengths.begin(), lengths.end(), rest_lengths_ + state * of_state + k * springs);
+            std::copy(lengths.begin(), lengths.end(), rest_lengths_ + state * of_state + (k + 1) * springs);
         }
     }
 }
@@ -248,8 +250,8 @@ LargeLaunch<Real> LargeRunner<Real>::launch_of(const Update& update, int substep
     LargeLaunch<Real> launch = base_;
     launch.slots.substep = substep;
     launch.slots.h = static_cast<Real>(update.time_step) / static_cast<Real>(update.substeps);
-    launch.slots.rest_lengths = device_rest_lengths_.data() + std::size_t(substep) * base_.model.springs;
-    launch.slots.rest_length_stride = std::size_t(update.substeps) * base_.model.springs;
+    launch.slots.rest_lengths = device_rest_lengths_.data() + std::size_t(substep + 1) * base_.model.springs;
+    launch.slots.rest_length_stride = std::size_t(update.substeps + 1) * base_.model.springs;
     return launch;
 }
 
@@ -264,12 +266,13 @@ void LargeRunner<Real>::launch_substeps(const Update& update, int substeps, Stag
         substep.clock = clock;
         substep.trace = trace;
         launch_substep(substep);
+        if (!update.settling) launch_work(substep);
     }
 }
 
 template <class Real>
 void LargeRunner<Real>::launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const {
-    const std::size_t of_state = std::size_t(update.substeps) * base_.model.springs;
+    const std::size_t of_state = std::size_t(update.substeps + 1) * base_.model.springs;
     copy(device_rest_lengths_.data(), rest_lengths_, of_state * base_.states, base_.stream);
     keep_before();
     launch_substeps(update, update.substeps, clock, trace);
@@ -296,7 +299,9 @@ cudaGraphExec_t LargeRunner<Real>::graph_of(const Update& update) {
 
 template <class Real>
 void LargeRunner<Real>::prepare(const Update& update) {
+    const std::vector<State<Real>> muscles = muscles_;
     set_muscles(update);
+    muscles_ = muscles;  // the update itself is still to come
     check(cudaGraphUpload(graph_of(update), base_.stream), "graph");
     wait();
 }
@@ -305,6 +310,8 @@ template <class Real>
 typename LargeRunner<Real>::End LargeRunner<Real>::end_of(int k) const {
     End end;
     end.mean_x = end_[k].mean_x;
+    end.tail_z = end_[k].tail_z;
+    end.muscle_work = end_[k].muscle_work;
     end.touches_plane = end_[k].touches != 0;
     if (end_[k].bad == none_bad) return end;
     end.finite = false;
@@ -356,13 +363,13 @@ void LargeRunner<Real>::go_to(int k, int substep, const Update& update) {
 }
 
 template <class Real>
-std::vector<double> LargeRunner<Real>::mean_x() {
+std::vector<typename LargeRunner<Real>::Place> LargeRunner<Real>::places() {
     launch_measure(base_);
     copy(end_, base_.slots.at.shared, base_.states, base_.stream);
     wait();
-    std::vector<double> means;
-    for (int k = 0; k < base_.states; ++k) means.push_back(end_[k].mean_x);
-    return means;
+    std::vector<Place> places;
+    for (int k = 0; k < base_.states; ++k) places.push_back({end_[k].mean_x, end_[k].tail_z});
+    return places;
 }
 
 template <class Real>

@@ -44,6 +44,8 @@ public:
         bool finite = true;
         int bad_substep = 0, bad_particle = 0;  ///< of one that is not; the State is that before this substep
         double mean_x = 0;                      ///< of the body
+        double tail_z = 0;                      ///< of its last slice
+        double muscle_work = 0;                 ///< in the update, see Solver::muscle_work; none in scheme flex
         bool touches_plane = false;
     };
     /// States that updates leave as they are.
@@ -54,8 +56,11 @@ public:
     /// one by one then, as for a trace, which is of the first State.
     std::vector<End> run(const Update& update, StageProfile* profile = nullptr, const Trace<Real>& trace = {});
 
-    /// Of the States as they are.
-    std::vector<double> mean_x();
+    /// Of the bodies as they are: mean x, and mean z of the last slice.
+    struct Place {
+        double mean_x = 0, tail_z = 0;
+    };
+    std::vector<Place> places();
     /// As the last substep left them, by State and device number.
     std::vector<Real> densities() const;
     std::vector<int> neighbour_counts() const;
@@ -91,7 +96,7 @@ private:
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;
     // Of the host, where the device reads and writes them.
-    Real* rest_lengths_ = nullptr;  ///< [(state * substeps + substep) * springs + spring]
+    Real* rest_lengths_ = nullptr;  ///< [(state * (substeps + 1) + 1 + substep) * springs + spring]; 0 is before the update
     std::size_t rest_lengths_size_ = 0;
     LargeShared<Real>* end_ = nullptr;  ///< by State
     DeviceBuffer<Real> device_rest_lengths_;

@@ -65,7 +65,10 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         if (model.solids > 0) solids_large<<<launch.grid(1), threads, 0, launch.stream>>>(model, slots);
     }
     void update_velocities() const {
-        if (model.plan.water) each_particle(move_water<Real>);
+        if (model.plan.water) {
+            if (model.planes > 0) each_pair(hold_at_walls<Real>);
+            each_particle(move_water<Real>);
+        }
         each_particle(constrained_velocities<Real>);
         if (model.free_bodies > 0)
             body_momentum_large<<<launch.grid(1), threads, 0, launch.stream>>>(model, slots);

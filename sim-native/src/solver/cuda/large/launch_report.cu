@@ -40,8 +40,24 @@ __global__ void measure_large(const __grid_constant__ ModelView<Real> model,
                               const __grid_constant__ Slots<Real> states) {
     const Slots<Real> slots = states.state(blockIdx.y);
     measure_path(model, slots, &slots.shared().mean_x);
+    measure_tail(model, slots, &slots.shared().tail_z);
     const bool touches = touches_plane(model, slots);
     if (threadIdx.x == 0) slots.shared().touches = touches;
+}
+
+/// Adds a substep's work of the muscles to the update's. One warp, always in the same order.
+template <class Real>
+__global__ void work_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    if (slots.failed()) return;
+    const Real* const before = slots.rest_length() - model.springs;
+    double sum = 0;
+    for (int k = threadIdx.x; k < model.springs; k += 32)
+        sum += physics::spring_work(double(model.relaxation_factor) * slots.spring_lambda()[k], double(slots.h),
+                                    double(slots.rest_length()[k]) - double(before[k]));
+    for (int step = 16; step > 0; step /= 2) sum += __shfl_xor_sync(0xffffffff, sum, step);
+    double& work = slots.shared().muscle_work;
+    if (threadIdx.x == 0) work = slots.substep == 0 ? sum : work + sum;
 }
 
 template <class Real>
@@ -124,6 +140,13 @@ void launch_measure(const LargeLaunch<Real>& launch) {
 }
 
 template <class Real>
+void launch_work(const LargeLaunch<Real>& launch) {
+    if (launch.model.scheme == Scheme::flex || launch.model.springs == 0) return;
+    work_large<<<launch.grid(1), 32, 0, launch.stream>>>(launch.model, launch.slots);
+    check(cudaGetLastError(), "launch");
+}
+
+template <class Real>
 void launch_rest(const LargeLaunch<Real>& launch) {
     rest_large<<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(launch.model, launch.slots);
     check(cudaGetLastError(), "launch");
@@ -141,6 +164,7 @@ void launch_far_slot(const LargeLaunch<Real>& launch) {
     template void launch_densities(const LargeLaunch<Real>&, Real*);            \
     template void launch_neighbour_counts(const LargeLaunch<Real>&, int*);      \
     template void launch_measure(const LargeLaunch<Real>&);                     \
+    template void launch_work(const LargeLaunch<Real>&);                        \
     template void launch_rest(const LargeLaunch<Real>&);                        \
     template void launch_far_slot(const LargeLaunch<Real>&)
 NATATOR_INSTANTIATE(float);

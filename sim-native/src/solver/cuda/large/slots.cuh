@@ -14,6 +14,8 @@ struct LargeShared : Shared<Real> {
     int touches;             ///< the body touches a plane
     int most_neighbours;     ///< scheme conserving: of any particle, also where lists have no room for them
     double mean_x;           ///< of the body
+    double tail_z;           ///< of its last slice
+    double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
 };
 
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
@@ -86,6 +88,7 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Quad<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                     \
     X(Real, density, water)                                                                                           \
     X(Real, response, water)                                                                                          \
+    X(Real, impulse_sum, water) /* of the substep so far */                                                           \
     X(Real, impulse, water)                                                                                           \
     X(Real, density_of, water) /* by number */                                                                        \
     X(int, count_of, water)    /* by number */                                                                        \

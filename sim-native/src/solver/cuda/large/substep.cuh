@@ -59,7 +59,11 @@ void launch_densities(const LargeLaunch<Real>& launch, Real* density);
 template <class Real>
 void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts);
 
-/// Mean x of the body and whether it touches a plane, into what all share.
+/// Adds the work of the muscles in the substep to that of the update, into what all share.
+template <class Real>
+void launch_work(const LargeLaunch<Real>& launch);
+
+/// Mean x of the body, mean z of its tail, and whether it touches a plane, into what all share.
 template <class Real>
 void launch_measure(const LargeLaunch<Real>& launch);
 

@@ -259,7 +259,9 @@ __global__ void __launch_bounds__(large_threads)
     });
     sums.gradient = sum_of_lanes(sums.gradient);
     sums.square = sum_of_lanes(sums.square);
-    if (own_lane() == 0) water.response[s] = sums.response(own_shear.z);
+    if (own_lane() != 0) return;
+    water.response[s] = sums.response(own_shear.z);
+    water.impulse_sum[s] = 0;
 }
 
 /// What the passes of a substep are for, see cpu/conserving/water.cpp.
@@ -296,7 +298,9 @@ __global__ void __launch_bounds__(large_threads)
     Real target = 0;
     if (parts(pass)) target = physics::parting_target(volume, density, most, slots.h);
     if (pass == Pass::density) target = physics::density_target(volume, density, most, slots.h);
-    water.impulse[s] = physics::pressure_impulse(target, rate, water.response[s], density);
+    const Real impulse = physics::pressure_impulse(target, rate, water.response[s], density);
+    water.impulse[s] = impulse;
+    if (!parts(pass)) water.impulse_sum[s] += impulse;
 }
 
 /// v_i -= w_i sum (impulse_i + impulse_j) G_ij.
@@ -389,6 +393,27 @@ __global__ void __launch_bounds__(large_threads)
     slots.at.drift_before[s] = quad(v, number);
     slots.at.cell[s] = cell;
     atomicAdd(slots.at.table + cell, 1);
+}
+
+/// Once all passes are done: holds up what lies at walls.
+template <class Real>
+__global__ void __launch_bounds__(large_threads)
+    hold_at_walls(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_slot();
+    if (s >= model.particles || slots.failed()) return;
+    const WaterArrays<Real>& water = slots.water;
+    Vec3<Real> sum{};
+    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int owner, unsigned planes) {
+        if (planes == 0 || owner >= model.fluid) return;
+        const Quad<Real> x = water.position[owner];
+        sum += physics::weight_to_ghost(slots.at.state_position[owner].w, x.w, slots.h, model.fluid_gravity,
+                                        ghost_of(model.water, xyz(x), planes) - xyz(x), water.impulse_sum[owner]) *
+               gradient;
+    });
+    sum = sum_of_lanes(sum);
+    const Quad<Real> v = water.velocity[s];
+    if (own_lane() == 0) water.velocity[s] = quad(xyz(v) - v.w * sum, v.w);
 }
 
 /// The fluid goes where its velocities take it.

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace natator::cli {
+
+/// Runs that are done, each a line of a file: {"of": what determines it, "request": ..., "result": ...}. A line is written
+/// as soon as its run has ended, so that what an interrupted command computed is there for the next.
+class RunRecord {
+public:
+    /// Without a path nothing is kept. Reads what the file holds if there is one; what is behind its last whole line is
+    /// cut off. Throws InputError when a line is none of such a file.
+    explicit RunRecord(const std::string& path);
+
+    /// The result of a run that is there; null otherwise.
+    nlohmann::json find(const nlohmann::json& of) const;
+    /// Throws std::runtime_error when the file can't be written.
+    void add(const nlohmann::json& of, const nlohmann::json& request, const nlohmann::ordered_json& result);
+
+private:
+    std::string path_;
+    std::vector<nlohmann::json> lines_;
+};
+
+}  // namespace natator::cli

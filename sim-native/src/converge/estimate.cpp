@@ -1,0 +1,81 @@
+#include "estimate.h"
+
+#include <cmath>
+
+namespace natator {
+namespace {
+
+constexpr double least_order = 0.5, most_order = 4;
+constexpr double significant = 2;  // standard errors
+
+/// The order that three levels show, if they show one.
+std::optional<double> observed_order(const Sample& base, const Sample& half, const Sample& quarter) {
+    const double first = half.mean - base.mean, second = quarter.mean - half.mean;
+    if (!(std::abs(first) > significant * std::hypot(base.error, half.error))) return std::nullopt;
+    if (!(std::abs(second) > significant * std::hypot(half.error, quarter.error))) return std::nullopt;
+    const double order = std::log2(first / second);  // not a number where the signs differ
+    if (!(order >= least_order && order <= most_order)) return std::nullopt;
+    return order;
+}
+
+}  // namespace
+
+Sample sample_of(const std::vector<double>& values) {
+    Sample sample;
+    sample.runs = static_cast<int>(values.size());
+    if (values.empty()) return sample;
+    for (const double value : values) sample.mean += value / sample.runs;
+    if (sample.runs < 2) return sample;
+    double squares = 0;
+    for (const double value : values) squares += (value - sample.mean) * (value - sample.mean);
+    sample.error = std::sqrt(squares / (sample.runs - 1) / sample.runs);
+    return sample;
+}
+
+std::optional<Sample> relative_change(const Sample& from, const Sample& to) {
+    if (from.mean == 0) return std::nullopt;
+    const double ratio = to.mean / from.mean;
+    return Sample{ratio - 1, std::hypot(to.error, ratio * from.error) / std::abs(from.mean), to.runs};
+}
+
+Limit limit_of(const Sample& base, const Sample& half, const std::optional<Sample>& quarter) {
+    Limit limit;
+    if (quarter) {
+        if (const auto order = observed_order(base, half, *quarter)) {
+            limit.order = *order;
+            limit.observed = true;
+        }
+    }
+    const Sample& finest = quarter ? *quarter : half;
+    const Sample& before = quarter ? half : base;
+    const double reach = 1 / (std::pow(2, limit.order) - 1);
+    limit.from_finest = reach * (finest.mean - before.mean);
+    limit.from_base = finest.mean + limit.from_finest - base.mean;
+    (quarter ? limit.quarter_weight : limit.half_weight) = 1 + reach;
+    (quarter ? limit.half_weight : limit.base_weight) -= reach;
+    limit.base_weight -= 1;
+    return limit;
+}
+
+Estimate estimate_of(const Sample& base, const std::optional<Sample>& half_time,
+                     const std::optional<Sample>& quarter_time, const std::optional<Sample>& half_space) {
+    Estimate estimate;
+    if (half_time) estimate.time = limit_of(base, *half_time, quarter_time);
+    if (half_space) estimate.space = limit_of(base, *half_space, std::nullopt);
+    double base_weight = 1;
+    estimate.value = base.mean;
+    const auto add = [&](const Limit& limit, const Sample& half, const std::optional<Sample>& quarter) {
+        base_weight += limit.base_weight;
+        estimate.value += limit.from_base;
+        estimate.discretisation = std::hypot(estimate.discretisation, limit.from_finest);
+        estimate.statistical = std::hypot(estimate.statistical, limit.half_weight * half.error);
+        if (quarter) estimate.statistical = std::hypot(estimate.statistical, limit.quarter_weight * quarter->error);
+    };
+    if (estimate.time) add(*estimate.time, *half_time, quarter_time);
+    if (estimate.space) add(*estimate.space, *half_space, std::nullopt);
+    estimate.statistical = std::hypot(estimate.statistical, base_weight * base.error);
+    estimate.error = std::hypot(estimate.statistical, estimate.discretisation);
+    return estimate;
+}
+
+}  // namespace natator

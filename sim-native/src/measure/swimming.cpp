@@ -1,0 +1,74 @@
+#include "natator/swimming.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "natator/plan.h"
+
+namespace natator {
+namespace {
+
+constexpr int most_periods = 3;
+constexpr double least_steps = 8;  // of a period, to see its peaks
+
+/// `path` at `at` steps from its start, linear between its values.
+double value_at(const std::vector<double>& path, double at) {
+    const auto before = std::min(static_cast<std::size_t>(std::max(at, 0.0)), path.size() - 1);
+    const std::size_t after = std::min(before + 1, path.size() - 1);
+    return std::lerp(path[before], path[after], at - static_cast<double>(before));
+}
+
+/// Range of the path between two places in steps, less the line between them.
+double range_between(const std::vector<double>& path, double begin, double end) {
+    const double first = value_at(path, begin), last = value_at(path, end);
+    double low = 0, high = 0;  // both ends
+    for (double at = std::ceil(begin); at <= std::floor(end); ++at) {
+        const double left = value_at(path, at) - std::lerp(first, last, (at - begin) / (end - begin));
+        low = std::min(low, left);
+        high = std::max(high, left);
+    }
+    return high - low;
+}
+
+}  // namespace
+
+template <class Real>
+double tail_z(const Body& body, const State<Real>& state) {
+    if (body.slices.empty()) return 0;
+    double sum = 0;
+    for (const int particle : body.slices.back()) sum += static_cast<double>(state.position[particle].z());
+    return sum / static_cast<double>(body.slices.back().size());
+}
+
+std::optional<double> peak_to_peak(const std::vector<double>& path, double time_step, double period) {
+    const double steps = period / time_step, all = static_cast<double>(path.size()) - 1;
+    constexpr double rounding = 1e-9;
+    const int periods = std::min(most_periods, static_cast<int>(std::min(all / steps + rounding, 1e6)));
+    if (periods < 1 || steps < least_steps) return std::nullopt;
+    double sum = 0;
+    for (int k = 0; k < periods; ++k) sum += range_between(path, std::max(all - (k + 1) * steps, 0.0), all - k * steps);
+    return sum / periods;
+}
+
+std::optional<SwimmingNumbers> swimming_numbers(const Model& model, const Gait& gait, double distance, double simulated,
+                                                const std::vector<double>& tail) {
+    if (model.actuators == 0 || !make_plan(model).water) return std::nullopt;
+    const std::optional<double> amplitude = peak_to_peak(tail, model.time_step, 1 / gait.frequency);
+    if (!amplitude) return std::nullopt;
+    SwimmingNumbers numbers;
+    numbers.tail_amplitude = *amplitude;
+    const double speed = std::abs(distance) / simulated, length = model.body.length;
+    const double viscosity = model.parameters.kinematicViscosity;
+    if (speed > 0) numbers.strouhal = gait.frequency * *amplitude / speed;
+    if (viscosity > 0) {
+        numbers.reynolds = speed * length / viscosity;
+        numbers.swimming_number = 2 * std::numbers::pi * gait.frequency * *amplitude * length / viscosity;
+    }
+    return numbers;
+}
+
+template double tail_z(const Body&, const State<float>&);
+template double tail_z(const Body&, const State<double>&);
+
+}  // namespace natator

@@ -1,0 +1,72 @@
+// How far a body bends in vacuum under a fish-like gait: the same at any time step and number of iterations, and nearly so
+// at half the spacing.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "natator/actuate.h"
+#include "natator/model_builder.h"
+#include "natator/solver.h"
+#include "natator/swimming.h"
+#include "scene/scene_json.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+
+const Gait fish_like{1.5,
+                     {0.1, 0.17, 0.24, 0.31, 0.38, 0.45, 0.52, 0.6},
+                     {0, 0.862, 0.724, 0.586, 0.448, 0.31, 0.172, 0.034},
+                     1};
+
+Model creature_2_in_vacuum(int substeps, int iterations, int refinement, const json& creature = json::object()) {
+    json overrides = {{"fluid", nullptr},
+                      {"planes", json::array()},
+                      {"solver", {{"gravity", {0, 0, 0}}, {"substeps", substeps}, {"numIterations", iterations}}},
+                      {"creature", {{"refinement", refinement}}}};
+    overrides["creature"].merge_patch(creature);
+    return build_model(load_scene("open-water/creature-2", overrides));
+}
+
+Eigen::Vector3d between(const Model& model, const State<float>& state, int from, int to) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int i : model.body.slices[to]) sum += state.position[i].cast<double>();
+    for (const int i : model.body.slices[from]) sum -= state.position[i].cast<double>();
+    return sum;
+}
+
+/// Peak-to-peak angle between the axis at the tail and at the head in the second to fourth beat, rad.
+double bending(const Model& model) {
+    Solver<float> solver(model);
+    State<float> state = initial_state<float>(model);
+    std::vector<double> angle{0};
+    const int last = static_cast<int>(model.body.slices.size()) - 1;
+    for (int frame = 1; frame <= 160; ++frame) {
+        EXPECT_FALSE(solver.frame(state, fish_like));
+        state.time = frame * model.time_step;
+        const Eigen::Vector3d head = between(model, state, 2, 0), tail = between(model, state, last, last - 2);
+        double turned = std::atan2(tail.z(), tail.x()) - std::atan2(head.z(), head.x());
+        turned -= 2 * std::numbers::pi * std::round((turned - angle.back()) / (2 * std::numbers::pi));
+        angle.push_back(turned);
+    }
+    return peak_to_peak(angle, model.time_step, 1 / fish_like.frequency).value_or(0);
+}
+
+TEST(Bending, IsTheSameAtAnyTimeStepAndNumberOfIterations) {
+    const double exact = bending(creature_2_in_vacuum(32, 32, 1));
+    EXPECT_GT(exact, 1);
+    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 8, 1)) / exact, 1, 0.03);
+    EXPECT_NEAR(bending(creature_2_in_vacuum(16, 8, 1)) / exact, 1, 0.015);
+    EXPECT_NEAR(bending(creature_2_in_vacuum(32, 8, 1)) / exact, 1, 0.015);
+    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 16, 1)) / exact, 1, 0.015);
+}
+
+TEST(Bending, IsNearlyTheSameAtHalfTheSpacing) {
+    EXPECT_NEAR(bending(creature_2_in_vacuum(16, 8, 2)) / bending(creature_2_in_vacuum(16, 8, 1)), 1, 0.12);
+}
+
+}  // namespace
+}  // namespace natator

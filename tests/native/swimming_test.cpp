@@ -1,0 +1,98 @@
+// Reynolds, Strouhal and swimming number of known motions.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "natator/swimming.h"
+
+namespace natator {
+namespace {
+
+constexpr double time_step = 1.0 / 60;
+
+/// A sine of the amplitude (from the middle) on a path that drifts.
+std::vector<double> beating(double frequency, double amplitude, double drift, double duration) {
+    std::vector<double> path;
+    for (int k = 0; k * time_step < duration + 1e-9; ++k) {
+        const double t = k * time_step;
+        path.push_back(0.7 + drift * t + amplitude * std::sin(2 * std::numbers::pi * frequency * t + 0.4));
+    }
+    return path;
+}
+
+/// A model as swimming_numbers looks at it: a body of length 1.5 in water.
+Model swimmer(double viscosity) {
+    Model model;
+    model.scheme = Scheme::conserving;
+    model.parameters.kinematicViscosity = viscosity;
+    model.position = {{0, 0, 0}, {1, 0, 0}};
+    model.velocity = {{0, 0, 0}, {0, 0, 0}};
+    model.inverse_mass = {1, 1};
+    model.phase = {1, phase::fluid | phase::self_collide};
+    model.body = {{0}, {{0}}, 1.5};
+    model.actuators = 1;
+    return model;
+}
+
+TEST(Swimming, PeakToPeakIsTwiceTheAmplitudeWhateverDrifts) {
+    for (const double frequency : {0.7, 1.5, 1.861})
+        for (const double drift : {0.0, 0.2, -1.0}) {
+            const auto found = peak_to_peak(beating(frequency, 0.11, drift, 4), time_step, 1 / frequency);
+            ASSERT_TRUE(found);
+            EXPECT_NEAR(*found, 0.22, 0.22 * 0.01) << frequency << ' ' << drift;
+        }
+}
+
+TEST(Swimming, PeakToPeakIsThatOfTheLastThreePeriods) {
+    std::vector<double> path = beating(1.5, 0.4, 0, 2);  // three beats
+    const std::vector<double> later = beating(1.5, 0.1, 0, 8 / 3.0);
+    path.insert(path.end(), later.begin() + 1, later.end());
+    EXPECT_NEAR(peak_to_peak(path, time_step, 1 / 1.5).value_or(0), 0.2, 0.002);
+}
+
+TEST(Swimming, PeakToPeakNeedsAPeriodOfEightSteps) {
+    EXPECT_FALSE(peak_to_peak(beating(1.5, 0.1, 0, 0.6), time_step, 1 / 1.5));
+    EXPECT_TRUE(peak_to_peak(beating(1.5, 0.1, 0, 40 * time_step), time_step, 1 / 1.5));
+    EXPECT_FALSE(peak_to_peak(beating(8, 0.1, 0, 4), time_step, 1 / 8.0));
+    EXPECT_FALSE(peak_to_peak({}, time_step, 1));
+}
+
+TEST(Swimming, NumbersOfAKnownMotion) {
+    const Gait gait{1.5, {0.3}, {0}, 1};
+    const auto numbers = swimming_numbers(swimmer(0.01), gait, -0.8, 4, beating(1.5, 0.1, 0.05, 4));
+    ASSERT_TRUE(numbers);
+    EXPECT_NEAR(numbers->tail_amplitude, 0.2, 0.002);
+    EXPECT_NEAR(numbers->reynolds.value_or(0), 0.2 * 1.5 / 0.01, 1e-9);
+    EXPECT_NEAR(numbers->strouhal.value_or(0), 1.5 * 0.2 / 0.2, 0.015);
+    EXPECT_NEAR(numbers->swimming_number.value_or(0), 2 * std::numbers::pi * 1.5 * 0.2 * 1.5 / 0.01, 3);
+}
+
+TEST(Swimming, NumbersThatHaveNoMeaningAreLeftOut) {
+    const Gait gait{1.5, {0.3}, {0}, 1};
+    const std::vector<double> tail = beating(1.5, 0.1, 0, 4);
+    const auto inviscid = swimming_numbers(swimmer(0), gait, 0, 4, tail);
+    ASSERT_TRUE(inviscid);
+    EXPECT_FALSE(inviscid->reynolds || inviscid->swimming_number || inviscid->strouhal);
+    Model dry = swimmer(0.01);
+    dry.phase[1] = 1;
+    EXPECT_FALSE(swimming_numbers(dry, gait, 1, 4, tail));
+    Model flex = swimmer(0.01);
+    flex.scheme = Scheme::flex;
+    EXPECT_FALSE(swimming_numbers(flex, gait, 1, 4, tail));
+    Model lame = swimmer(0.01);
+    lame.actuators = 0;
+    EXPECT_FALSE(swimming_numbers(lame, {}, 1, 4, tail));
+}
+
+TEST(Swimming, TheTailIsTheLastSlice) {
+    Model model = swimmer(0.01);
+    model.body.slices = {{0}, {1, 0}};
+    State<float> state;
+    state.position = {{0, 0, 1}, {0, 0, 2}};
+    EXPECT_EQ(tail_z(model.body, state), 1.5);
+    EXPECT_EQ(tail_z(Body{}, state), 0);
+}
+
+}  // namespace
+}  // namespace natator
