@@ -45,6 +45,7 @@ void DfsphStages<Real>::solve_density_constraint() {
 /// The fluid goes where its velocities take it.
 template <class Real>
 void DfsphStages<Real>::update_velocities() {
+    if (this->plan_.water) water_.add_pressure_forces();
     for (const int i : this->ws_.fluid_ids) {
         const int slot = this->ws_.slot_of[i];
         if (!(this->inverse_mass_[i] > 0)) continue;

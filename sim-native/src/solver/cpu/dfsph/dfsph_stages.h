@@ -29,6 +29,11 @@ public:
     std::vector<Real> pressures() const;
     std::vector<int> neighbour_counts() const;
 
+    /// See Solver::forces.
+    void keep_forces() { water_.keep_forces(); }
+    void clear_forces() { water_.clear_forces(); }
+    std::vector<Vector3<Real>> forces() const { return water_.forces(); }
+
 private:
     /// Of a particle as the iterations have left it, length/s.
     Vec3<Real> present_velocity(int particle) const {

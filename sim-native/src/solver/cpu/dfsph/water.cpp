@@ -264,6 +264,7 @@ void Water<Real>::begin(const State<Real>& state, Real h, ThreadTeam& team) {
     if (dynamic_viscosity_ > 0) {
         const Real strength = 10 * h * dynamic_viscosity_;
         const Real most = physics::viscous_limit(spacing_, strength);
+        add_viscous_forces(strength, most);
         on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
     }
     add_effects(team);
