@@ -135,7 +135,7 @@ private:
     Vector3Array<Real> field_;          ///< of add_effects, also of images: normals, then vorticity
     std::vector<Real> strength_;        ///< of the vorticity, also of images
     std::vector<Vec3<Real>> parting_;   ///< displacement by part_overlaps, by slot; empty where nothing overlaps
-    AlignedVector<Real> volume_, inverse_mass_, mobility_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
+    AlignedVector<Real> volume_, inverse_mass_, mobility_, solid_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
     std::array<AlignedVector<Real>, 6> correction_;
     AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_;
     std::vector<int> row_begin_, neighbour_count_;

@@ -28,7 +28,8 @@ void Water<Real>::add_viscous_forces(Real strength, Real most) {
         physics::ViscousSums<Real> sums;
         for_each_neighbour_of(slot, [&](int entry, int other) {
             if (!is_fluid_slot(other)) return;
-            const Real share = physics::viscous_share(own, volume_[other] * mobility_[other], most);
+            const Real share = physics::viscous_share(own, volume_[other] * mobility_[other], most) *
+                               physics::viscous_grip(Real(1), Real(0));
             sums.add(position_.at(slot) - position_.at(other), packed_velocity(other) - velocity_.at(slot), softening,
                      share, gradient_.at(entry));
         });
