@@ -25,9 +25,13 @@ const std::vector<WaterCase>& water_cases() {
           "drag coefficient at Re 10"},
          run_towed_sphere},
         {"towed-cylinder",
+         "drag coefficient",
+         {"drag coefficient at Re 40", "drag coefficient at Re 20"},
+         run_towed_cylinder},
+        {"shedding-cylinder",
          "lift coefficient",
          {"drag coefficient at Re 100", "Strouhal number at Re 100"},
-         run_towed_cylinder},
+         run_shedding_cylinder},
     };
     return cases;
 }

@@ -63,5 +63,6 @@ WaterRun run_lighter_sphere(const WaterSetting& setting);
 WaterRun run_spinning_sphere(const WaterSetting& setting);
 WaterRun run_towed_sphere(const WaterSetting& setting);
 WaterRun run_towed_cylinder(const WaterSetting& setting);
+WaterRun run_shedding_cylinder(const WaterSetting& setting);
 
 }  // namespace natator::bench
