@@ -29,7 +29,7 @@ struct Fluid {
         position.resize(slots, 1e9f);
         velocity.resize(slots);
         correction.resize(slots);
-        for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &volume, &response,
+        for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &volume, &solid, &response,
                             &target, &impulse, &impulse_sum, &fastest_square})
             array->resize(slots);
         crowding.resize(slots);
@@ -41,6 +41,7 @@ struct Fluid {
             inverse_mass[slot] = positive(random);
             solid_density[slot] = positive(random) - 0.1f;
             volume[slot] = 2e-2f * positive(random);
+            solid[slot] = slot % 5 == 0 ? 1.0f : 0.0f;
             target[slot] = 0.1f * positive(random);
         }
         position.set(7, position.at(3));  // a pair at distance 0
@@ -100,6 +101,7 @@ struct Fluid {
                               .volume = volume.data(),
                               .inverse_mass = inverse_mass.data(),
                               .mobility = inverse_mass.data(),
+                              .solid = solid.data(),
                               .velocity = {v[0], v[1], v[2]},
                               .density = density.data(),
                               .correction = {},
@@ -119,7 +121,7 @@ struct Fluid {
     }
 
     Vector3Array<float> position, velocity, correction, crowding, gradient;
-    AlignedVector<float> volume, response, target, impulse, impulse_sum, fastest_square;
+    AlignedVector<float> volume, solid, response, target, impulse, impulse_sum, fastest_square;
     AlignedVector<float> packed_correction, packed_shear;
     std::array<AlignedVector<float>, 6> water_correction;
     AlignedVector<float> inverse_mass, solid_density, density, compression, constraint_count;

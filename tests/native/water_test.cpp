@@ -7,6 +7,7 @@
 #include <string>
 
 #include "law_models.h"
+#include "model/cluster.h"
 #include "natator/model_builder.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
@@ -116,6 +117,59 @@ TEST(Water, ANeutralBodyHovers) {
     const double before = height();
     advance_frames(solver, model, state, 60);
     EXPECT_NEAR(height(), before, 0.1);  // in this time a stone falls by 5
+}
+
+/// A body's particles together get what changes its momentum, its lower half is pushed up and its upper half down; where
+/// nobody asks there are no forces, and the same bits.
+TEST(Water, ForcesAreWhatTheWaterDoesToABody) {
+    Model model = box_of_water({9, 9, 9});
+    model.parameters.kinematicViscosity = 0.02;
+    const Eigen::Vector3d middle = Eigen::Vector3d::Constant(0.45);
+    std::vector<int> body;
+    for (int i = 0; i < model.particles(); ++i) {
+        if ((model.position[i] - middle).norm() > 0.25) continue;
+        model.phase[i] = 1;
+        model.inverse_mass[i] = 0.8;
+        model.velocity[i] = {0.5, 0, 0};
+        body.push_back(i);
+    }
+    model.clusters = {make_cluster(body, model.position, 1)};
+    State<double> state = initial_state<double>(model), unasked = state;
+    Execution execution;
+    execution.forces = true;
+    Solver<double> solver(model, execution), other(model);
+    const auto momentum = [&] {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const int i : body) sum += state.velocity[i] / model.inverse_mass[i];
+        return sum;
+    };
+    advance_frames(solver, model, state, 8);
+    const Eigen::Vector3d before = momentum();
+    advance_frames(solver, model, state, 1);
+    const auto forces = solver.forces();
+    Eigen::Vector3d whole = Eigen::Vector3d::Zero(), weight = whole, lower = whole, upper = whole;
+    for (const int i : body) {
+        whole += forces[i];
+        weight += model.parameters.gravity / model.inverse_mass[i];
+        (state.position[i].y() < middle.y() ? lower : upper) += forces[i];
+    }
+    const Eigen::Vector3d change = (momentum() - before) / model.time_step;
+    EXPECT_LE((change - whole - weight).norm(), 1e-9 * weight.norm());
+    EXPECT_GT(lower.y(), 0);
+    EXPECT_LT(upper.y(), 0);
+    for (int i = 0; i < model.particles(); ++i) {
+        if (model.is_fluid(i)) {
+            ASSERT_EQ(forces[i].norm(), 0);
+        }
+    }
+    advance_frames(other, model, unasked, 9);
+    EXPECT_TRUE(other.forces().empty());
+    EXPECT_TRUE(std::equal(state.velocity.begin(), state.velocity.end(), unasked.velocity.begin()));
+}
+
+/// A sphere that spins in very viscous water is held back by the third power of the radius at which the water goes with it.
+TEST(Water, WaterGoesWithABodyAtItsSurface) {
+    EXPECT_NEAR(figure_of("spinning-sphere", Scheme::conserving, 12).value, 1, 0.2);
 }
 
 /// A short swimmer in a small tank, with one thing made worse.

@@ -1,19 +1,17 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "model/cluster.h"
+#include "water/drag_law.h"
 #include "water/water_tank.h"
 
 namespace natator::bench {
 namespace {
 
-/// What a sphere of this density (of the water's) does in a tank so many lengths high once it is let go.
+/// What a sphere of this density (of the water's) does in a tank as wide and high as long once it is let go.
 struct Fall {
     double density = 1;
-    double radius = 0.3;
-    double start = 1;   ///< height of the centre
-    double height = 2;  ///< of the water
-    double viscosity = 0;
     double duration = 1;  ///< s
 };
 
@@ -45,14 +43,11 @@ double height(const Model& model, const State<Real>& state) {
 
 /// The curve is how far the sphere has fallen, length.
 template <class Real>
-WaterRun let_go(const Fall& fall, const WaterSetting& setting, double& sphere_diameter) {
-    const auto layers = static_cast<int>(std::lround(fall.height / water_length * setting.resolution));
-    const Eigen::Vector3d centre(water_length / 2, fall.start, water_length / 2);
-    WaterTank<Real> tank({setting.resolution, layers, setting.resolution}, setting,
-                         [&](Model& model) { immerse_sphere(centre, fall.radius, model); });
-    sphere_diameter = diameter(tank.model());
+WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
+    WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting, [&](Model& model) {
+        immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), 0.15 * water_length, model);
+    });
     tank.change([&](Model& model) {
-        model.parameters.kinematicViscosity = fall.viscosity;
         for (const int i : model.clusters[0].particles) model.inverse_mass[i] = 1 / fall.density;
     });
     const double start = height(tank.model(), tank.state());
@@ -66,10 +61,10 @@ WaterRun let_go(const Fall& fall, const WaterSetting& setting, double& sphere_di
     return run;
 }
 
-WaterRun let_go(const Fall& fall, const WaterSetting& setting, double& sphere_diameter) {
+WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
     return in_precision(
-        setting, [&](const WaterSetting& own) { return let_go<float>(fall, own, sphere_diameter); },
-        [&](const WaterSetting& own) { return let_go<double>(fall, own, sphere_diameter); });
+        setting, [&](const WaterSetting& own) { return let_go<float>(fall, own); },
+        [&](const WaterSetting& own) { return let_go<double>(fall, own); });
 }
 
 constexpr double gravity = 10;
@@ -87,17 +82,81 @@ double acceleration(const std::vector<WaterSample>& curve) {
 
 constexpr double added_mass = 0.5;  ///< of a sphere, of the mass that it displaces (Lamb, art. 92)
 
-/// Schiller and Naumann (1933).
-double drag_coefficient(double reynolds) {
-    return 24 / reynolds * (1 + 0.15 * std::pow(reynolds, 0.687));
+/// A sphere in a tank 1.4 lengths wide and 1.8 high that is let go with its weight so much more than its buoyancy, in parts
+/// of that.
+struct Release {
+    double excess;
+    double start;  ///< height of the middle
+};
+
+constexpr double release_gravity = 8, release_viscosity = 0.008, release_duration = 8;  // s
+constexpr double release_width = 1.4 * water_length, release_height = 1.8 * water_length;
+constexpr double counted = 2;  ///< s, at the end
+
+/// The same by Schiller and Naumann's drag on a sphere that carries its added mass along: speed over the last `counted`.
+double expected_speed(double excess, double sphere_diameter) {
+    constexpr double step = 1e-3;
+    double speed = 1e-6, way = 0;
+    for (double time = 0; time < release_duration; time += step) {
+        // At the speed at which the water passes between sphere and walls.
+        const double drag = drag_of_sphere(speed * sphere_diameter / release_viscosity);
+        const double between = blockage_of_sphere(drag, sphere_diameter, release_width * release_width);
+        const double passing = speed * (1 + std::min(between, 0.2));
+        const double held_back = 0.75 / sphere_diameter * passing * passing *
+                                 drag_of_sphere(passing * sphere_diameter / release_viscosity);
+        speed += step * (excess * release_gravity - held_back) / (1 + excess + added_mass);
+        if (time >= release_duration - counted) way += step * speed;
+    }
+    return way / counted;
+}
+
+/// Its weight is set by the force that the water holds it up with, so that an error of the buoyancy, which run_neutral_sphere
+/// measures, is not in it.
+template <class Real>
+WaterRun release(const Release& release, const WaterSetting& setting) {
+    const double spacing = water_length / setting.resolution;
+    const auto particles = [&](double length) { return static_cast<int>(std::lround(length / spacing)); };
+    const Eigen::Vector3d middle(release_width / 2, release.start, release_width / 2);
+    WaterTank<Real> tank({particles(release_width), particles(release_height), particles(release_width)}, setting,
+                         [&](Model& model) {
+                             model.parameters.gravity = {0, -release_gravity, 0};
+                             immerse_sphere(middle, 0.15 * water_length, model);
+                         });
+    const double sphere_diameter = diameter(tank.model());
+    tank.set_kinematic_viscosity(release_viscosity);
+    double buoyancy = 0;
+    const int frames_held = 60;
+    for (int frame = 0; frame < frames_held; ++frame) {
+        Load load;
+        if (!tank.drive({}, load)) return tank.run();
+        buoyancy += load.force.y() / frames_held;
+    }
+    tank.change([&](Model& model) {
+        const auto& sphere = model.clusters[0].particles;
+        const double weight = (1 + release.excess) * buoyancy;
+        for (const int i : sphere)
+            model.inverse_mass[i] = static_cast<double>(sphere.size()) * release_gravity / weight;
+    });
+    const double start = height(tank.model(), tank.state());
+    std::vector<WaterSample> curve{{0, 0}};
+    const double frame_time = tank.model().time_step;
+    for (double time = frame_time; time <= release_duration + frame_time / 2 && tank.frame(); time += frame_time)
+        curve.push_back({time, start - height(tank.model(), tank.state())});
+    WaterRun run = tank.run();
+    if (run.instability) return run;
+    run.curve = curve;
+    const WaterSample& begin = curve[curve.size() - 1 - static_cast<std::size_t>(std::lround(counted / frame_time))];
+    const double expected = expected_speed(std::abs(release.excess), sphere_diameter);
+    const double speed = (curve.back().value - begin.value) / counted * (release.excess > 0 ? 1 : -1);
+    run.figures = {{.value = speed, .reference = expected, .least = 0.8 * expected, .greatest = 1.2 * expected}};
+    return run;
 }
 
 }  // namespace
 
 /// A sphere as heavy as the water that it displaces: what it moves by is as if its weight were wrong by so much.
 WaterRun run_neutral_sphere(const WaterSetting& setting) {
-    double sphere_diameter = 0;
-    WaterRun run = let_go({.density = 1, .duration = 1}, setting, sphere_diameter);
+    WaterRun run = let_go({.density = 1, .duration = 1}, setting);
     if (run.instability) return run;
     const double error = acceleration(run.curve) * (1 + added_mass) / gravity;
     run.figures = {{.value = error, .reference = 0, .least = -0.01, .greatest = 0.01}};
@@ -107,32 +166,27 @@ WaterRun run_neutral_sphere(const WaterSetting& setting) {
 /// Let go in water at rest, a sphere accelerates as if it had half of the displaced water's mass too.
 WaterRun run_added_mass(const WaterSetting& setting) {
     const Fall fall{.density = 2, .duration = 0.15};
-    double sphere_diameter = 0;
-    WaterRun run = let_go(fall, setting, sphere_diameter);
+    WaterRun run = let_go(fall, setting);
     if (run.instability) return run;
     const double measured = (fall.density - 1) * gravity / acceleration(run.curve) - fall.density;
     run.figures = {{.value = measured, .reference = added_mass, .least = 0.9 * added_mass, .greatest = 1.1 * added_mass}};
     return run;
 }
 
-/// The drag at the speed that a sphere falls with in the end.
-WaterRun run_falling_sphere(const WaterSetting& setting) {
-    const Fall fall{
-        .density = 1.05, .radius = 0.2, .start = 2.5, .height = 3, .viscosity = 0.02, .duration = 8};
-    double sphere_diameter = 0;
-    WaterRun run = let_go(fall, setting, sphere_diameter);
-    if (run.instability) return run;
-    // Over the last two fifths of the time in which it is not near the floor.
-    const double free_way = 0.75 * (fall.start - fall.radius);
-    auto end = run.curve.begin();
-    while (end + 1 != run.curve.end() && end->value < free_way) ++end;
-    const auto begin = run.curve.begin() + (end - run.curve.begin()) * 3 / 5;
-    const double speed = (end->value - begin->value) / (end->time - begin->time);
-    const double drag = 4.0 / 3 * (fall.density - 1) * gravity * sphere_diameter / (speed * speed);
-    const double reynolds = speed * sphere_diameter / fall.viscosity, reference = drag_coefficient(reynolds);
-    run.figures = {{.value = drag, .reference = reference, .least = 0.9 * reference, .greatest = 1.1 * reference},
-                   {.value = reynolds, .reference = reynolds}};
-    return run;
+/// A hundredth heavier than its water, a sphere sinks.
+WaterRun run_heavier_sphere(const WaterSetting& setting) {
+    const Release heavier{.excess = 0.01, .start = 0.65 * release_height};
+    return in_precision(
+        setting, [&](const WaterSetting& own) { return release<float>(heavier, own); },
+        [&](const WaterSetting& own) { return release<double>(heavier, own); });
+}
+
+/// A hundredth lighter, it rises.
+WaterRun run_lighter_sphere(const WaterSetting& setting) {
+    const Release lighter{.excess = -0.01, .start = 0.35 * release_height};
+    return in_precision(
+        setting, [&](const WaterSetting& own) { return release<float>(lighter, own); },
+        [&](const WaterSetting& own) { return release<double>(lighter, own); });
 }
 
 }  // namespace natator::bench

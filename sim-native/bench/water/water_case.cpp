@@ -16,7 +16,22 @@ const std::vector<WaterCase>& water_cases() {
          run_tilted_gravity},
         {"neutral-sphere", "depth fallen (length)", {"error of buoyancy (of the weight)"}, run_neutral_sphere},
         {"added-mass", "depth fallen (length)", {"added mass (of the displaced)"}, run_added_mass},
-        {"falling-sphere", "depth fallen (length)", {"drag coefficient", "Reynolds number"}, run_falling_sphere},
+        {"heavier-sphere", "depth fallen (length)", {"terminal speed (length/s)"}, run_heavier_sphere},
+        {"lighter-sphere", "depth fallen (length)", {"terminal speed (length/s)"}, run_lighter_sphere},
+        {"spinning-sphere", "torque (of Kirchhoff's)", {"torque (of Kirchhoff's)"}, run_spinning_sphere},
+        {"towed-sphere",
+         "drag coefficient",
+         {"drag coefficient at Re 100", "drag coefficient at Re 50", "drag coefficient at Re 20",
+          "drag coefficient at Re 10"},
+         run_towed_sphere},
+        {"towed-cylinder",
+         "drag coefficient",
+         {"drag coefficient at Re 40", "drag coefficient at Re 20"},
+         run_towed_cylinder},
+        {"shedding-cylinder",
+         "lift coefficient",
+         {"drag coefficient at Re 100", "Strouhal number at Re 100"},
+         run_shedding_cylinder},
     };
     return cases;
 }

@@ -58,6 +58,11 @@ WaterRun run_standing_wave(const WaterSetting& setting);
 WaterRun run_tilted_gravity(const WaterSetting& setting);
 WaterRun run_neutral_sphere(const WaterSetting& setting);
 WaterRun run_added_mass(const WaterSetting& setting);
-WaterRun run_falling_sphere(const WaterSetting& setting);
+WaterRun run_heavier_sphere(const WaterSetting& setting);
+WaterRun run_lighter_sphere(const WaterSetting& setting);
+WaterRun run_spinning_sphere(const WaterSetting& setting);
+WaterRun run_towed_sphere(const WaterSetting& setting);
+WaterRun run_towed_cylinder(const WaterSetting& setting);
+WaterRun run_shedding_cylinder(const WaterSetting& setting);
 
 }  // namespace natator::bench

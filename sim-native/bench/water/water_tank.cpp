@@ -6,6 +6,7 @@
 
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
+#include "natator/error.h"
 #include "natator/gpu_solver.h"
 
 namespace natator::bench {
@@ -46,6 +47,7 @@ template <class Real>
 WaterTank<Real>::WaterTank(const Eigen::Vector3i& count, const WaterSetting& setting, const Change& immerse)
     : setting_(setting),
       model_(std::make_shared<Model>(model_of(count, setting, immerse))),
+      length_(count.x() * model_->parameters.fluidRestDistance),
       state_(initial_state<Real>(*model_)) {
     settle();
     step_ = step_of(*model_);
@@ -61,31 +63,77 @@ void WaterTank<Real>::settle() {
     calm.parameters.damping = 4;
     const Step step = step_of(calm);
     for (long frame = 0; frame < std::lround(settling / calm.time_step) && !instability_; ++frame)
-        instability_ = step(state_);
+        instability_ = step(state_, calm.time_step, calm.parameters.substeps);
     for (auto& v : state_.velocity) v.setZero();
     state_.time = 0;
 }
 
 /// The step keeps its solver; `model` must live as long.
 template <class Real>
-typename WaterTank<Real>::Step WaterTank<Real>::step_of(const Model& model) const {
-    const auto advance = [&model](auto solver) -> Step {
-        return [solver, &model](State<Real>& state) {
-            return solver->update(state, model.time_step, model.parameters.substeps);
-        };
+typename WaterTank<Real>::Step WaterTank<Real>::step_of(const Model& model) {
+    const auto advance = [](auto solver) -> Step {
+        return [solver](State<Real>& state, double time, int substeps) { return solver->update(state, time, substeps); };
     };
     if (setting_.gpu) return advance(std::make_shared<GpuSolver<Real>>(model));
-    return advance(std::make_shared<Solver<Real>>(model));
+    solver_ = std::make_shared<Solver<Real>>(model, Execution{.forces = true});
+    return advance(solver_);
+}
+
+template <class Real>
+bool WaterTank<Real>::advance(double time, int substeps) {
+    using Clock = std::chrono::steady_clock;
+    if (instability_) return false;
+    const auto begin = Clock::now();
+    instability_ = step_(state_, time, substeps);
+    seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+    return !instability_;
 }
 
 template <class Real>
 bool WaterTank<Real>::frame() {
-    using Clock = std::chrono::steady_clock;
-    if (instability_) return false;
-    const auto begin = Clock::now();
-    instability_ = step_(state_);
-    seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
-    return !instability_;
+    return advance(model_->time_step, model_->parameters.substeps);
+}
+
+template <class Real>
+bool WaterTank<Real>::drive(const Motion& motion, Load& load) {
+    if (!solver_) throw InputError("bench water: the force on a body that is held is known on the CPU only");
+    std::vector<int> body;
+    for (int i = 0; i < model_->particles(); ++i)
+        if (model_->inverse_mass[i] == 0) body.push_back(i);
+    const int substeps = model_->parameters.substeps;
+    const double h = model_->time_step / substeps;
+    const double angle = h * motion.spin.norm();
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, angle > 0 ? motion.spin.normalized() : Eigen::Vector3d::UnitX())
+                                     .toRotationMatrix();
+    load = {};
+    for (int k = 0; k < substeps; ++k) {
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        for (const int i : body) middle += state_.position[i].template cast<double>() / static_cast<double>(body.size());
+        const auto arm = [&](int i) -> Eigen::Vector3d { return state_.position[i].template cast<double>() - middle; };
+        for (const int i : body)
+            state_.velocity[i] = (motion.velocity + motion.spin.cross(arm(i))).template cast<Real>();
+        if (!advance(h, 1)) return false;
+        const std::vector<Vector3<Real>> forces = solver_->forces();
+        for (const int i : body) {
+            const Eigen::Vector3d force = forces[i].template cast<double>() / substeps;
+            load.force += force;
+            load.moment += arm(i).cross(force);
+        }
+        for (const int i : body)
+            state_.position[i] = (middle + h * motion.velocity + turn * arm(i)).template cast<Real>();
+    }
+    return true;
+}
+
+template <class Real>
+void WaterTank<Real>::shift(double distance) {
+    const Real length = static_cast<Real>(length_), by = static_cast<Real>(distance);
+    for (int i = 0; i < model_->particles(); ++i) {
+        state_.position[i].x() -= by;
+        if (state_.position[i].x() >= 0 || !model_->is_fluid(i)) continue;
+        state_.position[i].x() += length;
+        state_.velocity[i].setZero();
+    }
 }
 
 template <class Real>

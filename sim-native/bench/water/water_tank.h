@@ -13,6 +13,18 @@ namespace natator::bench {
 /// Length of the cases along x, in units of the scene. With 20 particles along it their spacing is that of the thesis.
 inline constexpr double water_length = 2;
 
+/// How a body is moved.
+struct Motion {
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< length/s
+    Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< about its middle, 1/s
+};
+
+/// What the water does to it in a frame, in the mean.
+struct Load {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< mass length/s^2
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< about its middle, mass length^2/s^2
+};
+
 /// A box of water without friction, drag or viscosity that has come to rest under gravity (10 length/s^2, downwards).
 /// Walls stand at x = 0, z = 0 and behind the last particles; the surface is free.
 template <class Real>
@@ -31,6 +43,12 @@ public:
 
     /// Advances by one frame. False if the water is unstable; then there are no more frames.
     bool frame();
+    /// The same while the particles of infinite mass move as one rigid body. Throws InputError on a GPU, which tells no
+    /// forces.
+    bool drive(const Motion& motion, Load& load);
+    /// Moves the walls along x by so much: the water that is left behind the rear one is put before the front, at rest.
+    /// All coordinates are less by `distance` afterwards, so that the walls keep theirs.
+    void shift(double distance);
     /// Of the model, from now on.
     void change(const Change& how);
     void set_gravity(const Eigen::Vector3d& gravity);
@@ -41,14 +59,18 @@ public:
     WaterRun run() const;
 
 private:
-    using Step = std::function<std::optional<Instability>(State<Real>&)>;
+    /// Advances by a time (s) in so many substeps.
+    using Step = std::function<std::optional<Instability>(State<Real>&, double, int)>;
 
-    Step step_of(const Model& model) const;
+    Step step_of(const Model& model);
     void settle();
+    bool advance(double time, int substeps);
 
     WaterSetting setting_;
     std::shared_ptr<Model> model_;
+    double length_;  ///< along x
     State<Real> state_;
+    std::shared_ptr<Solver<Real>> solver_;  ///< null on a GPU
     Step step_;
     double seconds_ = 0;
     std::optional<Instability> instability_;

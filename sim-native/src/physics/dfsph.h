@@ -47,6 +47,7 @@ inline constexpr double most_overlap = 0.5;    ///< of rest density that a subst
 inline constexpr int parting_passes = 4;       ///< on overlaps
 inline constexpr double longest_parting = 0.5; ///< of the rest distance, a substep
 inline constexpr double most_diffusion = 0.1;  ///< of nu h / s^2, nu = dynamic viscosity / a particle's own mass density
+inline constexpr double surface_grip = 1.63;   ///< of the viscosity between water and solids, see viscous_grip
 inline constexpr double shift_strength = 0.5;  ///< of R h |dv| times where neighbours crowd
 inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a substep
 inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
@@ -209,9 +210,23 @@ NATATOR_HD T viscous_share(T own, T other, Scalar<T> most) {
     return larger > most ? most / larger : one<T>();
 }
 
+/// How much stronger the viscosity of a pair is of which one is water, the other solid. 1 for a solid, 0 for water.
+///
+/// The water's velocity falls to a body's at its surface, but all of a body's particles have the body's velocity, those
+/// deep in it too, where the water's gradient would go on: what they should pull by is lost. With plain pairs, water that
+/// flows along a body is at rest 0.32 spacings deep in it (the extrapolated end point of Milne's problem for the weights
+/// of ViscousSums over 2.5 spacings); with pairs so much stronger it is at rest at the surface. Morris, Fox, Zhu
+/// (Modeling Low Reynolds Number Incompressible Flows Using SPH, 1997) make the difference of velocities of such a pair up
+/// to 1.5 times larger, to the same end.
+template <class T>
+NATATOR_HD T viscous_grip(T own_solid, T other_solid) {
+    const T differ = own_solid - other_solid;
+    return 1 + Scalar<T>(surface_grip - 1) * differ * differ;
+}
+
 /// Viscous impulses on a particle, without its inverse mass and 10 h mu: Monaghan's form (2005, eq. 8.5), which acts
 /// along the pair and so keeps angular momentum up to the correction of G. `softening` keeps it finite at r = 0; `share`
-/// is viscous_share.
+/// is viscous_share times viscous_grip.
 template <class T>
 struct ViscousSums {
     Vec3<T> impulse{};

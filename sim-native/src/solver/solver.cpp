@@ -82,6 +82,8 @@ public:
           execution_(execution),
           stages_(stages_for(model, execution.skip ? make_plan(model) : make_unskipped_plan(model))) {
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
+        if (auto* water = std::get_if<std::unique_ptr<cpu::ConservingStages<Real>>>(&stages_))
+            if (execution.forces) (*water)->keep_forces();
     }
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
@@ -104,6 +106,10 @@ public:
     }
     std::vector<Real> pressures() const {
         return std::visit([](const auto& stages) { return stages->pressures(); }, stages_);
+    }
+    std::vector<Vector3<Real>> forces() const {
+        const auto* water = std::get_if<std::unique_ptr<cpu::ConservingStages<Real>>>(&stages_);
+        return water ? (*water)->forces() : std::vector<Vector3<Real>>{};
     }
     std::vector<int> neighbour_counts() const {
         return std::visit([](const auto& stages) { return stages->neighbour_counts(); }, stages_);
@@ -134,6 +140,7 @@ private:
                                    StepObserver<Real>* observer, const Gait* gait) {
         const Real h = static_cast<Real>(time_step) / static_cast<Real>(substeps);
         const double start = state.time;
+        if constexpr (Stages::scheme == Scheme::conserving) stages.clear_forces();
         for (int k = 0; k < substeps; ++k) {
             const double end = start + time_step * (k + 1) / substeps;
             if (gait) {
@@ -193,6 +200,11 @@ std::vector<Real> Solver<Real>::densities() {
 template <class Real>
 std::vector<Real> Solver<Real>::pressures() const {
     return implementation_->pressures();
+}
+
+template <class Real>
+std::vector<Vector3<Real>> Solver<Real>::forces() const {
+    return implementation_->forces();
 }
 
 template <class Real>

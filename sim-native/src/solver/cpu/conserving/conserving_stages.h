@@ -47,6 +47,15 @@ public:
     std::vector<Real> pressures() const;
     std::vector<int> neighbour_counts() const;
 
+    /// See Solver::forces; empty without water.
+    void keep_forces() {
+        if (water_) water_->keep_forces();
+    }
+    void clear_forces() {
+        if (water_) water_->clear_forces();
+    }
+    std::vector<Vector3<Real>> forces() const { return water_ ? water_->forces() : std::vector<Vector3<Real>>{}; }
+
 private:
     void put_before_planes();
     void find_plane_contacts();

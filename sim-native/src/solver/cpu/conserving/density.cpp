@@ -17,6 +17,7 @@ void ConservingStages<Real>::solve_density_constraint() {
 /// The fluid goes where its velocities take it.
 template <class Real>
 void ConservingStages<Real>::move_fluid() {
+    water_->add_pressure_forces();
     water_->hold_at_walls(*this->team_);
     for (const int i : ws_.fluid_ids) {
         const int slot = ws_.slot_of[i];

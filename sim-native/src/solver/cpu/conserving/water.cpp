@@ -37,7 +37,7 @@ Water<Real>::Water(const Model& model)
     particle_of_.assign(image_begin_, -1);
     row_begin_.assign(image_begin_ / lanes + 1, 0);
     neighbour_count_.assign(image_begin_, 0);
-    for (auto* array : {&density_, &fastest_square_, &response_, &target_, &impulse_sum_}) array->resize(image_begin_);
+    for (auto* array : {&solid_, &density_, &fastest_square_, &response_, &target_, &impulse_sum_}) array->resize(image_begin_);
     for (auto& array : correction_) array.resize(image_begin_);
     crowding_.resize(image_begin_);
 }
@@ -133,6 +133,7 @@ void Water<Real>::lay_out(const State<Real>& state) {
         const int slot = next[cell_of_[i]]++;
         slot_of_[i] = slot;
         particle_of_[slot] = i;
+        solid_[slot] = model_.is_fluid(i) ? Real(0) : Real(1);
         put(slot, i, state.position[i], state.velocity[i]);
     }
     for (int slot = particles_; slot < image_begin_; ++slot) put_nothing(slot);
@@ -180,7 +181,7 @@ void Water<Real>::mirror_corrections() {
         const auto& h = mirror_.matrix(image_reflection_[k]);
         l = (h * l * h.transpose()).eval();
         const std::size_t slot = 4 * (image_begin_ + k);
-        const Real packed[8] = {l(0, 0), l(1, 1), l(2, 2), l(0, 1), l(0, 2), l(1, 2), 0, 0};
+        const Real packed[8] = {l(0, 0), l(1, 1), l(2, 2), l(0, 1), l(0, 2), l(1, 2), solid_[owner], 0};
         std::copy_n(packed, 4, packed_correction_.begin() + static_cast<std::ptrdiff_t>(slot));
         std::copy_n(packed + 4, 4, packed_shear_.begin() + static_cast<std::ptrdiff_t>(slot));
     }
@@ -216,6 +217,7 @@ WaterView<Real> Water<Real>::view() {
                         .volume = volume_.data(),
                         .inverse_mass = inverse_mass_.data(),
                         .mobility = mobility_.data(),
+                        .solid = solid_.data(),
                         .velocity = {velocity[0], velocity[1], velocity[2]},
                         .density = density_.data(),
                         .correction = {},
@@ -276,6 +278,7 @@ void Water<Real>::add_viscosity(ThreadTeam& team) {
     if (!(dynamic_viscosity_ > 0)) return;
     const Real strength = 10 * h_ * dynamic_viscosity_;
     const Real most = physics::viscous_limit(spacing_, strength);
+    add_viscous_forces(strength, most);
     on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->add_viscosity(part, strength, most); });
 }
 

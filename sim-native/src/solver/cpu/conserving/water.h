@@ -61,6 +61,14 @@ public:
     Real pressure(int particle) const { return impulse_sum_[slot_of_[particle]] / h_; }
     int neighbours(int particle) const { return neighbour_count_[slot_of_[particle]]; }
 
+    /// From now on impulses of the water on solids are summed.
+    void keep_forces() { impulse_on_.assign(particles_, {}); }
+    void clear_forces();
+    /// To be called once the passes of a substep are over.
+    void add_pressure_forces();
+    /// By particle, of the substeps since clear_forces; see Solver::forces.
+    std::vector<Vector3<Real>> forces() const;
+
 private:
     void lay_out(const State<Real>& state);
     void list_neighbours(ThreadTeam& team);
@@ -68,17 +76,36 @@ private:
     void part_overlaps(ThreadTeam& team);
     WaterView<Real> view();
 
+    void add_viscous_forces(Real strength, Real most);
+    template <class Visit>
+    void for_each_solid_slot(const Visit& visit) const;
+
     void drag_free_surface(ThreadTeam& team);
     void add_cohesion(ThreadTeam& team);
     void add_surface_tension(ThreadTeam& team);
     void add_vorticity_confinement(ThreadTeam& team);
-    bool is_fluid_slot(int slot) const;
+    /// Of an image's owner, too.
+    bool is_fluid_slot(int slot) const {
+        return model_.is_fluid(particle_of_[slot < image_begin_ ? slot : image_owner_[slot - image_begin_]]);
+    }
+    /// As neighbours gather it.
+    Vec3<Real> packed_velocity(int slot) const {
+        const Real* const v = &packed_velocity_[4 * static_cast<std::size_t>(slot)];
+        return {v[0], v[1], v[2]};
+    }
     /// Not for particles of infinite mass.
     void push(int slot, const Vec3<Real>& velocity_change) {
         if (inverse_mass_[slot] > 0) velocity_.add(slot, velocity_change);
     }
+    /// Calls visit(entry, other) for the entries of a slot's row.
     template <class Visit>
-    void for_each_neighbour_of(int slot, const Visit& visit) const;
+    void for_each_neighbour_of(int slot, const Visit& visit) const {
+        for (int row = row_begin_[slot / lanes]; row < row_begin_[slot / lanes + 1]; ++row) {
+            const int entry = row * lanes + slot % lanes, other = neighbour_[entry];
+            if (other == far_slot_) return;  // the rest of the column is unused
+            visit(entry, other);
+        }
+    }
     template <class Visit>
     void for_each_fluid_within_radius(int slot, const Visit& visit) const;
     template <class Work>
@@ -119,12 +146,15 @@ private:
     Vector3Array<Real> field_;          ///< of add_forces, also of images: normals, then vorticity
     std::vector<Real> strength_;        ///< of the vorticity, also of images
     std::vector<Vec3<Real>> parting_;   ///< displacement by part_overlaps, by slot; empty where nothing overlaps
-    AlignedVector<Real> volume_, inverse_mass_, mobility_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
+    AlignedVector<Real> volume_, inverse_mass_, mobility_, solid_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
     std::array<AlignedVector<Real>, 6> correction_;
     AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_;
     std::vector<int> row_begin_, neighbour_count_;
     AlignedVector<std::int32_t> neighbour_;
     Vector3Array<Real> gradient_;
+
+    std::vector<Vec3<Real>> impulse_on_;  ///< of the water, by particle; empty unless forces are kept
+    Real impulse_time_ = 0;               ///< over which it was summed, s
 
     NeighbourLists<Real> lists_;
 };

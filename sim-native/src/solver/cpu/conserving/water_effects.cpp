@@ -7,22 +7,6 @@
 
 namespace natator::cpu {
 
-template <class Real>
-bool Water<Real>::is_fluid_slot(int slot) const {
-    return model_.is_fluid(particle_of_[slot < image_begin_ ? slot : image_owner_[slot - image_begin_]]);
-}
-
-/// Calls visit(entry, other) for the entries of a slot's row.
-template <class Real>
-template <class Visit>
-void Water<Real>::for_each_neighbour_of(int slot, const Visit& visit) const {
-    for (int row = row_begin_[slot / lanes]; row < row_begin_[slot / lanes + 1]; ++row) {
-        const int entry = row * lanes + slot % lanes, other = neighbour_[entry];
-        if (other == far_slot_) return;  // the rest of the column is unused
-        visit(entry, other);
-    }
-}
-
 /// Calls visit(other, difference, r) for the fluid within the interaction radius of a slot.
 template <class Real>
 template <class Visit>
@@ -86,10 +70,6 @@ void Water<Real>::add_surface_tension(ThreadTeam& team) {
 template <class Real>
 void Water<Real>::add_vorticity_confinement(ThreadTeam& team) {
     const Real step = h_ * static_cast<Real>(model_.parameters.vorticityConfinement);
-    const auto packed_velocity = [this](int slot) {
-        const Real* const v = &packed_velocity_[4 * static_cast<std::size_t>(slot)];
-        return Vec3<Real>{v[0], v[1], v[2]};
-    };
     field_.resize(position_.x.size());
     strength_.assign(position_.x.size(), 0);
     for (int slot = 0; slot < particles_; ++slot) field_.set(slot, {});

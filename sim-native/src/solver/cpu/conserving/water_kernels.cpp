@@ -43,7 +43,7 @@ void compute_moments(const WaterView<Real>& water) {
         const Lane parts[6] = {l.xx, l.yy, l.zz, l.xy, l.xz, l.yz};
         for (int k = 0; k < 6; ++k) Group::put(water.correction[k] + first, parts[k]);
         Group::put_quadruples(water.packed_correction + 4 * first, {l.xx, l.yy, l.zz, l.xy});
-        Group::put_quadruples(water.packed_shear + 4 * first, {l.xz, l.yz, Lane{}, Lane{}});
+        Group::put_quadruples(water.packed_shear + 4 * first, {l.xz, l.yz, Group::get(water.solid + first), Lane{}});
         put3<Group>(water.crowding, first, sums.crowding);
         Group::put(water.fastest_square + first, sums.fastest_square);
     });
@@ -81,11 +81,14 @@ void add_viscosity(const WaterView<Real>& water, Real strength, Real most) {
         const Vec3<Lane> v = get3<Group>(water.velocity, first);
         const Lane inverse_mass = Group::get(water.inverse_mass + first);
         const Lane own = Group::get(water.volume + first) * Group::get(water.mobility + first);
+        const Lane solid = Group::get(water.solid + first);
         ViscousSums<Lane> sums;
         for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
+            const Four<Lane> shear = Group::gather(water.packed_shear, water.neighbour + entry);
             sums.add(difference, Vec3<Lane>{moves.x, moves.y, moves.z} - v, water.softening,
-                     viscous_share(own, other.w * moves.w, most), get3<Group>(water.gradient, entry));
+                     viscous_share(own, other.w * moves.w, most) * viscous_grip(solid, shear.z),
+                     get3<Group>(water.gradient, entry));
         });
         const Lane scale = strength * inverse_mass;
         put3<Group>(water.velocity, first, v + scale * sums.impulse);

@@ -23,6 +23,7 @@ struct WaterView {
     const Real* volume;
     const Real* inverse_mass;
     const Real* mobility;  ///< see physics::mobility
+    const Real* solid;     ///< 1 for solids, 0 for water
     Real* velocity[3];
     Real* density;
     Real* correction[6];    ///< L_i: xx, yy, zz, xy, xz, yz
@@ -37,7 +38,7 @@ struct WaterView {
     Real* packed;             ///< position and volume
     Real* packed_velocity;    ///< velocity and mobility
     Real* packed_correction;  ///< L: xx, yy, zz, xy
-    Real* packed_shear;       ///< L: xz, yz
+    Real* packed_shear;       ///< L: xz, yz; solid
 
     Real* gradient[3];  ///< G_ij by entry of the rows
 };

@@ -81,7 +81,7 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Quad<Real>, velocity, water)   /* w: inverse mass */                                                            \
     X(Quad<Real>, pushed, water)     /* the same with the viscosity and effects of the substep */                     \
     X(Quad<Real>, correction, water) /* L: xx, yy, zz, xy */                                                          \
-    X(Quad<Real>, shear, water)      /* xz, yz; mobility, see physics::mobility */                                    \
+    X(Quad<Real>, shear, water)      /* xz, yz; mobility, see physics::mobility; 1 for solids */                      \
     X(Quad<Real>, parting, water)    /* velocities that part overlaps; w: inverse mass, 0 for solids */               \
     X(Quad<Real>, crowding, water)   /* w: largest |v_j - v_i|^2 */                                                   \
     X(Quad<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */      \

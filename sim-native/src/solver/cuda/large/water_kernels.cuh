@@ -226,7 +226,8 @@ __global__ void __launch_bounds__(large_threads)
     water.density[s] = density;
     water.density_of[number_in(slots.at.state_velocity[s].w)] = density;
     water.correction[s] = {l.xx, l.yy, l.zz, l.xy};
-    water.shear[s] = {l.xz, l.yz, physics::mobility(moves.w, here.w, model.water.density), 0};
+    const Real solid = number_in(slots.at.state_velocity[s].w) < model.fluid ? Real(0) : Real(1);
+    water.shear[s] = {l.xz, l.yz, physics::mobility(moves.w, here.w, model.water.density), solid};
     water.crowding[s] = quad(sums.crowding, sums.fastest_square);
     if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
 }
@@ -343,13 +344,15 @@ __global__ void __launch_bounds__(large_threads)
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
     const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
     const Real most = physics::viscous_limit(model.water.spacing, strength);
+    const Real solid = water.shear[s].w;
     physics::ViscousSums<Real> sums;
     for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
         const Quad<Real> there = water.position[other];
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
         const Quad<Real> u = seen(model, water.velocity, other, planes);
         const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
-        sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
+        const Real grip = physics::viscous_grip(solid, water.shear[other].w);
+        sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share * grip, gradient);
     });
     const Vec3<Real> v = xyz(moves) + (strength * moves.w) * sum_of_lanes(sums.impulse);
     if (own_lane() == 0) water.pushed[s] = quad(v, moves.w);

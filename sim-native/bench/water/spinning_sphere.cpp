@@ -1,0 +1,61 @@
+#include <cmath>
+#include <numbers>
+
+#include "water/water_tank.h"
+
+namespace natator::bench {
+namespace {
+
+constexpr double viscosity = 0.1, spin = 0.5;
+
+/// Of a sphere of radius R that begins to turn at once, in units of Kirchhoff's 8 pi mu R^3 spin, at the time
+/// tau = nu t / R^2: from Lamb's torque on a sphere that swings (Hydrodynamics, art. 335).
+double torque(double tau) {
+    return 1 + (1 / std::sqrt(std::numbers::pi * tau) - std::exp(tau) * std::erfc(std::sqrt(tau))) / 3;
+}
+
+/// The mean over the times from tau = 1 to 2 tells where water that flows along a body is at rest: the torque goes with the
+/// third power of that radius, and no pressure is in it.
+template <class Real>
+WaterRun run_as(const WaterSetting& setting) {
+    const double spacing = water_length / setting.resolution, radius = 0.2 * water_length, width = 1.5 * water_length;
+    const auto particles = static_cast<int>(std::lround(width / spacing));
+    const Eigen::Vector3d middle = Eigen::Vector3d::Constant(particles * spacing / 2);
+    int held = 0;
+    WaterTank<Real> tank(Eigen::Vector3i::Constant(particles), setting, [&](Model& model) {
+        model.parameters.gravity = {0, -1, 0};
+        for (int i = 0; i < model.particles(); ++i) {
+            if ((model.position[i] - middle).norm() > radius) continue;
+            model.phase[i] = 1;
+            model.inverse_mass[i] = 0;
+            ++held;
+        }
+    });
+    tank.set_kinematic_viscosity(viscosity);
+    const double cube = held * std::pow(spacing, 3) * 3 / (4 * std::numbers::pi);  // of the radius, by its volume
+    const double unit = 8 * std::numbers::pi * viscosity / std::pow(spacing, 3) * cube * spin;
+    std::vector<WaterSample> curve;
+    double sum = 0, expected = 0;
+    for (double time = tank.model().time_step;; time += tank.model().time_step) {
+        const double tau = viscosity * time / std::pow(cube, 2.0 / 3);
+        Load load;
+        if (tau > 2 || !tank.drive({.spin = {0, 0, spin}}, load)) break;
+        curve.push_back({time, -load.moment.z() / unit});
+        if (tau < 1) continue;
+        sum += curve.back().value;
+        expected += torque(tau);
+    }
+    WaterRun run = tank.run();
+    if (run.instability) return run;
+    run.curve = curve;
+    run.figures = {{.value = sum / expected, .reference = 1, .least = 0.9, .greatest = 1.1}};
+    return run;
+}
+
+}  // namespace
+
+WaterRun run_spinning_sphere(const WaterSetting& setting) {
+    return in_precision(setting, run_as<float>, run_as<double>);
+}
+
+}  // namespace natator::bench

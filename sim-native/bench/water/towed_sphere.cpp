@@ -1,0 +1,36 @@
+#include <cmath>
+
+#include "water/drag_law.h"
+#include "water/towing.h"
+#include "water/water_tank.h"
+
+namespace natator::bench {
+
+/// A sphere that is held and towed through resting water at one speed, ever more viscous: the water's own drag, without what
+/// a fall would depend on, its weight and buoyancy. At resolution 20 it is 8 particles across.
+WaterRun run_towed_sphere(const WaterSetting& setting) {
+    const double spacing = water_length / setting.resolution, diameter = 0.4 * water_length, width = 1.6 * water_length;
+    const auto particles = [&](double length) { return static_cast<int>(std::lround(length / spacing)); };
+    const Towing towing{.count = {particles(6 * diameter), particles(width), particles(width)},
+                        .middle = {2.5 * diameter, width / 2, width / 2},
+                        .diameter = diameter,
+                        .speed = 1,
+                        .gravity = 2.5,
+                        .legs = {{100, 5}, {50, 3}, {20, 2.5}, {10, 1.5}}};
+    TowResult result = tow(towing, setting);
+    WaterRun& run = result.run;
+    if (run.instability) return run;
+    for (std::size_t k = 0; k < towing.legs.size(); ++k) {
+        const auto [reynolds, way] = towing.legs[k];
+        const double between = blockage_of_sphere(drag_of_sphere(reynolds), result.diameter, width * width);
+        const double reference = drag_of_sphere(reynolds * (1 + between)) * std::pow(1 + between, 2);
+        run.figures.push_back({.value = mean_drag(result.legs[k], way / 2),
+                               .reference = reference,
+                               .least = 0.9 * reference,
+                               .greatest = 1.1 * reference});
+        for (const TowSample& sample : result.legs[k]) run.curve.push_back({sample.time, sample.drag});
+    }
+    return run;
+}
+
+}  // namespace natator::bench

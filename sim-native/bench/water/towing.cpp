@@ -1,0 +1,87 @@
+#include "water/towing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "water/water_tank.h"
+
+namespace natator::bench {
+namespace {
+
+/// Particles within the body's outline are held; the rest stays water. The number of them.
+int immerse(const Towing& towing, Model& model) {
+    model.parameters.gravity = {0, -towing.gravity, 0};
+    int particles = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        Eigen::Vector3d arm = model.position[i] - towing.middle;
+        if (towing.cylinder) arm.z() = 0;
+        if (arm.norm() > towing.diameter / 2) continue;
+        model.phase[i] = 1;
+        model.inverse_mass[i] = 0;
+        ++particles;
+    }
+    return particles;
+}
+
+template <class Real>
+TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
+    int particles = 0;
+    WaterTank<Real> tank(towing.count, setting, [&](Model& model) { particles = immerse(towing, model); });
+    const double spacing = tank.model().parameters.fluidRestDistance;
+    const double volume = particles * std::pow(spacing, 3), width = towing.count.z() * spacing;
+    const double density = 1 / std::pow(spacing, 3);  // particles of mass 1
+
+    TowResult result;
+    result.diameter = towing.cylinder ? std::sqrt(4 * volume / (std::numbers::pi * width))
+                                      : std::cbrt(6 * volume / std::numbers::pi);
+    const double diameter = result.diameter;
+    const double area = diameter * (towing.cylinder ? width : std::numbers::pi / 4 * diameter);
+    const double scale = density * towing.speed * towing.speed / 2 * area;
+    const double weight = density * volume * towing.gravity;
+    const double frame = tank.model().time_step, step = std::ceil(diameter / spacing) * spacing;
+    double time = 0, way = 0, unshifted = 0;
+    for (const Towing::Leg& leg : towing.legs) {
+        tank.set_kinematic_viscosity(towing.speed * diameter / leg.reynolds);
+        result.legs.emplace_back();
+        for (double own_way = 0; own_way < leg.way * diameter;) {
+            const double speed = towing.speed * std::min(1.0, (way + 0.05 * diameter) / diameter);
+            Load load;
+            if (!tank.drive({.velocity = {speed, 0, 0}}, load)) {
+                result.run = tank.run();
+                return result;
+            }
+            time += frame;
+            way += frame * speed;
+            own_way += frame * speed;
+            unshifted += frame * speed;
+            result.legs.back().push_back(
+                {time, own_way / diameter, -load.force.x() / scale, (load.force.y() - weight) / scale});
+            if (unshifted < step) continue;
+            tank.shift(step);
+            unshifted -= step;
+        }
+    }
+    result.run = tank.run();
+    return result;
+}
+
+}  // namespace
+
+TowResult tow(const Towing& towing, const WaterSetting& setting) {
+    return setting.solver.precision == Precision::double_precision ? tow_as<double>(towing, setting)
+                                                                   : tow_as<float>(towing, setting);
+}
+
+double mean_drag(const std::vector<TowSample>& leg, double begin) {
+    double sum = 0;
+    int count = 0;
+    for (const TowSample& sample : leg) {
+        if (sample.way < begin) continue;
+        sum += sample.drag;
+        ++count;
+    }
+    return sum / count;
+}
+
+}  // namespace natator::bench

@@ -1,0 +1,72 @@
+// What the water does to solids, summed only where someone asks. Pressure impulses need no sums of their own: pairs keep
+// their gradients through a substep, so all of its passes together are one with the sums of their impulses.
+#include "physics/dfsph.h"
+#include "water.h"
+
+namespace natator::cpu {
+
+/// Calls visit(slot, particle) if forces are kept.
+template <class Real>
+template <class Visit>
+void Water<Real>::for_each_solid_slot(const Visit& visit) const {
+    for (int i = 0; i < static_cast<int>(impulse_on_.size()); ++i)
+        if (!model_.is_fluid(i)) visit(slot_of_[i], i);
+}
+
+template <class Real>
+void Water<Real>::clear_forces() {
+    impulse_on_.assign(impulse_on_.size(), {});
+    impulse_time_ = 0;
+}
+
+/// As the kernel add_viscosity does, on the same velocities.
+template <class Real>
+void Water<Real>::add_viscous_forces(Real strength, Real most) {
+    const Real softening = view().softening;
+    for_each_solid_slot([&](int slot, int particle) {
+        const Real own = volume_[slot] * mobility_[slot];
+        physics::ViscousSums<Real> sums;
+        for_each_neighbour_of(slot, [&](int entry, int other) {
+            if (!is_fluid_slot(other)) return;
+            const Real share = physics::viscous_share(own, volume_[other] * mobility_[other], most) *
+                               physics::viscous_grip(Real(1), Real(0));
+            sums.add(position_.at(slot) - position_.at(other), packed_velocity(other) - velocity_.at(slot), softening,
+                     share, gradient_.at(entry));
+        });
+        impulse_on_[particle] += strength * sums.impulse;
+    });
+}
+
+template <class Real>
+void Water<Real>::add_pressure_forces() {
+    for_each_solid_slot([&](int slot, int particle) {
+        const auto pressure = [&](int of) {
+            return impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]];
+        };
+        Vec3<Real> sum{};
+        for_each_neighbour_of(slot, [&](int entry, int other) {
+            if (is_fluid_slot(other)) sum += (pressure(slot) + pressure(other)) * gradient_.at(entry);
+        });
+        impulse_on_[particle] += Real(-1) * sum;
+    });
+    impulse_time_ += h_;
+}
+
+template <class Real>
+std::vector<Vector3<Real>> Water<Real>::forces() const {
+    std::vector<Vector3<Real>> forces;
+    for (const Vec3<Real>& impulse : impulse_on_)
+        forces.push_back(impulse_time_ > 0 ? (eigen(impulse) / impulse_time_).eval() : Vector3<Real>::Zero().eval());
+    return forces;
+}
+
+template void Water<float>::clear_forces();
+template void Water<double>::clear_forces();
+template void Water<float>::add_viscous_forces(float, float);
+template void Water<double>::add_viscous_forces(double, double);
+template void Water<float>::add_pressure_forces();
+template void Water<double>::add_pressure_forces();
+template std::vector<Vector3<float>> Water<float>::forces() const;
+template std::vector<Vector3<double>> Water<double>::forces() const;
+
+}  // namespace natator::cpu
