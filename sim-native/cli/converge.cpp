@@ -86,6 +86,12 @@ LevelRuns read_level(const Level& level, const json& request, const BackendChoic
     return runs;
 }
 
+const LevelRuns* find_level(const std::vector<LevelRuns>& levels, const std::string& name) {
+    for (const LevelRuns& runs : levels)
+        if (runs.level.name == name) return &runs;
+    return nullptr;
+}
+
 std::vector<LevelRuns> read_levels(json request, const ConvergeOptions& options) {
     if (!request.is_object()) throw InputError("request: must be an object");
     std::vector<LevelRuns> levels{read_level(Level::named("base"), request, options.backend)};
@@ -96,6 +102,7 @@ std::vector<LevelRuns> read_levels(json request, const ConvergeOptions& options)
     request.erase("perturbation");
     levels.front().request = request;
     for (const std::string& name : options.levels) {
+        if (find_level(levels, name)) continue;  // named twice
         const Level level = Level::named(name);
         json finer = request;
         const json own = request.contains("overrides") ? request.at("overrides") : json::object();
@@ -172,12 +179,6 @@ void run_level(LevelRuns& runs, const ConvergeOptions& options, const Execution&
         say(runs.level.name + ": run " + std::to_string(k + 1) + " of " + std::to_string(options.starts) +
             ", distance " + runs.results[k].at("distance").dump());
     }
-}
-
-const LevelRuns* find_level(const std::vector<LevelRuns>& levels, const std::string& name) {
-    for (const LevelRuns& runs : levels)
-        if (runs.level.name == name) return &runs;
-    return nullptr;
 }
 
 /// None if no run as asked for was stable.

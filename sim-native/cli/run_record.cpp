@@ -12,7 +12,12 @@ namespace natator::cli {
 
 RunRecord::RunRecord(const std::string& path) : path_(path) {
     std::error_code failed;
-    if (path.empty() || !std::filesystem::exists(path, failed)) return;
+    if (path.empty()) return;
+    if (!std::filesystem::exists(path, failed)) {  // known to be writable before anything is computed
+        if (!std::ofstream(path, std::ios::app))
+            throw std::runtime_error("--output " + natator::quoted(path) + ": cannot be written");
+        return;
+    }
     if (!std::filesystem::is_regular_file(path, failed))
         throw InputError("--output " + natator::quoted(path) + ": is no regular file; must be one, or a new name");
     std::ifstream file(path, std::ios::binary);

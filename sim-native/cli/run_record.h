@@ -11,7 +11,7 @@ namespace natator::cli {
 class RunRecord {
 public:
     /// Without a path nothing is kept. Reads what the file holds if there is one; what is behind its last whole line is
-    /// cut off. Throws InputError when a line is none of such a file.
+    /// cut off. Throws InputError when a line is none of such a file, std::runtime_error when it can't be made.
     explicit RunRecord(const std::string& path);
 
     /// The result of a run that is there; null otherwise.

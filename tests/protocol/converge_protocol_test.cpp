@@ -140,6 +140,18 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
     EXPECT_EQ(recorded(), "not a run\n");
 }
 
+TEST_F(ConvergeTest, AFileThatCannotBeMadeIsAFailureBeforeAnyRun) {
+    const Outcome outcome = run_simulator({"converge", "-", "--output", "/no-such-folder/runs.jsonl"}, swim.dump());
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+}
+
+TEST_F(ConvergeTest, ALevelThatIsNamedTwiceIsOne) {
+    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2,time/2"}, swim.dump());
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(json::parse(outcome.out)["levels"].size(), 2u);
+}
+
 TEST_F(ConvergeTest, UnstableRunsAreLeftOutAndToldByTheExitCode) {
     json wild = swim;
     wild["scene"] = "thesis/creature-1";

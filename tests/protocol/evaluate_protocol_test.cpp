@@ -50,12 +50,12 @@ TEST(EvaluateProtocolTest, AResultHasExactlyTheDocumentedFields) {
 }
 
 TEST(EvaluateProtocolTest, ASwimmerInWaterHasItsNumbers) {
-    json asked = request("thesis/creature-1", 0.8);
+    json asked = request("bench/small-tank", 0.6);
     asked["scheme"] = "conserving";
     asked["overrides"] = {{"solver", {{"substeps", 2}, {"kinematicViscosity", 0.01}}},
                           {"stopping", {{"planeContact", false}}}};
     const json result = result_of(asked), numbers = result.at("swimming");
-    const double speed = std::abs(result["distance"].get<double>()) / result["simulated"].get<double>(), length = 1.2;
+    const double speed = std::abs(result["distance"].get<double>()) / result["simulated"].get<double>(), length = 0.6;
     const double amplitude = numbers.at("tailAmplitude");
     EXPECT_GT(amplitude, 0.01);
     EXPECT_NEAR(numbers.at("reynolds").get<double>(), speed * length / 0.01, 1e-6);
