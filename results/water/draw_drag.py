@@ -43,9 +43,9 @@ parts.append(text(18, top + height / 2, "drag coefficient",
 
 curve = [place(re, sphere(re)) for re in (5 * 1.05**k for k in range(76))]
 parts.append(line(curve, 'stroke="#1668b0"'))
-parts.append(text(*place(95, 1.28), "sphere, Schiller and Naumann", 'fill="#1668b0"'))
+parts.append(text(*place(58, 1.72), "sphere, Schiller and Naumann", 'fill="#1668b0"'))
 parts.append(line([place(20, 2.045), place(40, 1.522)], 'stroke="#b04a16"'))
-parts.append(text(*place(42, 1.42), "cylinder, Dennis and Chang", 'fill="#b04a16"'))
+parts.append(text(*place(11, 1.62), "cylinder, Dennis and Chang", 'fill="#b04a16"'))
 
 with open(here / "water.csv", newline="") as table:
     for row in csv.DictReader(table):

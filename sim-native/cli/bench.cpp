@@ -277,6 +277,7 @@ void add_water(CLI::App* bench, int& status) {
         WaterStudy study{options->cases, options->resolutions, settings_of(common, options->settings)};
         study.gpu = on_gpu(options->backend, {});
         if (common.quick) study.resolutions = {10};
+        study.held = !common.quick;
         ResultTable table(common.output, water_columns(), water_key_columns);
         ResultTable curves = table_beside(common, "curves", water_curve_columns(), water_curve_key_columns);
         run_water_study(study, table, curves, report);

@@ -19,7 +19,7 @@ Towing across_slab(const WaterSetting& setting, double length, double height, co
             .diameter = diameter,
             .cylinder = true,
             .speed = 1.5,
-            .gravity = 2,
+            .gravity = 1,
             .legs = legs};
 }
 
@@ -72,8 +72,8 @@ WaterRun run_towed_cylinder(const WaterSetting& setting) {
         const double faster = 1 + blockage_of_cylinder(drag[k], result.diameter, height * towing.diameter);
         run.figures.push_back(drag_figure(mean_drag(result.legs[k], 0.6 * towing.legs[k].way),
                                           drag[k] * std::pow(faster, -0.426), faster));
-        for (const TowSample& sample : result.legs[k]) run.curve.push_back({sample.time, sample.drag});
     }
+    run.curve = smoothed(result, &TowSample::drag);
     return run;
 }
 
@@ -91,7 +91,7 @@ WaterRun run_shedding_cylinder(const WaterSetting& setting) {
                     .reference = strouhal * faster,
                     .least = 0.95 * strouhal * faster,
                     .greatest = 1.05 * strouhal * faster}};
-    for (const TowSample& sample : leg) run.curve.push_back({sample.time, sample.lift});
+    run.curve = smoothed(result, &TowSample::lift);
     return run;
 }
 

@@ -15,7 +15,7 @@ WaterRun run_towed_sphere(const WaterSetting& setting) {
                         .middle = {2.5 * diameter, width / 2, width / 2},
                         .diameter = diameter,
                         .speed = 1,
-                        .gravity = 2.5,
+                        .gravity = 1,
                         .legs = {{100, 5}, {50, 3}, {20, 2.5}, {10, 1.5}}};
     TowResult result = tow(towing, setting);
     WaterRun& run = result.run;
@@ -28,8 +28,8 @@ WaterRun run_towed_sphere(const WaterSetting& setting) {
                                .reference = reference,
                                .least = 0.9 * reference,
                                .greatest = 1.1 * reference});
-        for (const TowSample& sample : result.legs[k]) run.curve.push_back({sample.time, sample.drag});
     }
+    run.curve = smoothed(result, &TowSample::drag);
     return run;
 }
 

@@ -84,4 +84,22 @@ double mean_drag(const std::vector<TowSample>& leg, double begin) {
     return sum / count;
 }
 
+std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient) {
+    std::vector<WaterSample> curve;
+    for (const auto& leg : result.legs) {
+        double sum = 0, end = 0.25;
+        int count = 0;
+        for (const TowSample& sample : leg) {
+            sum += sample.*coefficient;
+            ++count;
+            if (sample.way < end) continue;
+            curve.push_back({sample.time, sum / count});
+            sum = 0;
+            count = 0;
+            end += 0.25;
+        }
+    }
+    return curve;
+}
+
 }  // namespace natator::bench

@@ -47,6 +47,7 @@ struct WaterCase {
     std::string curve;                    ///< what the curve shows
     std::vector<std::string> quantities;  ///< what the figures are
     std::function<WaterRun(const WaterSetting&)> run;
+    bool held = false;  ///< a body is held: runs only where its force is known, in scheme conserving on the CPU; takes minutes
 };
 
 /// All cases.

@@ -46,6 +46,7 @@ void add_curve(const Row& name, const std::vector<WaterSample>& curve, ResultTab
 
 void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& table, ResultTable& curves,
               const std::function<void(const std::string&)>& report) {
+    if (one.held && (setting.solver.scheme != Scheme::conserving || setting.gpu)) return;
     const Row name = name_of(one, setting);
     if (is_done(one, name, table)) return;
     const WaterRun run = one.run(setting);
@@ -77,10 +78,12 @@ Row water_curve_columns() {
 
 void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& curves,
                      const std::function<void(const std::string&)>& report) {
-    for (const std::string& name : study.cases)
+    for (const std::string& name : study.cases) {
+        if (water_case(name).held && !study.held) continue;
         for (const int resolution : study.resolutions)
             for (const Setting& setting : study.settings)
                 run_case(water_case(name), {setting, resolution, study.gpu}, table, curves, report);
+    }
 }
 
 }  // namespace natator::bench

@@ -15,6 +15,7 @@ struct WaterStudy {
     std::vector<int> resolutions;    ///< particles along the case's length
     std::vector<Setting> settings;
     bool gpu = false;
+    bool held = true;  ///< also the cases of bodies that are held
 };
 
 /// Columns case, resolution, scheme, precision, backend, substeps, iterations, quantity (these are the key); status (ok,
@@ -26,7 +27,7 @@ inline constexpr std::size_t water_key_columns = 8;
 Row water_curve_columns();
 inline constexpr std::size_t water_curve_key_columns = 8;
 
-/// Runs what `table` does not hold yet; the curves go into `curves`. `report` gets a line per row.
+/// Runs what `table` does not hold yet, but for cases of held bodies where these do not run; the curves go into `curves`. `report` gets a line per row.
 void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& curves,
                      const std::function<void(const std::string&)>& report);
 
