@@ -1,4 +1,4 @@
-"""Draws drag.svg beside water.csv: the drag coefficients that were measured, over the laws. Needs Python alone."""
+"""Writes an SVG of the drag coefficients of water.csv, over the laws, to the standard output. Needs Python alone."""
 import csv
 import math
 import pathlib
@@ -50,7 +50,7 @@ parts.append(text(*place(11, 1.62), "cylinder, Dennis and Chang", 'fill="#b04a16
 with open(here / "water.csv", newline="") as table:
     for row in csv.DictReader(table):
         words = row["quantity"].split("drag coefficient at Re ")
-        if row["scheme"] != "dfsph" or row["status"] != "ok" or len(words) < 2:
+        if row["scheme"] != "conserving" or row["status"] != "ok" or len(words) < 2:
             continue
         colour = {"towed-sphere": "#1668b0", "towed-cylinder": "#b04a16"}.get(row["case"])
         if colour is None:
@@ -63,4 +63,4 @@ with open(here / "water.csv", newline="") as table:
 svg = (f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + 20}" height="{top + height + 50}" '
        'font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="white"/>'
        + "\n".join(parts) + "</svg>\n")
-(here / "drag.svg").write_text(svg)
+print(svg)
