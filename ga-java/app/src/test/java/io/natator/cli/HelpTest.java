@@ -45,7 +45,7 @@ class HelpTest {
         assertThat(help).as("paths in one piece").doesNotContainPattern("~[/.]*\\n");
         if (help.contains("--preset") && help.contains("--duration")) {
             assertThat(help.replaceAll("\\s+", " ")).contains("Simulated time. Default: the preset's")
-                    .containsPattern("How to solve: [^.]*\\. Default: the preset's");
+                    .containsPattern("How to solve: [^.]*\\. Default: the run's, else the scene's");
         }
         assertThat(help).doesNotContainPattern("\\([Tt]hesis \\d|eq\\. \\d");
     }
