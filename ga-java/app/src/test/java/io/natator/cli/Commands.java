@@ -24,8 +24,13 @@ public final class Commands {
 
     /** Evolves creature 1 in the thesis' tank for three generations of eight, with another scheme than the scene's. */
     public static void evolve(Path simulator, Path folder) {
+        evolve(simulator, folder, "thesis/creature-1");
+    }
+
+    /** The same in another scene. */
+    public static void evolve(Path simulator, Path folder, String scene) {
         natator("evolve", "--simulator-path", simulator.toString(), "--no-cache", "--population", "8", "--generations",
-                "3", "--seed", "5", "--optimizer", "random", "--scene", "thesis/creature-1", "--scheme", "conserving",
+                "3", "--seed", "5", "--optimizer", "random", "--scene", scene, "--scheme", "conserving",
                 "--output-dir", folder.toString());
     }
 }
