@@ -54,7 +54,7 @@ final class ViewCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--run", paramLabel = "DIR", description = "A run folder to be looked at; may be repeated. "
-            + "Without --scene, its scene is shown; with --creature, that of the creature's first run.")
+            + "Without a scene, its own is shown; of a chosen creature, that of its first run.")
     private List<Path> runs = List.of();
 
     @Section(Topic.PAGE)
