@@ -1,15 +1,19 @@
 #!/bin/bash
 # Stands for natator-sim in tests: speaks its protocol, but swims by a formula. The scene says what goes wrong:
-# thesis/… nothing; fault/NAME the fault below; fault/mixed and fault/chaos one of many faults for some ids. Made of
+# thesis/… and pool/… nothing; fault/NAME the fault below; fault/mixed and fault/chaos one of many faults for some ids. Made of
 # shell builtins, so that it starts and answers in a few milliseconds.
 here=${0%/*}
 
-# ok ID DISTANCE
+# ok ID DISTANCE, by the scheme that $request asks for, else the scene's
 ok() {
-    local hash digits=${2//[!0-9]/}
+    local hash digits=${2//[!0-9]/} scheme=flex more=
+    if [[ $request = *'"scheme":"conserving"'* || $scene = pool/* && $request != *'"scheme":"flex"'* ]]; then
+        scheme=conserving
+        more='"swimming":{"tailAmplitude":0.25,"strouhal":0.3125,"reynolds":131.4,"swimmingNumber":409.6},"work":0.75,'
+    fi
     printf -v hash '%016x' "$((10#0$digits))"
-    printf '{"id":%s,"status":"ok","fitness":%s,"distance":%s,"stopped":"completed","simulated":4.0,"frames":240,"scheme":"flex","precision":"float","hash":"%s","new field":[1]}\n' \
-        "$1" "$2" "$2" "$hash"
+    printf '{"id":%s,"status":"ok","fitness":%s,"distance":%s,"stopped":"completed","simulated":4.0,"frames":240,"scheme":"%s","precision":"float","hash":"%s",%s"new field":[1]}\n' \
+        "$1" "$2" "$2" "$scheme" "$hash" "$more"
 }
 
 # Sets `distance`: it falls off from an optimum, and is negative far from it. In units of 1e-9.
@@ -117,9 +121,9 @@ answer() {
 describe() {
     local actuators
     case $1 in
-    thesis/creature-2) actuators=8 ;;
-    thesis/creature-3) actuators=5 ;;
-    thesis/* | fault/*) actuators=2 ;;
+    thesis/creature-2 | pool/creature-2) actuators=8 ;;
+    thesis/creature-3 | pool/creature-3) actuators=5 ;;
+    thesis/* | pool/* | fault/*) actuators=2 ;;
     *)
         echo "scene is \"$1\"; expected a named scene or a file" >&2
         exit 2

@@ -49,7 +49,8 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--scheme", paramLabel = "SCHEME", split = ",", defaultValue = "flex,conserving",
-            description = "flex, conserving or both. Default: ${DEFAULT-VALUE}.")
+            description = "flex, conserving or both. In conserving the creatures sink, since they are heavier than its "
+                    + "water. Default: ${DEFAULT-VALUE}.")
     private List<Scheme> schemes;
 
     @Section(Topic.EXTENT)

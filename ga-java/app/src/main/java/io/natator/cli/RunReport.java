@@ -5,6 +5,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.simulator.SimulationResult;
+import io.natator.verdict.Mechanics;
 import io.natator.verdict.Verdict;
 import java.io.PrintWriter;
 import java.nio.file.Path;
@@ -46,6 +47,10 @@ final class RunReport {
                     + " of it is drift, by the same time in vacuum");
         }
         line("speed", number(water.speed()) + " units/s");
+        String mechanics = Mechanics.of(water);
+        if (mechanics != null) {
+            line("mechanics", mechanics);
+        }
         printVacuum(best.vacuum());
         Verdict verdict = Verdict.of(best);
         line("verdict", verdict.text() + " (one run, not a mean)");

@@ -3,6 +3,7 @@ package io.natator.cli;
 import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Preset;
+import java.util.Arrays;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
@@ -20,6 +21,12 @@ final class SceneChoice {
     /** Whether either was given. */
     boolean isGiven() {
         return creature != null || scene != null;
+    }
+
+    /** Whether a scene is the one that was named, or a numbered creature's as any preset has it; any if none was given. */
+    boolean admits(String other) {
+        return scene != null ? SceneOptions.scene(scene).equals(other)
+                : creature == null || Arrays.stream(Preset.values()).anyMatch(one -> one.sceneOf(creature).equals(other));
     }
 
     /** The scene as {@link SceneOptions#scene} has it; by number, or if none is given, in the thesis' tank. */

@@ -54,7 +54,7 @@ final class ViewCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--run", paramLabel = "DIR", description = "A run folder to be looked at; may be repeated. "
-            + "Without a scene, its scene is shown.")
+            + "Without a scene, its own is shown; of a chosen creature, that of its first run.")
     private List<Path> runs = List.of();
 
     @Section(Topic.PAGE)
@@ -79,7 +79,7 @@ final class ViewCommand implements Callable<Integer> {
         }
         Path program = simulator.path();
         String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
-        Path shown = shownRun(scene);
+        Path shown = shownRun();
         ViewSettings settings = new ViewSettings(program, host, port, start(scene, shown, program),
                 ThesisData.load()::gaitIn, runs);
         CountDownLatch told = new CountDownLatch(1);
@@ -111,10 +111,10 @@ final class ViewCommand implements Callable<Integer> {
         return ExitCode.OK;
     }
 
-    /** The first run of the scene that was chosen, or the first one if none was; null without any. */
-    private Path shownRun(String scene) {
+    /** The first run of the scene or creature that was chosen, or the first one if none was; null without any. */
+    private Path shownRun() {
         for (Path folder : runs) {
-            if (scene == null || scene.equals(SceneOptions.scene(StoredRun.settings(folder).scene()))) {
+            if (choice.admits(SceneOptions.scene(StoredRun.settings(folder).scene()))) {
                 return folder;
             }
         }

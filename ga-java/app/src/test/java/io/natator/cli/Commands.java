@@ -22,9 +22,15 @@ public final class Commands {
         assertThat(command.execute(arguments)).as(errors.toString()).isZero();
     }
 
-    /** Evolves creature 1 for three generations of eight, with another scheme than the scene's. */
+    /** Evolves creature 1 in the thesis' tank for three generations of eight, with another scheme than the scene's. */
     public static void evolve(Path simulator, Path folder) {
+        evolve(simulator, folder, "thesis/creature-1");
+    }
+
+    /** The same in another scene. */
+    public static void evolve(Path simulator, Path folder, String scene) {
         natator("evolve", "--simulator-path", simulator.toString(), "--no-cache", "--population", "8", "--generations",
-                "3", "--seed", "5", "--optimizer", "random", "--scheme", "conserving", "--output-dir", folder.toString());
+                "3", "--seed", "5", "--optimizer", "random", "--scene", scene, "--scheme", "conserving",
+                "--output-dir", folder.toString());
     }
 }

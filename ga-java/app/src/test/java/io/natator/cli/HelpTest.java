@@ -45,7 +45,7 @@ class HelpTest {
         assertThat(help).as("paths in one piece").doesNotContainPattern("~[/.]*\\n");
         if (help.contains("--preset") && help.contains("--duration")) {
             assertThat(help.replaceAll("\\s+", " ")).contains("Simulated time. Default: the preset's")
-                    .containsPattern("How to solve: [^.]*\\. Default: the preset's");
+                    .containsPattern("How to solve: [^.]*\\. Default: the run's, else the scene's");
         }
         assertThat(help).doesNotContainPattern("\\([Tt]hesis \\d|eq\\. \\d");
     }
@@ -79,7 +79,7 @@ class HelpTest {
         "view --zzz|natator view: --zzz is no option of this command; see natator view --help",
         "reproduce --phase mesure|natator reproduce: Invalid value for option '--phase': expected evolve, measure, report "
             + "or all but was 'mesure'; did you mean measure? See natator reproduce --help",
-        "reproduce --scheme FLEX,conservin|natator reproduce: Invalid value for option '--scheme' (SCHEME): expected flex, "
+        "reproduce --scheme FLEX,conservin|natator reproduce: Invalid value for option '--scheme' (SCHEME): expected flex "
             + "or conserving but was 'conservin'; did you mean conserving? See natator reproduce --help",
         "export thesis/tank --format npz --fields positio|natator export: Invalid value for option '--fields' (FIELD): "
             + "expected position, velocity or density but was 'positio'; did you mean position? See natator export --help"})

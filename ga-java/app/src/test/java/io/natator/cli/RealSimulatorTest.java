@@ -60,8 +60,7 @@ class RealSimulatorTest {
                 .as("evaluations that went well").hasSizeGreaterThan(6);
 
         out.getBuffer().setLength(0);
-        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--scheme", "conserving", "--duration",
-                "0.1", "--gait", run.resolve("best.json").toString())).isZero();
+        assertThat(natator("evaluate", "--scene", "pool/creature-1", "--duration", "0.1", "--gait", run.resolve("best.json").toString())).isZero();
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));

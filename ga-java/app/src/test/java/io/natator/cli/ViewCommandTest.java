@@ -184,6 +184,19 @@ class ViewCommandTest {
         assertThat(start.get("overrides").toString()).isEqualTo(isIts ? "{\"scheme\":\"conserving\"}" : "null");
     }
 
+    /** As {@code evolve} has a creature without more options: in another scene than where it is shown without a run. */
+    @Test
+    void ofARunOfTheNumberedCreatureTheBestSwimsWhereItWasFound() throws IOException, InterruptedException {
+        Path run = folder.resolve("run");
+        Commands.evolve(FakeSimulator.in(folder), run, "pool/creature-1");
+
+        JsonNode start = start(start("--creature", "1", "--run", run.toString()));
+
+        JsonNode best = Json.parse(Files.readString(run.resolve("best.json")), JsonNode.class).get("gait");
+        assertThat(start.get("scene").textValue()).isEqualTo("pool/creature-1");
+        assertThat(start.get("gait")).isEqualTo(best);
+    }
+
     @Test
     void whoOpensItToOthersIsWarned() throws IOException {
         startAt("[^/]+", "--creature", "1", "--host", "0.0.0.0");

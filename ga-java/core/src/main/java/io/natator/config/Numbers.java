@@ -1,5 +1,7 @@
 package io.natator.config;
 
+import java.math.BigDecimal;
+import java.math.MathContext;
 import java.util.Locale;
 
 /** Numbers for people. */
@@ -12,5 +14,10 @@ public final class Numbers {
     public static String fixed(double value, int decimals) {
         String text = String.format(Locale.ROOT, "%." + decimals + "f", value);
         return text.matches("-0(\\.0*)?") ? text.substring(1) : text;
+    }
+
+    /** With so many digits, never in powers of ten; a finite number. */
+    public static String significant(double value, int digits) {
+        return BigDecimal.valueOf(value).round(new MathContext(digits)).stripTrailingZeros().toPlainString();
     }
 }

@@ -20,6 +20,8 @@ import com.fasterxml.jackson.annotation.JsonProperty;
  * @param hash      hash of the final state, 16 hexadecimal digits, or null
  * @param unstable  with {@code unstable}: where; else null
  * @param error     with {@code error} and {@code failed}: why, in one line; else null
+ * @param swimming  dimensionless numbers of the swim, or null: not of every scene, nor of every program
+ * @param work      mechanical work of the muscles, in mass times length squared by seconds squared, or null likewise
  * @param vacuumDrift with fitness net: signed distance of the same gait in vacuum in the same time; else null. Never
  *                  said by the simulator itself
  */
@@ -27,12 +29,12 @@ import com.fasterxml.jackson.annotation.JsonProperty;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
         Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
-        Double vacuumDrift) {
+        SwimmingNumbers swimming, Double work, Double vacuumDrift) {
 
-    /** A result as the simulator gives it. */
+    /** A result as the simulator gives it where nothing of the swim's mechanics is known. */
     public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
             String scheme, String precision, String hash, Instability unstable, String error) {
-        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, null);
+        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, null, null, null);
     }
 
     /** How an evaluation ended. */
@@ -70,13 +72,13 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** This result under another id. */
     public SimulationResult withId(long newId) {
         return new SimulationResult(newId, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, vacuumDrift);
+                unstable, error, swimming, work, vacuumDrift);
     }
 
     /** This result with what the same gait drifts in vacuum. */
     public SimulationResult withVacuumDrift(double drift) {
         return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, drift);
+                unstable, error, swimming, work, drift);
     }
 
     /** The signed distance swum, or 0 where there is none because the evaluation was unstable or failed. */

@@ -27,8 +27,12 @@ public record Verdict(Kind kind, String text, String advice) {
     /** What touches a wall sooner than this many body lengths (or units) from its start has not shown how it swims. */
     static final double WAY_TO_WALL = 0.5;
 
-    private static final String CONSERVING = "try --scheme conserving, which keeps momentum";
-    private static final String HONEST = CONSERVING + ", or --fitness net, which takes off the drift in vacuum";
+    private static final String CONSERVING = "conserving";
+    private static final String NEUTRAL = "try --scene pool/creature-N or, finer and slower, "
+            + "open-water/creature-N, whose scheme keeps momentum";
+    private static final String HONEST = NEUTRAL + "; or --fitness net, which takes off the drift in vacuum";
+    private static final String SINKS = "bodies are heavier than the thesis' incompressible water and sink; try --scene "
+            + "pool/creature-N or, finer and slower, open-water/creature-N";
     private static final String LONGER = "try more --generations, a larger --population or another --seed";
 
     /** Kinds of verdicts. */
@@ -46,7 +50,9 @@ public record Verdict(Kind kind, String text, String advice) {
 
     /** The verdict on a run's best gait. */
     public static Verdict of(BestGait best) {
-        return of(best.result(), best.vacuum(), best.bodyLength());
+        Verdict verdict = of(best.result(), best.vacuum(), best.bodyLength());
+        boolean sinks = best.scene().startsWith("thesis/") && CONSERVING.equals(best.result().scheme());
+        return sinks && verdict.advice != null ? new Verdict(verdict.kind, verdict.text, SINKS) : verdict;
     }
 
     /**
@@ -79,7 +85,7 @@ public record Verdict(Kind kind, String text, String advice) {
 
     /** By the drift first, since that is no swimming wherever it leads. */
     private static Verdict judged(SimulationResult water, SimulationResult vacuum, Length length, String speeds) {
-        boolean keepsMomentum = "conserving".equals(water.scheme());
+        boolean keepsMomentum = CONSERVING.equals(water.scheme());
         double drift = vacuum.speed() / water.speed();
         if (Math.abs(drift) >= DRIFT_ONLY) {
             return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: moves " + times(drift, water, vacuum),
@@ -103,7 +109,7 @@ public record Verdict(Kind kind, String text, String advice) {
                     keepsMomentum ? LONGER : HONEST);
         }
         return keepsMomentum ? new Verdict(Kind.SWIMS, "swims: " + speeds + end, null)
-                : unproven("may swim: " + speeds + end + "; no proof, since scheme flex does not keep momentum", CONSERVING);
+                : unproven("may swim: " + speeds + end + "; no proof, since scheme flex does not keep momentum", NEUTRAL);
     }
 
     private static Verdict unproven(String text, String advice) {

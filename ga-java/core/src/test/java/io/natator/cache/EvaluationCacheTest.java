@@ -4,6 +4,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SimulationResult.Status;
+import io.natator.simulator.SwimmingNumbers;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -18,7 +19,8 @@ import org.junit.jupiter.api.io.TempDir;
 class EvaluationCacheTest {
 
     private static final SimulationResult RESULT = new SimulationResult(0L, Status.OK, 0.1 + 0.2, "no-progress", 2.5,
-            150, "flex", "float", "17a1dfe6c68edf45", null, null);
+            150, "conserving", "float", "17a1dfe6c68edf45", null, null,
+            new SwimmingNumbers(0.1, null, 131.4, 1e5), 0.7, null);
 
     @TempDir
     private Path folder;

@@ -76,7 +76,7 @@ class ProtocolTest {
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"thesis/creature-1", "fault/unstable", "fault/rejected"})
+    @ValueSource(strings = {"thesis/creature-1", "pool/creature-1", "fault/unstable", "fault/rejected"})
     void answersFitTheSchema(String scene) throws Exception {
         try (NativeProgram program = new NativeProgram(FakeSimulator.in(folder), Duration.ofMinutes(5))) {
             String answer = program.call(List.of("evaluate"),

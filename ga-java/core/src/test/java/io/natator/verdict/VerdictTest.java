@@ -2,8 +2,11 @@ package io.natator.verdict;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.checkpoint.BestGait;
+import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SimulationResult.Status;
+import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -48,9 +51,25 @@ class VerdictTest {
     @Test
     void aCheatIsToldWhatToTry() {
         assertThat(Verdict.of(result(1.5, "completed", 4, "flex"), result(7.5, "completed", 4, "flex"), LENGTH).advice())
-                .contains("--scheme conserving", "--fitness net");
+                .contains("--scene pool/creature-N", "open-water/creature-N", "--fitness net")
+                .as("in the thesis' tank bodies sink in it").doesNotContain("--scheme");
         assertThat(Verdict.of(result(0.01, "completed", 4, "conserving"), null, LENGTH).advice())
                 .contains("--generations");
+    }
+
+    /** A drift in the thesis' tank is a matter of its scheme, sinking of its water; elsewhere of the search. */
+    @ParameterizedTest
+    @CsvSource({"thesis/creature-2, conserving, sink", "thesis/creature-2, flex, --fitness net",
+        "pool/creature-2, conserving, --generations", "fish.json, conserving, --generations"})
+    void whatToTryDependsOnTheScene(String scene, String scheme, String advice) {
+        SimulationResult water = result(0.5, "touched-plane", 1, scheme);
+        SimulationResult vacuum = result("flex".equals(scheme) ? 2 : 0, "completed", 1, scheme);
+
+        Verdict verdict = Verdict.of(new BestGait(scene, List.of(1.0), new Gait(1, List.of(0.1), List.of(0.0)), 0.5, 0.5,
+                water, LENGTH, vacuum));
+
+        assertThat(verdict.advice()).contains(advice);
+        assertThat(verdict.text()).isEqualTo(Verdict.of(water, vacuum, LENGTH).text());
     }
 
     @Test

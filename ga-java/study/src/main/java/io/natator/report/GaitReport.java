@@ -18,6 +18,7 @@ import io.natator.kinematics.ModeFit;
 import io.natator.kinematics.Swimming;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
+import io.natator.verdict.Mechanics;
 import io.natator.verdict.Reproduction;
 import io.natator.verdict.Verdict;
 import java.io.IOException;
@@ -150,6 +151,10 @@ public final class GaitReport {
         rows.add(List.of("phases", numbers(gait.phase())));
         rows.add(List.of("speed in fluid (units/s)", number(best.speed())));
         rows.add(List.of("speed in fluid (body lengths/s)", number(best.speed() / length)));
+        String mechanics = Mechanics.of(best.result());
+        if (mechanics != null) {
+            rows.add(List.of("mechanics", mechanics));
+        }
         if (best.vacuum() != null) {
             rows.add(List.of("speed in vacuum (units/s)", number(best.vacuum().speed())));
         }

@@ -7,6 +7,7 @@ import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
 import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
+import io.natator.verdict.Mechanics;
 import io.natator.verdict.Verdict;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -26,9 +27,10 @@ import java.util.Map;
  * @param generations those that are finished
  * @param bests       the best gait of each generation that the folder still knows it of
  * @param verdict     on the best gait of all, or null if there is none yet
+ * @param mechanics   of the best gait of all, in words, or null if nothing is known of them
  */
 record RunAnswer(int id, String name, String scene, ObjectNode overrides, OptimizerKind optimizer, long seed,
-        List<Generation> generations, List<Best> bests, Verdict verdict) {
+        List<Generation> generations, List<Best> bests, Verdict verdict, String mechanics) {
 
     /**
      * A generation.
@@ -55,7 +57,8 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         EvolutionSettings settings = run.settings();
         List<Generation> generations = generations(run);
         return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
-                settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()));
+                settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()),
+                run.best() == null ? null : Mechanics.of(run.best().result()));
     }
 
     /** What the page calls a run: its folder, without where that is. */

@@ -54,9 +54,11 @@ export class RunBrowser {
       return;
     }
     byId('run-choice').value = id;
-    const {scene, optimizer, seed, generations, verdict} = this.#run;
+    const {scene, optimizer, seed, generations, verdict, mechanics} = this.#run;
     byId('run-verdict').hidden = !verdict;
     byId('run-verdict').textContent = verdict ? `Best gait ${verdict.text}${verdict.advice ? `; ${verdict.advice}` : ''}.` : '';
+    byId('run-mechanics').hidden = !mechanics;
+    byId('run-mechanics').textContent = mechanics ? `${mechanics}.` : '';
     byId('run-facts').textContent = `${scene}, ${optimizer}, seed ${seed}, ${generations.length} generations`;
     this.#choose(null);
   }

@@ -1,0 +1,17 @@
+package io.natator.simulator;
+
+import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
+import com.fasterxml.jackson.annotation.JsonInclude;
+
+/**
+ * Dimensionless numbers of a swim in water with a viscosity, as {@code swimming} of a result has them.
+ *
+ * @param tailAmplitude  peak to peak, in scene units
+ * @param strouhal       frequency times tail amplitude by speed; null at rest
+ * @param reynolds       speed times body length by kinematic viscosity; null where that is 0
+ * @param swimmingNumber angular frequency times tail amplitude times body length by kinematic viscosity; null likewise
+ */
+@JsonIgnoreProperties(ignoreUnknown = true)
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record SwimmingNumbers(Double tailAmplitude, Double strouhal, Double reynolds, Double swimmingNumber) {
+}
