@@ -2,7 +2,7 @@ package io.natator.config;
 
 /** Settings of an evolution that belong together; each can be given by itself too. */
 public enum Preset {
-    /** Some 90 evaluations of 2 s in a small pool of water in which only swimming pays: minutes on two cores. */
+    /** Some 90 evaluations of 2 s in a small pool of water in which only swimming pays: some two minutes on two cores. */
     QUICK(16, 3, "pool", 2.0),
     /** The thesis' size (2.6): some 22 500 evaluations in its tank, as the scene has it (scheme flex, 4 s). */
     THESIS(150, 100, "thesis", null);
