@@ -6,6 +6,7 @@
 #include "io/strict_json.h"
 #include "natator/batch.h"
 #include "natator/error.h"
+#include "natator/evaluate.h"
 #include "natator/instruction_set.h"
 #include "natator/model_builder.h"
 #include "natator/plan.h"
@@ -37,6 +38,14 @@ ordered_json describe_program() {
             {"scenes", scene_names()}};
 }
 
+/// Particles of the body that fit_to_water has made heavier than the scene has them.
+int particles_made_heavier(const Scene& scene, const Model& model) {
+    int count = 0;
+    for (const int i : model.body.particles)
+        count += model.inverse_mass[i] < (1 - 1e-9) / scene.creature->particle_mass * scene.creature->parts();
+    return count;
+}
+
 ordered_json describe_scene(const Scene& scene) {
     const Model model = build_model(scene);
     const auto body = model.body.particles.size();
@@ -54,7 +63,10 @@ ordered_json describe_scene(const Scene& scene) {
     info["planes"] = model.planes.size();
     info["duration"] = scene.duration;
     info["timeStep"] = scene.time_step;
-    info["substeps"] = scene.solver.substeps;
+    info["scheme"] = to_string(scene.scheme);
+    info["substeps"] = model.parameters.substeps;
+    if (model.parameters.substeps != scene.solver.substeps) info["substepsAsked"] = scene.solver.substeps;
+    if (const int raised = particles_made_heavier(scene, model)) info["madeHeavier"] = raised;
     info["iterations"] = scene.solver.numIterations;
     info["plan"] = describe_plan(model);
     return info;

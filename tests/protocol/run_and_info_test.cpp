@@ -51,6 +51,24 @@ TEST(InfoTest, DescribesASceneAsJson) {
     EXPECT_GT(info["plan"].size(), 5u);
 }
 
+// The water of scheme conserving bears only so long a substep, and only so light a body.
+TEST(InfoTest, SaysWhatIsFittedToTheWater) {
+    const auto info = [](const std::string& overrides) {
+        const Outcome outcome = run_simulator({"info", "bench/small-tank", "--json", "--overrides", overrides});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return json::parse(outcome.out);
+    };
+    const json as_asked = info(R"({"scheme":"conserving"})");
+    EXPECT_EQ(as_asked.at("scheme"), "conserving");
+    EXPECT_EQ(as_asked.at("substeps"), 4);
+    EXPECT_FALSE(as_asked.contains("substepsAsked"));
+    EXPECT_FALSE(as_asked.contains("madeHeavier"));
+    const json fitted = info(R"({"scheme":"conserving","timeStep":0.5,"creature":{"particleMass":1e-4}})");
+    EXPECT_GT(fitted.at("substeps"), 4);
+    EXPECT_EQ(fitted.at("substepsAsked"), 4);
+    EXPECT_EQ(fitted.at("madeHeavier"), fitted.at("bodyParticles"));
+}
+
 // At rest in vacuum nothing moves, by whichever sign.
 TEST(RunTest, SaysUnitsAndNoMinusBeforeNothing) {
     const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.05"});

@@ -17,17 +17,4 @@ double rest_packing_sum(double ratio, const std::function<double(double)>& kerne
     return sum;
 }
 
-double close_packing_sum(double ratio, const std::function<double(double)>& kernel) {
-    const int n = static_cast<int>(std::ceil(std::sqrt(2.0) / ratio));
-    double sum = 0;
-    for (int z = -n; z <= n; ++z)
-        for (int y = -n; y <= n; ++y)
-            for (int x = -n; x <= n; ++x) {
-                if ((x + y + z) % 2 != 0) continue;
-                const double q = ratio * std::sqrt((x * x + y * y + z * z) / 2.0);
-                if (q > 0 && q < 1) sum += kernel(q);
-            }
-    return sum;
-}
-
 }  // namespace natator::cpu

@@ -9,8 +9,4 @@ namespace natator::cpu {
 /// apart in y and z), the packing that gives NVIDIA Flex' rest density.
 double rest_packing_sum(double ratio, const std::function<double(double)>& kernel);
 
-/// The same for the close packing of spheres (face-centred cubic) of spacing a = ratio * R: 12 neighbours at a, 6 at
-/// sqrt(2) a, ... One particle takes a^3 / sqrt(2).
-double close_packing_sum(double ratio, const std::function<double(double)>& kernel);
-
 }  // namespace natator::cpu

@@ -5,7 +5,7 @@
 namespace natator::cuda {
 namespace {
 
-/// As cpu/conserving/conserving_stages.h.
+/// See cpu/conserving/conserving_stages.h.
 template <class Real>
 struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     using Base = LaunchEffects<Scheme::conserving, Real>;
