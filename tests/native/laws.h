@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "energy.h"
-#include "evaluate/settle.h"
 #include "law_models.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
@@ -238,35 +237,8 @@ TYPED_TEST_P(Laws, ATankComesToRest) {
     EXPECT_GT(largest, 100 * last);
 }
 
-/// The thesis' swimmer with slack muscles sinks to the depth of its density, at any number of substeps.
-TYPED_TEST_P(Laws, ABodyFloatsAtOneDepthAtAnyNumberOfSubsteps) {
-    const auto depth = [](int substeps, int iterations) {
-        Scene scene = load_scene("thesis/creature-1");
-        scene.scheme = Scheme::conserving;
-        scene.solver.substeps = substeps;
-        scene.solver.numIterations = iterations;
-        const Model model = build_model(scene);
-        const Gait slack{1, {0, 0}, {0, 0}, 1};
-        natator::Solver<float> settling(model);
-        State<float> state = initial_state<float>(model);
-        EXPECT_FALSE(settle(scene.settling, settling, state));
-        typename TypeParam::template Solver<float> solver(model);
-        for (int k = 0; k < 90; ++k) EXPECT_FALSE(solver.frame(state, slack));
-        double height = 0;
-        for (const int i : model.body.particles)
-            height += static_cast<double>(state.position[i].y()) / static_cast<double>(model.body.particles.size());
-        return height;
-    };
-    const double height = depth(4, 4);
-    EXPECT_LT(height, 0.5);
-    EXPECT_GT(height, 0.05);
-    EXPECT_NEAR(depth(8, 4), height, 0.01);
-    EXPECT_NEAR(depth(16, 2), height, 0.01);
-}
-
 REGISTER_TYPED_TEST_SUITE_P(Laws, NoSwimmingInVacuum, ADropWithUnequalMassesKeepsItsMomentum, AColumnStandsAtItsHeight,
                             ACollapsingBlockGainsNoEnergy, AHangingChainGainsNoEnergy, GalileanInvariance,
-                            AMirroredGaitSwimsTheMirroredPath, BodiesFloatByTheirDensity, ATankComesToRest,
-                            ABodyFloatsAtOneDepthAtAnyNumberOfSubsteps);
+                            AMirroredGaitSwimsTheMirroredPath, BodiesFloatByTheirDensity, ATankComesToRest);
 
 }  // namespace natator::test
