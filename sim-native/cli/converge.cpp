@@ -47,6 +47,7 @@ struct LevelRuns {
     json request;  ///< without a perturbation
     Job job;
     int substeps = 0, particles = 0;
+    double body_length = 0;
     std::vector<json> results;
 
     /// Of the runs that were stable.
@@ -83,6 +84,7 @@ LevelRuns read_level(const Level& level, const json& request, const BackendChoic
     check_evaluation_cost(runs.job.scene, model);
     runs.substeps = model.parameters.substeps;
     runs.particles = model.particles();
+    runs.body_length = model.body.length;
     return runs;
 }
 
@@ -205,7 +207,7 @@ ordered_json convergence_json(const std::vector<LevelRuns>& levels, const std::o
     result["scheme"] = to_string(base.job.scene.scheme);
     result["precision"] = to_string(base.job.request.precision);
     result["perturbation"] = base.job.request.perturbation.amplitude;
-    result["bodyLength"] = build_model(base.job.scene).body.length;
+    result["bodyLength"] = base.body_length;
     for (const LevelRuns& runs : levels) {
         ordered_json level;
         level["level"] = runs.level.name;

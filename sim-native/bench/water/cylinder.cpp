@@ -31,24 +31,21 @@ WaterFigure drag_figure(double measured, double unbounded, double faster) {
 
 /// Of the swings of the lift about its mean, from the first to the last time that it passes it upwards; 0 without any.
 double frequency(const std::vector<TowSample>& leg) {
-    double mean = 0;
-    int count = 0;
-    for (const TowSample& sample : leg) {
-        if (sample.way < counted_from) continue;
-        mean += sample.lift;
-        ++count;
-    }
-    mean /= count;
+    const double mean_lift = mean(leg, &TowSample::lift, counted_from);
     // Smoothed over a twentieth of the period that is expected, and counted only where it has been well below the mean
     // since, so that noise makes no swings.
     double smooth = 0, first = 0, last = 0, spread = 0;
-    int swings = -1;
+    int count = 0, swings = -1;
     bool below = false;
-    for (const TowSample& sample : leg)
-        if (sample.way >= counted_from) spread += std::pow(sample.lift - mean, 2) / count;
     for (const TowSample& sample : leg) {
         if (sample.way < counted_from) continue;
-        smooth += 0.2 * (sample.lift - mean - smooth);
+        ++count;
+        spread += std::pow(sample.lift - mean_lift, 2);
+    }
+    spread /= count;
+    for (const TowSample& sample : leg) {
+        if (sample.way < counted_from) continue;
+        smooth += 0.2 * (sample.lift - mean_lift - smooth);
         if (smooth < -0.3 * std::sqrt(spread)) below = true;
         if (!below || smooth < 0) continue;
         below = false;
@@ -70,7 +67,7 @@ WaterRun run_towed_cylinder(const WaterSetting& setting) {
     if (run.instability) return run;
     for (std::size_t k = 0; k < towing.legs.size(); ++k) {
         const double faster = 1 + blockage_of_cylinder(drag[k], result.diameter, height * towing.diameter);
-        run.figures.push_back(drag_figure(mean_drag(result.legs[k], 0.6 * towing.legs[k].way),
+        run.figures.push_back(drag_figure(mean(result.legs[k], &TowSample::drag, 0.6 * towing.legs[k].way),
                                           drag[k] * std::pow(faster, -0.426), faster));
     }
     run.curve = smoothed(result, &TowSample::drag);
@@ -86,7 +83,7 @@ WaterRun run_shedding_cylinder(const WaterSetting& setting) {
     if (run.instability) return run;
     const std::vector<TowSample>& leg = result.legs[0];
     const double faster = 1 + blockage_of_cylinder(drag, result.diameter, height * towing.diameter);
-    run.figures = {drag_figure(mean_drag(leg, counted_from), drag, faster),
+    run.figures = {drag_figure(mean(leg, &TowSample::drag, counted_from), drag, faster),
                    {.value = frequency(leg) * result.diameter / towing.speed,
                     .reference = strouhal * faster,
                     .least = 0.95 * strouhal * faster,

@@ -73,12 +73,12 @@ TowResult tow(const Towing& towing, const WaterSetting& setting) {
                                                                    : tow_as<float>(towing, setting);
 }
 
-double mean_drag(const std::vector<TowSample>& leg, double begin) {
+double mean(const std::vector<TowSample>& leg, double TowSample::* coefficient, double begin) {
     double sum = 0;
     int count = 0;
     for (const TowSample& sample : leg) {
         if (sample.way < begin) continue;
-        sum += sample.drag;
+        sum += sample.*coefficient;
         ++count;
     }
     return sum / count;

@@ -39,8 +39,8 @@ struct TowResult {
 
 TowResult tow(const Towing& towing, const WaterSetting& setting);
 
-/// Drag coefficient over the part of a leg that begins after so many diameters.
-double mean_drag(const std::vector<TowSample>& leg, double begin);
+/// Mean of one of the coefficients over the part of a leg that begins after so many diameters.
+double mean(const std::vector<TowSample>& leg, double TowSample::* coefficient, double begin);
 
 /// Means over every quarter of a diameter of one of the coefficients, for a curve: the frames themselves are noisy.
 std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient);

@@ -82,8 +82,7 @@ public:
           execution_(execution),
           stages_(stages_for(model, execution.skip ? make_plan(model) : make_unskipped_plan(model))) {
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
-        if (auto* water = std::get_if<std::unique_ptr<cpu::ConservingStages<Real>>>(&stages_))
-            if (execution.forces) (*water)->keep_forces();
+        if (execution.forces) std::visit([](auto& stages) { stages->keep_forces(); }, stages_);
     }
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
@@ -108,8 +107,7 @@ public:
         return std::visit([](const auto& stages) { return stages->pressures(); }, stages_);
     }
     std::vector<Vector3<Real>> forces() const {
-        const auto* water = std::get_if<std::unique_ptr<cpu::ConservingStages<Real>>>(&stages_);
-        return water ? (*water)->forces() : std::vector<Vector3<Real>>{};
+        return std::visit([](const auto& stages) { return stages->forces(); }, stages_);
     }
     std::vector<int> neighbour_counts() const {
         return std::visit([](const auto& stages) { return stages->neighbour_counts(); }, stages_);
@@ -140,7 +138,7 @@ private:
                                    StepObserver<Real>* observer, const Gait* gait) {
         const Real h = static_cast<Real>(time_step) / static_cast<Real>(substeps);
         const double start = state.time;
-        if constexpr (Stages::scheme == Scheme::conserving) stages.clear_forces();
+        stages.clear_forces();
         for (int k = 0; k < substeps; ++k) {
             const double end = start + time_step * (k + 1) / substeps;
             if (gait) {

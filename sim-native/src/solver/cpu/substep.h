@@ -84,8 +84,13 @@ public:
     /// Writes the substep's outcome into the state; particles of infinite mass keep theirs.
     void commit();
 
-    /// Work of the last substep's changes of rest length, mass length^2/s^2; scheme flex knows no forces.
+    // Scheme flex knows no forces: what follows is for scheme conserving to hide.
+    /// Work of the last substep's changes of rest length, mass length^2/s^2.
     double spring_work(const std::vector<Real>&) const { return 0; }
+    /// From here on the water's forces on the particles are summed up; see Solver::forces.
+    void keep_forces() {}
+    void clear_forces() {}
+    std::vector<Vector3<Real>> forces() const { return {}; }
 
     /// Positions by particle at this point of the substep.
     std::vector<Vector3<Real>> positions() const;
