@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "in_precision.h"
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
 #include "scene/scene_json.h"
@@ -113,8 +114,7 @@ DamBreakRun run_dam_break(const DamBreak& column, const Setting& setting, double
     Model model = dam_break_model(column, setting.scheme);
     model.parameters.substeps = setting.substeps;
     model.parameters.numIterations = setting.iterations;
-    return setting.precision == Precision::double_precision ? run_as<double>(column, model, last_time)
-                                                            : run_as<float>(column, model, last_time);
+    return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(column, model, last_time); });
 }
 
 }  // namespace natator::bench

@@ -3,9 +3,9 @@
 #include <charconv>
 #include <map>
 
+#include "converge/estimate.h"
 #include "natator/evaluate.h"
 #include "scene/scene_json.h"
-#include "statistics.h"
 
 namespace natator::bench {
 namespace {

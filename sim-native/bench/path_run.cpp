@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evaluate/settle.h"
+#include "in_precision.h"
 #include "natator/momentum.h"
 #include "natator/measure.h"
 
@@ -97,8 +98,7 @@ PathRun run_path(const Subject& subject, const Setting& setting, const State<dou
     model.scheme = setting.scheme;
     model.parameters.substeps = setting.substeps;
     model.parameters.numIterations = setting.iterations;
-    return setting.precision == Precision::double_precision ? run_as<double>(subject, model, start)
-                                                            : run_as<float>(subject, model, start);
+    return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(subject, model, start); });
 }
 
 double path_error(const PathRun::Places& places, const PathRun::Places& reference) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evaluate/settle.h"
+#include "in_precision.h"
 #include "natator/model_builder.h"
 #include "scene/scene_json.h"
 #include "statistics.h"
@@ -67,8 +68,7 @@ SettledTankRun run_settled_tank(const Setting& setting, double rest, double wind
     scene.solver.substeps = setting.substeps;
     scene.solver.numIterations = setting.iterations;
     const Model model = build_model(scene);
-    return setting.precision == Precision::double_precision ? run_as<double>(model, scene.settling, rest, window)
-                                                            : run_as<float>(model, scene.settling, rest, window);
+    return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(model, scene.settling, rest, window); });
 }
 
 }  // namespace natator::bench

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "evaluate/settle.h"
+#include "in_precision.h"
 #include "natator/model_builder.h"
 #include "physical_bounds.h"
 
@@ -97,7 +98,7 @@ StabilityResult run_as(const StabilityCase& subject, const Model& model) {
 StabilityResult run_stability(const StabilityCase& subject, Precision precision) {
     Model model = build_model(subject.scene);
     if (subject.rearrange) subject.rearrange(model);
-    return precision == Precision::double_precision ? run_as<double>(subject, model) : run_as<float>(subject, model);
+    return in_precision(precision, [&](auto real) { return run_as<decltype(real)>(subject, model); });
 }
 
 }  // namespace natator::bench

@@ -13,14 +13,6 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-Spread spread(const std::vector<double>& values) {
-    const double count = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-    double squares = 0;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1)) : 0};
-}
-
 std::optional<double> convergence_order(const std::vector<double>& n, const std::vector<double>& errors) {
     double points = 0, x_sum = 0, y_sum = 0, xx_sum = 0, xy_sum = 0;
     for (std::size_t i = 0; i < n.size(); ++i) {

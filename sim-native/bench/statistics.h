@@ -10,14 +10,6 @@ namespace natator::bench {
 /// Mean of the two middle values if there is an even number. Needs at least one value.
 double median(std::vector<double> values);
 
-struct Spread {
-    double mean = 0;
-    double deviation = 0;  ///< of the sample, n - 1 in the denominator; 0 for a single value
-};
-
-/// Needs at least one value.
-Spread spread(const std::vector<double>& values);
-
 /// Order p of error = c n^-p by least squares of log(error) over log(n). Points with an error that is not positive and
 /// finite are left out; nothing if fewer than two different n remain.
 std::optional<double> convergence_order(const std::vector<double>& n, const std::vector<double>& errors);

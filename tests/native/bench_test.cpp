@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "converge/estimate.h"
 #include "ensemble.h"
 #include "front_error.h"
 #include "natator/error.h"

@@ -1,12 +1,21 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include "model/cluster.h"
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
 #include "natator/model.h"
+#include "natator/state.h"
 
 /// Models of scheme `conserving` that tests share.
 namespace natator::test {
+
+template <class Solver, class Real>
+void advance_frames(Solver& solver, const Model& model, State<Real>& state, int frames) {
+    for (int k = 0; k < frames; ++k)
+        ASSERT_FALSE(solver.update(state, model.time_step, model.parameters.substeps)) << "frame " << k;
+}
 
 inline constexpr double water_spacing = 0.1;
 

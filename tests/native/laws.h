@@ -27,12 +27,6 @@ protected:
         if (const char* why = Backend::missing()) GTEST_SKIP() << why;
     }
 
-    template <class Real>
-    static void advance_frames(Solver<Real>& solver, const Model& model, State<Real>& state, int frames) {
-        for (int k = 0; k < frames; ++k)
-            ASSERT_FALSE(solver.update(state, model.time_step, model.parameters.substeps)) << "frame " << k;
-    }
-
     /// Internal forces alone: the momenta stay at 0, measured against the largest sums of their parts' sizes.
     template <class Real>
     static void expect_momentum_kept(int creature, double bound) {
@@ -91,7 +85,7 @@ TYPED_TEST_P(Laws, ADropWithUnequalMassesKeepsItsMomentum) {
         return sum;
     };
     const Eigen::Vector3d before = momentum();
-    this->advance_frames(solver, model, state, 60);
+    advance_frames(solver, model, state, 60);
     EXPECT_LE((momentum() - before).norm(), 1e-12 * measure_momentum(model, state).linear_size);
 }
 
@@ -103,7 +97,7 @@ TYPED_TEST_P(Laws, AColumnStandsAtItsHeight) {
     model.parameters.damping = 1;
     typename TypeParam::template Solver<float> solver(model);
     State<float> state = initial_state<float>(model);
-    this->advance_frames(solver, model, state, 120);
+    advance_frames(solver, model, state, 120);
     double mean_height = 0, density = 0;
     int inside = 0;
     const auto densities = solver.densities();
@@ -131,7 +125,7 @@ TYPED_TEST_P(Laws, ACollapsingBlockGainsNoEnergy) {
     const double start = total_energy(model, state);
     double last = start;
     for (int k = 0; k < 120; ++k) {
-        this->advance_frames(solver, model, state, 1);
+        advance_frames(solver, model, state, 1);
         const double now = total_energy(model, state);
         EXPECT_LE(now, last + 5e-3 * start) << k;
         last = now;
@@ -211,7 +205,7 @@ TYPED_TEST_P(Laws, BodiesFloatByTheirDensity) {
                 return sum / solids;
             };
             const double before = height();
-            this->advance_frames(solver, model, state, 30);
+            advance_frames(solver, model, state, 30);
             return height() - before;
         };
         EXPECT_NEAR(rise(1), 0, 0.01) << scale;
@@ -230,7 +224,7 @@ TYPED_TEST_P(Laws, ATankComesToRest) {
     State<float> state = initial_state<float>(model);
     double largest = 0, last = 0;
     for (int k = 0; k < 240; ++k) {
-        this->advance_frames(solver, model, state, 1);
+        advance_frames(solver, model, state, 1);
         largest = std::max(largest, kinetic_energy(model, state));
         if (k >= 210) last += kinetic_energy(model, state) / 30;
     }

@@ -22,12 +22,6 @@ using namespace test;
 
 constexpr double spacing = water_spacing;
 
-template <class Real>
-void advance_frames(Solver<Real>& solver, const Model& model, State<Real>& state, int frames) {
-    for (int frame = 0; frame < frames; ++frame)
-        ASSERT_FALSE(solver.update(state, model.time_step, model.parameters.substeps)) << "frame " << frame;
-}
-
 /// Of particles of mass 1.
 struct Momenta {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();

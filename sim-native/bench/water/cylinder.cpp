@@ -25,8 +25,7 @@ Towing across_slab(const WaterSetting& setting, double length, double height, co
 
 /// What it is in an unbounded stream, at the speed of the stream that passes it between floor and surface.
 WaterFigure drag_figure(double measured, double unbounded, double faster) {
-    const double reference = unbounded * faster * faster;
-    return {.value = measured, .reference = reference, .least = 0.9 * reference, .greatest = 1.1 * reference};
+    return figure_within(0.1, measured, unbounded * faster * faster);
 }
 
 /// Of the swings of the lift about its mean, from the first to the last time that it passes it upwards; 0 without any.
@@ -84,10 +83,7 @@ WaterRun run_shedding_cylinder(const WaterSetting& setting) {
     const std::vector<TowSample>& leg = result.legs[0];
     const double faster = 1 + blockage_of_cylinder(drag, result.diameter, height * towing.diameter);
     run.figures = {drag_figure(mean(leg, &TowSample::drag, counted_from), drag, faster),
-                   {.value = frequency(leg) * result.diameter / towing.speed,
-                    .reference = strouhal * faster,
-                    .least = 0.95 * strouhal * faster,
-                    .greatest = 1.05 * strouhal * faster}};
+                   figure_within(0.05, frequency(leg) * result.diameter / towing.speed, strouhal * faster)};
     run.curve = smoothed(result, &TowSample::lift);
     return run;
 }

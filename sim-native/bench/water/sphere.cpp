@@ -15,15 +15,9 @@ struct Fall {
     double duration = 1;  ///< s
 };
 
-/// Particles within the sphere become a rigid body that displaces just the water that was there.
-void immerse_sphere(const Eigen::Vector3d& centre, double radius, Model& model) {
-    std::vector<int> sphere;
-    for (int i = 0; i < model.particles(); ++i) {
-        if ((model.position[i] - centre).norm() > radius) continue;
-        model.phase[i] = 1;
-        model.inverse_mass[i] = 0;  // until it is let go
-        sphere.push_back(i);
-    }
+/// Particles within the sphere become a rigid body that displaces just the water that was there, held until it is let go.
+void immerse_sphere(const Eigen::Vector3d& centre, Model& model) {
+    const auto sphere = hold([&](const Eigen::Vector3d& x) { return (x - centre).norm() <= 0.15 * water_length; }, model);
     model.clusters = {make_cluster(sphere, model.position, 1)};
 }
 
@@ -45,26 +39,20 @@ double height(const Model& model, const State<Real>& state) {
 template <class Real>
 WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
     WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting, [&](Model& model) {
-        immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), 0.15 * water_length, model);
+        immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), model);
     });
     tank.change([&](Model& model) {
         for (const int i : model.clusters[0].particles) model.inverse_mass[i] = 1 / fall.density;
     });
     const double start = height(tank.model(), tank.state());
-    std::vector<WaterSample> curve{{0, 0}};
-    const long frames = std::lround(fall.duration / tank.model().time_step);
-    for (long frame = 1; frame <= frames && tank.frame(); ++frame)
-        curve.push_back({static_cast<double>(frame) * tank.model().time_step,
-                         start - height(tank.model(), tank.state())});
+    const auto curve = tank.follow(fall.duration, [&] { return start - height(tank.model(), tank.state()); });
     WaterRun run = tank.run();
     run.curve = curve;
     return run;
 }
 
 WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
-    return in_precision(
-        setting, [&](const WaterSetting& own) { return let_go<float>(fall, own); },
-        [&](const WaterSetting& own) { return let_go<double>(fall, own); });
+    return in_precision(setting.solver.precision, [&](auto real) { return let_go<decltype(real)>(fall, setting); });
 }
 
 constexpr double gravity = 10;
@@ -120,7 +108,7 @@ WaterRun release(const Release& release, const WaterSetting& setting) {
     WaterTank<Real> tank({particles(release_width), particles(release_height), particles(release_width)}, setting,
                          [&](Model& model) {
                              model.parameters.gravity = {0, -release_gravity, 0};
-                             immerse_sphere(middle, 0.15 * water_length, model);
+                             immerse_sphere(middle, model);
                          });
     const double sphere_diameter = diameter(tank.model());
     tank.set_kinematic_viscosity(release_viscosity);
@@ -138,17 +126,15 @@ WaterRun release(const Release& release, const WaterSetting& setting) {
             model.inverse_mass[i] = static_cast<double>(sphere.size()) * release_gravity / weight;
     });
     const double start = height(tank.model(), tank.state());
-    std::vector<WaterSample> curve{{0, 0}};
-    const double frame_time = tank.model().time_step;
-    for (double time = frame_time; time <= release_duration + frame_time / 2 && tank.frame(); time += frame_time)
-        curve.push_back({time, start - height(tank.model(), tank.state())});
+    const auto curve = tank.follow(release_duration, [&] { return start - height(tank.model(), tank.state()); });
     WaterRun run = tank.run();
     if (run.instability) return run;
     run.curve = curve;
-    const WaterSample& begin = curve[curve.size() - 1 - static_cast<std::size_t>(std::lround(counted / frame_time))];
+    const auto frames_counted = static_cast<std::size_t>(std::lround(counted / tank.model().time_step));
+    const WaterSample& begin = curve[curve.size() - 1 - frames_counted];
     const double expected = expected_speed(std::abs(release.excess), sphere_diameter);
     const double speed = (curve.back().value - begin.value) / counted * (release.excess > 0 ? 1 : -1);
-    run.figures = {{.value = speed, .reference = expected, .least = 0.8 * expected, .greatest = 1.2 * expected}};
+    run.figures = {figure_within(0.2, speed, expected)};
     return run;
 }
 
@@ -169,24 +155,20 @@ WaterRun run_added_mass(const WaterSetting& setting) {
     WaterRun run = let_go(fall, setting);
     if (run.instability) return run;
     const double measured = (fall.density - 1) * gravity / acceleration(run.curve) - fall.density;
-    run.figures = {{.value = measured, .reference = added_mass, .least = 0.9 * added_mass, .greatest = 1.1 * added_mass}};
+    run.figures = {figure_within(0.1, measured, added_mass)};
     return run;
 }
 
 /// A hundredth heavier than its water, a sphere sinks.
 WaterRun run_heavier_sphere(const WaterSetting& setting) {
     const Release heavier{.excess = 0.01, .start = 0.65 * release_height};
-    return in_precision(
-        setting, [&](const WaterSetting& own) { return release<float>(heavier, own); },
-        [&](const WaterSetting& own) { return release<double>(heavier, own); });
+    return in_precision(setting.solver.precision, [&](auto real) { return release<decltype(real)>(heavier, setting); });
 }
 
 /// A hundredth lighter, it rises.
 WaterRun run_lighter_sphere(const WaterSetting& setting) {
     const Release lighter{.excess = -0.01, .start = 0.35 * release_height};
-    return in_precision(
-        setting, [&](const WaterSetting& own) { return release<float>(lighter, own); },
-        [&](const WaterSetting& own) { return release<double>(lighter, own); });
+    return in_precision(setting.solver.precision, [&](auto real) { return release<decltype(real)>(lighter, setting); });
 }
 
 }  // namespace natator::bench

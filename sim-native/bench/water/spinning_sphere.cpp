@@ -21,18 +21,14 @@ WaterRun run_as(const WaterSetting& setting) {
     const double spacing = water_length / setting.resolution, radius = 0.2 * water_length, width = 1.5 * water_length;
     const auto particles = static_cast<int>(std::lround(width / spacing));
     const Eigen::Vector3d middle = Eigen::Vector3d::Constant(particles * spacing / 2);
-    int held = 0;
+    std::vector<int> held;
     WaterTank<Real> tank(Eigen::Vector3i::Constant(particles), setting, [&](Model& model) {
         model.parameters.gravity = {0, -1, 0};
-        for (int i = 0; i < model.particles(); ++i) {
-            if ((model.position[i] - middle).norm() > radius) continue;
-            model.phase[i] = 1;
-            model.inverse_mass[i] = 0;
-            ++held;
-        }
+        held = hold([&](const Eigen::Vector3d& x) { return (x - middle).norm() <= radius; }, model);
     });
     tank.set_kinematic_viscosity(viscosity);
-    const double cube = held * std::pow(spacing, 3) * 3 / (4 * std::numbers::pi);  // of the radius, by its volume
+    const double volume = static_cast<double>(held.size()) * std::pow(spacing, 3);
+    const double cube = volume * 3 / (4 * std::numbers::pi);  // of the radius
     const double unit = 8 * std::numbers::pi * viscosity / std::pow(spacing, 3) * cube * spin;
     std::vector<WaterSample> curve;
     double sum = 0, expected = 0;
@@ -48,14 +44,14 @@ WaterRun run_as(const WaterSetting& setting) {
     WaterRun run = tank.run();
     if (run.instability) return run;
     run.curve = curve;
-    run.figures = {{.value = sum / expected, .reference = 1, .least = 0.9, .greatest = 1.1}};
+    run.figures = {figure_within(0.1, sum / expected, 1)};
     return run;
 }
 
 }  // namespace
 
 WaterRun run_spinning_sphere(const WaterSetting& setting) {
-    return in_precision(setting, run_as<float>, run_as<double>);
+    return in_precision(setting.solver.precision, [&](auto real) { return run_as<decltype(real)>(setting); });
 }
 
 }  // namespace natator::bench

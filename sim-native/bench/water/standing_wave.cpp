@@ -78,16 +78,13 @@ WaterRun run_as(const WaterSetting& setting) {
     kick(depth, omega, tank.state());
 
     const double level = mean_cosine(tank.state());
-    std::vector<WaterSample> curve{{0, 0}};
-    const long frames = std::lround(periods * period / tank.model().time_step);
-    for (long frame = 1; frame <= frames && tank.frame(); ++frame)
-        curve.push_back({static_cast<double>(frame) * tank.model().time_step,
-                         2 * depth * (mean_cosine(tank.state()) - level)});
+    const auto curve =
+        tank.follow(periods * period, [&] { return 2 * depth * (mean_cosine(tank.state()) - level); });
     WaterRun run = tank.run();
     if (run.instability) return run;
 
     const Oscillation found = oscillation_of(curve);
-    run.figures = {{.value = found.period, .reference = period, .least = 0.97 * period, .greatest = 1.03 * period},
+    run.figures = {figure_within(0.03, found.period, period),
                    {.value = found.decay, .reference = 0, .least = -0.01, .greatest = 0.05}};
     run.curve = curve;
     return run;
@@ -96,7 +93,7 @@ WaterRun run_as(const WaterSetting& setting) {
 }  // namespace
 
 WaterRun run_standing_wave(const WaterSetting& setting) {
-    return in_precision(setting, run_as<float>, run_as<double>);
+    return in_precision(setting.solver.precision, [&](auto real) { return run_as<decltype(real)>(setting); });
 }
 
 }  // namespace natator::bench

@@ -60,7 +60,7 @@ WaterRun run_as(const WaterSetting& setting) {
 }  // namespace
 
 WaterRun run_tilted_gravity(const WaterSetting& setting) {
-    return in_precision(setting, run_as<float>, run_as<double>);
+    return in_precision(setting.solver.precision, [&](auto real) { return run_as<decltype(real)>(setting); });
 }
 
 }  // namespace natator::bench

@@ -24,10 +24,7 @@ WaterRun run_towed_sphere(const WaterSetting& setting) {
         const auto [reynolds, way] = towing.legs[k];
         const double between = blockage_of_sphere(drag_of_sphere(reynolds), result.diameter, width * width);
         const double reference = drag_of_sphere(reynolds * (1 + between)) * std::pow(1 + between, 2);
-        run.figures.push_back({.value = mean(result.legs[k], &TowSample::drag, way / 2),
-                               .reference = reference,
-                               .least = 0.9 * reference,
-                               .greatest = 1.1 * reference});
+        run.figures.push_back(figure_within(0.1, mean(result.legs[k], &TowSample::drag, way / 2), reference));
     }
     run.curve = smoothed(result, &TowSample::drag);
     return run;

@@ -9,25 +9,18 @@
 namespace natator::bench {
 namespace {
 
-/// Particles within the body's outline are held; the rest stays water. The number of them.
-int immerse(const Towing& towing, Model& model) {
-    model.parameters.gravity = {0, -towing.gravity, 0};
-    int particles = 0;
-    for (int i = 0; i < model.particles(); ++i) {
-        Eigen::Vector3d arm = model.position[i] - towing.middle;
-        if (towing.cylinder) arm.z() = 0;
-        if (arm.norm() > towing.diameter / 2) continue;
-        model.phase[i] = 1;
-        model.inverse_mass[i] = 0;
-        ++particles;
-    }
-    return particles;
-}
-
 template <class Real>
 TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
-    int particles = 0;
-    WaterTank<Real> tank(towing.count, setting, [&](Model& model) { particles = immerse(towing, model); });
+    double particles = 0;
+    WaterTank<Real> tank(towing.count, setting, [&](Model& model) {
+        model.parameters.gravity = {0, -towing.gravity, 0};
+        const auto inside = [&](const Eigen::Vector3d& x) {
+            Eigen::Vector3d arm = x - towing.middle;
+            if (towing.cylinder) arm.z() = 0;
+            return arm.norm() <= towing.diameter / 2;
+        };
+        particles = static_cast<double>(hold(inside, model).size());
+    });
     const double spacing = tank.model().parameters.fluidRestDistance;
     const double volume = particles * std::pow(spacing, 3), width = towing.count.z() * spacing;
     const double density = 1 / std::pow(spacing, 3);  // particles of mass 1
@@ -69,8 +62,7 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
 }  // namespace
 
 TowResult tow(const Towing& towing, const WaterSetting& setting) {
-    return setting.solver.precision == Precision::double_precision ? tow_as<double>(towing, setting)
-                                                                   : tow_as<float>(towing, setting);
+    return in_precision(setting.solver.precision, [&](auto real) { return tow_as<decltype(real)>(towing, setting); });
 }
 
 double mean(const std::vector<TowSample>& leg, double TowSample::* coefficient, double begin) {

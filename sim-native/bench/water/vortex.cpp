@@ -78,10 +78,7 @@ WaterRun run_viscous_as(const WaterSetting& setting) {
         WaterTank<Real> tank({setting.resolution, layers, setting.resolution}, setting);
         turn(tank.state());
         tank.set_kinematic_viscosity(set);
-        std::vector<WaterSample> curve{{0, amplitude(tank.state())}};
-        const long frames = std::lround(turnover / 2 / tank.model().time_step);
-        for (long frame = 1; frame <= frames && tank.frame(); ++frame)
-            curve.push_back({static_cast<double>(frame) * tank.model().time_step, amplitude(tank.state())});
+        const auto curve = tank.follow(turnover / 2, [&] { return amplitude(tank.state()); });
         WaterRun run = tank.run();
         if (run.instability) return run;
         const double found = viscosity_from(decay_rate(curve));
@@ -90,7 +87,7 @@ WaterRun run_viscous_as(const WaterSetting& setting) {
             continue;
         }
         const double both = viscosity + numerical;
-        run.figures = {{.value = found, .reference = both, .least = 0.95 * both, .greatest = 1.05 * both}};
+        run.figures = {figure_within(0.05, found, both)};
         run.curve = curve;
         return run;
     }
@@ -105,11 +102,10 @@ WaterRun run_as(const WaterSetting& setting) {
     const long frames_per_turnover = std::lround(turnover / tank.model().time_step);
     const double first_energy = energy(state);
     double most_energy = first_energy;
-    std::vector<WaterSample> curve{{0, amplitude(state)}};
-    for (long frame = 1; frame <= turnovers * frames_per_turnover && tank.frame(); ++frame) {
-        curve.push_back({static_cast<double>(frame) * tank.model().time_step, amplitude(state)});
+    const auto curve = tank.follow(static_cast<double>(turnovers * frames_per_turnover) * tank.model().time_step, [&] {
         most_energy = std::max(most_energy, energy(state));
-    }
+        return amplitude(state);
+    });
     WaterRun run = tank.run();
     if (run.instability) return run;
 
@@ -126,11 +122,11 @@ WaterRun run_as(const WaterSetting& setting) {
 }  // namespace
 
 WaterRun run_vortex(const WaterSetting& setting) {
-    return in_precision(setting, run_as<float>, run_as<double>);
+    return in_precision(setting.solver.precision, [&](auto real) { return run_as<decltype(real)>(setting); });
 }
 
 WaterRun run_viscous_vortex(const WaterSetting& setting) {
-    return in_precision(setting, run_viscous_as<float>, run_viscous_as<double>);
+    return in_precision(setting.solver.precision, [&](auto real) { return run_viscous_as<decltype(real)>(setting); });
 }
 
 }  // namespace natator::bench

@@ -28,6 +28,14 @@ struct WaterFigure {
     bool is_met() const { return least <= value && value <= greatest; }
 };
 
+/// The target: within this part of what it should be.
+inline WaterFigure figure_within(double part, double value, double reference) {
+    return {.value = value,
+            .reference = reference,
+            .least = (1 - part) * reference,
+            .greatest = (1 + part) * reference};
+}
+
 /// A point of the curve that a case follows.
 struct WaterSample {
     double time = 0;  ///< s

@@ -95,6 +95,15 @@ bool WaterTank<Real>::frame() {
 }
 
 template <class Real>
+std::vector<WaterSample> WaterTank<Real>::follow(double duration, const std::function<double()>& value) {
+    std::vector<WaterSample> curve{{0, value()}};
+    const long frames = std::lround(duration / model_->time_step);
+    for (long k = 1; k <= frames && frame(); ++k)
+        curve.push_back({static_cast<double>(k) * model_->time_step, value()});
+    return curve;
+}
+
+template <class Real>
 bool WaterTank<Real>::drive(const Motion& motion, Load& load) {
     if (!solver_) throw InputError("bench water: the force on a body that is held is known on the CPU only");
     std::vector<int> body;
@@ -168,6 +177,17 @@ WaterRun WaterTank<Real>::run() const {
     run.seconds = seconds_;
     run.instability = instability_;
     return run;
+}
+
+std::vector<int> hold(const std::function<bool(const Eigen::Vector3d&)>& inside, Model& model) {
+    std::vector<int> body;
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!inside(model.position[i])) continue;
+        model.phase[i] = 1;
+        model.inverse_mass[i] = 0;
+        body.push_back(i);
+    }
+    return body;
 }
 
 template class WaterTank<float>;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "in_precision.h"
 #include "natator/model.h"
 #include "natator/solver.h"
 #include "water/water_case.h"
@@ -43,7 +44,9 @@ public:
 
     /// Advances by one frame. False if the water is unstable; then there are no more frames.
     bool frame();
-    /// The same while the particles of infinite mass move as one rigid body. Throws InputError on a GPU, which tells no
+    /// Frames for as long as that, s, as far as the water stays stable; value() before the first and after every one.
+    std::vector<WaterSample> follow(double duration, const std::function<double()>& value);
+    /// A frame while the particles of infinite mass move as one rigid body. Throws InputError on a GPU, which tells no
     /// forces.
     bool drive(const Motion& motion, Load& load);
     /// Moves the walls along x by so much: the water that is left behind the rear one is put before the front, at rest.
@@ -79,10 +82,7 @@ private:
 extern template class WaterTank<float>;
 extern template class WaterTank<double>;
 
-/// Calls a case's template with the precision that the setting asks for.
-template <class Float, class Double>
-WaterRun in_precision(const WaterSetting& setting, Float&& in_float, Double&& in_double) {
-    return setting.solver.precision == Precision::double_precision ? in_double(setting) : in_float(setting);
-}
+/// Particles whose places `inside` takes become a body that is held. Returns them.
+std::vector<int> hold(const std::function<bool(const Eigen::Vector3d&)>& inside, Model& model);
 
 }  // namespace natator::bench

@@ -1,6 +1,7 @@
 #include "estimate.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace natator {
 namespace {
@@ -20,16 +21,18 @@ std::optional<double> observed_order(const Sample& base, const Sample& half, con
 
 }  // namespace
 
-Sample sample_of(const std::vector<double>& values) {
-    Sample sample;
-    sample.runs = static_cast<int>(values.size());
-    if (values.empty()) return sample;
-    for (const double value : values) sample.mean += value / sample.runs;
-    if (sample.runs < 2) return sample;
+Spread spread(const std::vector<double>& values) {
+    const double count = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
     double squares = 0;
-    for (const double value : values) squares += (value - sample.mean) * (value - sample.mean);
-    sample.error = std::sqrt(squares / (sample.runs - 1) / sample.runs);
-    return sample;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1)) : 0};
+}
+
+Sample sample_of(const std::vector<double>& values) {
+    if (values.empty()) return {};
+    const auto [mean, deviation] = spread(values);
+    return {mean, deviation / std::sqrt(static_cast<double>(values.size())), static_cast<int>(values.size())};
 }
 
 std::optional<Sample> relative_change(const Sample& from, const Sample& to) {

@@ -5,6 +5,14 @@
 
 namespace natator {
 
+struct Spread {
+    double mean = 0;
+    double deviation = 0;  ///< of the sample, n - 1 in the denominator; 0 for a single value
+};
+
+/// Needs at least one value.
+Spread spread(const std::vector<double>& values);
+
 /// Mean of a figure over runs from perturbed starts.
 struct Sample {
     double mean = 0;
