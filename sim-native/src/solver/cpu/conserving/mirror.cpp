@@ -40,6 +40,14 @@ const std::vector<typename Mirror<Real>::Image>& Mirror<Real>::images_of(const s
     return images_;
 }
 
+/// Images are behind planes. A little more, as both are rounded.
+template <class Real>
+bool Mirror<Real>::reaches_images(const Vector& x, Real distance) const {
+    for (const auto& [normal, offset] : planes_)
+        if (normal.dot(x) + offset < Real(1.001) * distance) return true;
+    return false;
+}
+
 template class Mirror<float>;
 template class Mirror<double>;
 

@@ -28,6 +28,9 @@ public:
     /// Images of all particles within `distance` before a plane.
     const std::vector<Image>& images_of(const std::vector<Vector>& positions, Real distance);
 
+    /// Could something at x be within `distance` of an image?
+    bool reaches_images(const Vector& x, Real distance) const;
+
     /// What a reflection does to velocities; L becomes H L H^T.
     const Matrix& matrix(int reflection) const { return matrices_[reflection]; }
 

@@ -307,7 +307,17 @@ void Water<Real>::hold_at_walls(ThreadTeam& team) {
                                                                          impulse_sum_[owner])
                                               : Real(0);
     }
-    on_all_threads(team, kernels_->apply_impulse);
+    const auto at_wall = [this](int block) {
+        for (int slot = block * lanes; slot < std::min((block + 1) * lanes, particles_); ++slot)
+            if (mirror_.reaches_images(eigen(position_.at(slot)), radius_)) return true;
+        return false;
+    };
+    on_all_threads(team, [&](WaterView<Real> part) {
+        for (const int end = part.end_block; part.first_block < end; ++part.first_block) {
+            part.end_block = part.first_block + 1;
+            if (at_wall(part.first_block)) kernels_->apply_impulse(part);
+        }
+    });
 }
 
 template class Water<float>;
