@@ -30,7 +30,7 @@ Model pair_with_muscle(int substeps) {
 /// 1/2 k (l - l0)^2 with the spring's compliance 1/k = softness (w_a + w_b) h0^2.
 double spring_energy(const Model& model, const State<double>& state) {
     const double h0 = physics::thesis_substep;
-    const double k = 1 / (cpu::softness(stiffness) * (model.inverse_mass[0] + model.inverse_mass[1]) * h0 * h0);
+    const double k = 1 / (physics::softness(stiffness) * (model.inverse_mass[0] + model.inverse_mass[1]) * h0 * h0);
     const double strain = (state.position[1] - state.position[0]).norm() - state.spring_rest_length[0];
     return k * strain * strain / 2;
 }
@@ -54,7 +54,7 @@ TEST(MuscleWork, IsTheEnergyGainedAndTheStepsDamping) {
     Solver<double> solver(model);
     State<double> state = initial_state<double>(model);
     const double h0 = physics::thesis_substep;
-    const double k = 1 / (cpu::softness(stiffness) * 1.25 * h0 * h0);
+    const double k = 1 / (physics::softness(stiffness) * 1.25 * h0 * h0);
     const auto strain = [&] { return (state.position[1] - state.position[0]).norm() - state.spring_rest_length[0]; };
     double damped = 0;
     for (int frame = 0; frame < 240; ++frame) {

@@ -14,7 +14,7 @@ namespace natator {
 ///   rest length. Its relative change of length goes on linearly across the body: lateral (Muscle) counts from the middle
 ///   in half widths of the described slice, and is beyond 1 for the outermost. So the curvature that the muscles ask for
 ///   is the same.
-/// Stiffnesses are relative to masses (cpu::softness), so the springs of a muscle, and a cluster, are together as stiff as
+/// Stiffnesses are relative to masses (physics::softness), so the springs of a muscle, and a cluster, are together as stiff as
 /// they were; the stiffness of bending follows the second moments of the particles' places, which on the finer lattice are
 /// closer to those of the solid shape.
 void refine_body(const Creature& creature, Model& model);

@@ -31,8 +31,8 @@ NATATOR_HD Vec3<T> resolve_plane_penetration(const Vec3<T>& from, T depth, const
 /// all, as in Müller, Macklin, Chentanez, Jeschke, Kim: Detailed Rigid Body Simulation with Extended Position Based
 /// Dynamics (2020), eq. 34; 0 below the `slowest` impact, so that what lies on a plane does not start to jump.
 template <class T>
-NATATOR_HD T rebound_speed(const Vec3<T>& normal, const Vec3<T>& drift, const Vec3<T>& v, T restitution, T slowest) {
-    const T impact = -dot(normal, drift);
+NATATOR_HD T rebound_speed(const Vec3<T>& normal, const Vec3<T>& predicted, const Vec3<T>& v, T restitution, T slowest) {
+    const T impact = -dot(normal, predicted);
     return impact > slowest ? positive_part(restitution * impact - dot(normal, v)) : T(0);
 }
 

@@ -1,22 +1,45 @@
 // Springs: distance constraints C = l - l0.
 #pragma once
 
+#include <cmath>
+
 #include "constants.h"
 #include "vec3.h"
 
-namespace natator::physics::inline NATATOR_SET {
+namespace natator::physics {
+
+/// Compliance of a constraint of stiffness k in [0, 1] relative to its inverse mass at substep length h0 (s),
+/// relative_compliance at others: r / (1 - r) with r = (1 - k)^4, so that a fully solved constraint leaves over as much
+/// of its error as 4 iterations of stiffness k do in the thesis' substep h0 = 1/240 s. Infinite (never solved) at k = 0.
+inline double softness(double stiffness) {
+    const double left_over = std::pow(1 - stiffness, 4);
+    return left_over >= 1 ? HUGE_VAL : left_over / (1 - left_over);
+}
+
+/// What a Model's spring asks for, but for its rest length, which muscles change.
+template <class R>
+struct SpringRule {
+    R stiffness = 1;
+    double softness = 0;
+
+    SpringRule() = default;
+    template <class Spring>
+    explicit SpringRule(const Spring& spring)
+        : stiffness(static_cast<R>(spring.stiffness)), softness(physics::softness(spring.stiffness)) {}
+};
+
+inline namespace NATATOR_SET {
 
 /// Scheme `flex`: Dx_a = k w_a / (w_a + w_b) (l0 - l) n, the stiffness as it is in every iteration. Returns
 /// Dx_a / w_a = -Dx_b / w_b for `difference` from b to a.
 template <class T>
-NATATOR_HD Vec3<T> spring_push(const Vec3<T>& difference, T weights, T rest_length, T stiffness) {
+NATATOR_HD Vec3<T> spring_push(const Vec3<T>& difference, T weights, T rest_length, const SpringRule<T>& rule) {
     const T length = norm(difference);
     if (!(weights > 0 && length > 0)) return {};
-    return stiffness * (rest_length - length) / weights / length * difference;
+    return rule.stiffness * (rest_length - length) / weights / length * difference;
 }
 
-/// Scheme `conserving`: compliance of a constraint relative to its inverse mass. `softness` is what its stiffness means
-/// at the thesis' substep h0, see softness().
+/// Scheme `conserving`: compliance of a constraint relative to its inverse mass; of one that is never solved, infinite.
 NATATOR_HD double relative_compliance(double softness, double h) {
     const double ratio = thesis_substep / h;
     return softness * ratio * ratio;
@@ -24,9 +47,14 @@ NATATOR_HD double relative_compliance(double softness, double h) {
 
 /// The same spring by XPBD (Macklin, Müller, Chentanez 2016, eq. 18) with split masses, n = springs on a particle:
 ///   Dlambda = (-C - alpha lambda) / (w_a n_a + w_b n_b + alpha), Dx_a = w_a Dlambda n.
-/// Returns Dx_a / w_a and adds to lambda; the length of `difference` must not be 0.
+/// `weights` is w_a + w_b, `split` the sum with n. Returns Dx_a / w_a and adds to lambda.
 template <class T>
-NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T length, T rest_length, T split, T alpha, T& lambda) {
+NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T split, T rest_length,
+                                    const SpringRule<T>& rule, T h, T& lambda) {
+    const T length = norm(difference);
+    const T alpha = static_cast<T>(
+        relative_compliance(rule.softness * static_cast<double>(weights), static_cast<double>(h)));
+    if (!(weights > 0 && length > 0 && alpha < static_cast<T>(HUGE_VAL))) return {};
     const T change = (rest_length - length - alpha * lambda) / (split + alpha);
     lambda += change;
     return change / length * difference;
@@ -39,4 +67,5 @@ NATATOR_HD double spring_work(double lambda, double h, double change) {
     return lambda / (h * h) * change;
 }
 
-}  // namespace natator::physics::inline NATATOR_SET
+}  // namespace NATATOR_SET
+}  // namespace natator::physics

@@ -23,7 +23,7 @@ inline namespace NATATOR_SET {
 
 /// v* = v + h g, |v*| <= maxSpeed: the velocity after external forces. No gravity on particles of infinite mass.
 template <class T>
-NATATOR_HD Vec3<T> drift_velocity(Vec3<T> v, T inverse_mass, const Vec3<T>& gravity, T h, bool clamp_speed,
+NATATOR_HD Vec3<T> predicted_velocity(Vec3<T> v, T inverse_mass, const Vec3<T>& gravity, T h, bool clamp_speed,
                                   T max_speed) {
     if (inverse_mass > 0) v = v + h * gravity;
     return clamp_speed ? clamped(v, max_speed) : v;
@@ -32,12 +32,12 @@ NATATOR_HD Vec3<T> drift_velocity(Vec3<T> v, T inverse_mass, const Vec3<T>& grav
 /// v = v* + clamp(u + Du - v*, h maxAcceleration), |v| <= maxSpeed, Du = h (viscosity * smoothing - damping * u), as
 /// NVIDIA Flex 1.2.0 was measured; u = (x - x_start) / h, smoothing = the viscosity's sum over neighbours.
 template <class T, class R>
-NATATOR_HD Vec3<T> flex_velocity(const Vec3<T>& u, const Vec3<T>& smoothing, const Vec3<T>& drift,
+NATATOR_HD Vec3<T> flex_velocity(const Vec3<T>& u, const Vec3<T>& smoothing, const Vec3<T>& predicted,
                                  const VelocityRule<R>& rule) {
     Vec3<T> v = u;
     if (rule.viscosity) v = v + rule.viscosity_step * smoothing;
     if (rule.damping) v = v - rule.damping_step * u;
-    if (rule.clamp_acceleration) v = drift + clamped(v - drift, rule.most_change);
+    if (rule.clamp_acceleration) v = predicted + clamped(v - predicted, rule.most_change);
     if (rule.clamp_speed) v = clamped(v, rule.max_speed);
     return v;
 }

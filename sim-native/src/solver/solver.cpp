@@ -29,7 +29,7 @@ struct ObserverHook {
     StepObserver<Real>& observer;
     const Stages& stages;
     void operator()(Stage stage) const {
-        if (stage == Stage::predict) observer.predicted(stages.workspace().predicted_position);
+        if (stage == Stage::predict) observer.predicted(stages.workspace().unsorted_position);
         if (stage == Stage::iteration) observer.iterated(stages.positions());
     }
 };

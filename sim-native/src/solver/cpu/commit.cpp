@@ -23,7 +23,7 @@ bool Substep<Real>::finite() const {
 template <class Real>
 void Substep<Real>::forget() {
     std::fill(new_velocity_.begin(), new_velocity_.end(), Vec3<Real>{});
-    std::fill(ws_.predicted_position.begin(), ws_.predicted_position.end(), Vector3<Real>::Zero());
+    std::fill(ws_.unsorted_position.begin(), ws_.unsorted_position.end(), Vector3<Real>::Zero());
     for (const int slot : ws_.slot_of) {
         ws_.position.set(slot, {});
         ws_.correction.set(slot, {});
@@ -34,7 +34,7 @@ template <class Real>
 std::optional<int> Substep<Real>::first_not_finite() const {
     for (int i = 0; i < ws_.particles; ++i) {
         const int slot = ws_.slot_of[i];
-        for (const Vec3<Real>& v : {new_velocity_[i], vec3(ws_.predicted_position[i]), position_of_slot(slot),
+        for (const Vec3<Real>& v : {new_velocity_[i], vec3(ws_.unsorted_position[i]), position_of_slot(slot),
                                     ws_.correction.at(slot)})
             if (!eigen(v).allFinite()) return i;
     }

@@ -11,7 +11,7 @@ struct MotionView {
     int first_block, end_block;  ///< the blocks to work on
     Real* position[3];
     const Real* start[3];
-    const Real* predicted[3];
+    const Real* predicted_velocity[3];
     const Real* correction[3];
     const Real* constraint_count;
     Real* velocity[3];

@@ -39,7 +39,7 @@ void Substep<Real>::sort_by_cell(const std::vector<int>& ids, int first_slot, st
 template <class Real>
 void Substep<Real>::number_slots() {
     using Corner = std::array<Real, 3>;
-    const auto& position = ws_.predicted_position;
+    const auto& position = ws_.unsorted_position;
     const Corner first{position[0].x(), position[0].y(), position[0].z()};
     std::vector<Corner> lows(team_->most_parts(), first), highs(team_->most_parts(), first);
     team_->for_parts(ws_.particles, shortest_part * lanes, [&](int part, int begin, int end) {

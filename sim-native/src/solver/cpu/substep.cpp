@@ -46,7 +46,7 @@ Substep<Real>::Substep(const Model& model, const Plan& plan)
     if (plan_.surface_tension) normal_.resize(ws_.fluid);
     if (plan_.vorticity) curl_.resize(ws_.fluid);
     for (const double w : model.inverse_mass) inverse_mass_.push_back(static_cast<Real>(w));
-    for (const Spring& spring : model.springs) spring_stiffness_.push_back(static_cast<Real>(spring.stiffness));
+    for (const Spring& spring : model.springs) spring_rules_.emplace_back(spring);
     for (const Cluster& cluster : model.clusters) {
         cluster_offset_.emplace_back();
         for (const auto& offset : cluster.rest_offset)
@@ -62,9 +62,9 @@ void Substep<Real>::gather_slots() {
     for (const Vector3<Real>& centre : state_->cluster_centre) cluster_centre_.push_back(vec3(centre));
     for_each_slot([this](int slot) {
         const int i = ws_.particle_of[slot];
-        ws_.position.set(slot, vec3(ws_.predicted_position[i]));
+        ws_.position.set(slot, vec3(ws_.unsorted_position[i]));
         ws_.start.set(slot, vec3(state_->position[i]));
-        ws_.predicted.set(slot, vec3(ws_.predicted_velocity[i]));
+        ws_.predicted_velocity.set(slot, vec3(ws_.unsorted_velocity[i]));
         ws_.inverse_mass[slot] = inverse_mass_[i];
     });
 }
@@ -75,7 +75,7 @@ MotionView<Real> Substep<Real>::motion_view() {
             .end_block = ws_.all_blocks(),
             .position = {ws_.position.x.data(), ws_.position.y.data(), ws_.position.z.data()},
             .start = {ws_.start.x.data(), ws_.start.y.data(), ws_.start.z.data()},
-            .predicted = {ws_.predicted.x.data(), ws_.predicted.y.data(), ws_.predicted.z.data()},
+            .predicted_velocity = {ws_.predicted_velocity.x.data(), ws_.predicted_velocity.y.data(), ws_.predicted_velocity.z.data()},
             .correction = {ws_.correction.x.data(), ws_.correction.y.data(), ws_.correction.z.data()},
             .constraint_count = ws_.constraint_count.data(),
             .velocity = {ws_.velocity.x.data(), ws_.velocity.y.data(), ws_.velocity.z.data()}};

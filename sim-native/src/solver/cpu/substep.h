@@ -10,6 +10,7 @@
 #include "natator/plan.h"
 #include "natator/solver.h"
 #include "physics/contact.h"
+#include "physics/spring.h"
 #include "neighbour_lists.h"
 #include "plane_kernels.h"
 #include "solver/step.h"
@@ -191,7 +192,7 @@ protected:
     std::vector<Real> inverse_mass_;           ///< by particle
     Vec3<Real> up_;                            ///< against gravity; 0 without it
     std::vector<Vec3<Real>> new_velocity_;     ///< by particle, the substep's outcome
-    std::vector<Real> spring_stiffness_;
+    std::vector<physics::SpringRule<Real>> spring_rules_;
     std::vector<std::vector<Vec3<Real>>> cluster_offset_;
     std::vector<Eigen::Quaternion<Real>> cluster_rotation_;  ///< of the running substep
     std::vector<Vec3<Real>> cluster_centre_;

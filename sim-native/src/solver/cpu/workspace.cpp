@@ -13,14 +13,14 @@ Workspace<Real>::Workspace(const Model& model) : particles(model.particles()) {
 
     slot_of.resize(particles);
     particle_of.assign(slots, -1);
-    predicted_position.resize(particles);
-    predicted_velocity.resize(particles);
+    unsorted_position.resize(particles);
+    unsorted_velocity.resize(particles);
     cell_of.resize(particles);
 
     constexpr Real far_away = Real(physics::far_away);
     const std::size_t all = round_up_to_block(slots + 1) + lanes;  // what searches may read behind the last slot
     for (auto* array : {&position, &start}) array->resize(all, far_away);
-    for (auto* array : {&predicted, &correction, &velocity}) array->resize(all);
+    for (auto* array : {&predicted_velocity, &correction, &velocity}) array->resize(all);
     constraint_count.resize(all);
     inverse_mass.resize(all);
     for (auto* array : {&solid_density, &density, &compression}) array->resize(fluid > 0 ? all : 0);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "arrays.cuh"
 #include "model_view.h"
 #include "solver/stage.h"
 
@@ -45,10 +46,10 @@ struct Stopwatch {
 
 /// Where in a block's memory its arrays begin, in bytes.
 struct Layout {
-    unsigned position, next, table, slot_of_solid, rest_length, fit, scan, shared;                     // on the chip
-    unsigned state_velocity, next_velocity, predicted, drift, drift_before, start, number, neighbour;  // in scratch
-    unsigned chunk_count, fluid_contact, solid_contact, contact_count, plane_contact, touched, contact_push, fit_before;
-    unsigned density, overlaps, normal, curl;
+#define NATATOR_OFFSET(type, name, count, place) unsigned name;
+    NATATOR_SOLVER_ARRAYS(NATATOR_OFFSET)
+    NATATOR_BLOCK_ARRAYS(NATATOR_OFFSET)
+#undef NATATOR_OFFSET
     unsigned chip_bytes, scratch_bytes;
     int staged;  ///< neighbours per thread that `next` has room for while they are searched
 };
@@ -65,7 +66,7 @@ struct Shared {
 /// All that a block works on while it advances one State. Slots are numbered anew in every substep, as on the CPU:
 /// first the fluid, then the solids, each in the order of its cells and within a cell by particle, so that the order,
 /// and with it every sum, depends on positions alone. One more slot is far from all others: what ends lists points
-/// there. Positions have the inverse mass in w, and are read from `position` and `next` in turn.
+/// there.
 template <class R, bool on_chip>
 class Block {
 public:
@@ -73,48 +74,18 @@ public:
 
     __device__ Block(const Layout& layout, char* chip, char* scratch) : at_(layout), chip_(chip), scratch_(scratch) {}
 
-    // On the chip where they fit, by slot.
-    __device__ Quad<Real>* position() const { return large<Quad<Real>>(at_.position); }
-    __device__ Quad<Real>* next() const { return large<Quad<Real>>(at_.next); }
-    __device__ std::uint32_t* keys() const { return large<std::uint32_t>(at_.next); }     ///< while slots are numbered
-    __device__ std::uint16_t* staging() const { return large<std::uint16_t>(at_.next); }  ///< while pairs are searched
-    __device__ std::uint32_t* table() const { return large<std::uint32_t>(at_.table); }   ///< two cells in each
+    using Index = std::uint16_t;
+    using Word = std::uint32_t;  // of two cells
 
-    // On the chip.
-    __device__ std::uint16_t* slot_of_solid() const { return on_the_chip<std::uint16_t>(at_.slot_of_solid); }
-    __device__ Real* rest_length() const { return on_the_chip<Real>(at_.rest_length); }          ///< of the springs
-    __device__ ClusterFit<Real>* fit() const { return on_the_chip<ClusterFit<Real>>(at_.fit); }  ///< of the clusters
-    __device__ int* scan() const { return on_the_chip<int>(at_.scan); }                          ///< one per warp
-    __device__ Shared<Real>& shared() const { return *on_the_chip<Shared<Real>>(at_.shared); }
+#define NATATOR_ACCESSOR(type, name, count, place) \
+    __device__ type* name() const { return reinterpret_cast<type*>(place() + at_.name); }
+    NATATOR_SOLVER_ARRAYS(NATATOR_ACCESSOR)
+    NATATOR_BLOCK_ARRAYS(NATATOR_ACCESSOR)
+#undef NATATOR_ACCESSOR
+    __device__ Word* keys() const { return reinterpret_cast<Word*>(next()); }         ///< while slots are numbered
+    __device__ Index* staging() const { return reinterpret_cast<Index*>(next()); }    ///< while pairs are searched
+    __device__ Shared<Real>& shared() const { return *common(); }
     __device__ void book(Stage stage) const { shared().watch.book(stage); }
-
-    // In device memory, by slot.
-    __device__ Quad<Real>* next_velocity() const { return in_scratch<Quad<Real>>(at_.next_velocity); }
-    __device__ Quad<Real>* predicted() const { return in_scratch<Quad<Real>>(at_.predicted); }  ///< w: its number
-    __device__ Quad<Real>* drift() const { return in_scratch<Quad<Real>>(at_.drift); }  ///< v* after external forces
-    __device__ Quad<Real>* drift_before() const { return in_scratch<Quad<Real>>(at_.drift_before); }
-    __device__ Quad<Real>* start() const { return in_scratch<Quad<Real>>(at_.start); }  ///< w as in position
-    __device__ std::uint16_t* number() const { return in_scratch<std::uint16_t>(at_.number); }
-    /// Fluid neighbours of fluid slots, eight in one: chunk c of slot s at [c * fluid + s].
-    __device__ uint4* neighbour() const { return in_scratch<uint4>(at_.neighbour); }
-    __device__ std::uint16_t* neighbour_count() const { return in_scratch<std::uint16_t>(at_.chunk_count); }
-    /// Solid neighbours of fluid slots: entry k of slot s at [k * fluid + s].
-    __device__ std::uint16_t* fluid_contact() const { return in_scratch<std::uint16_t>(at_.fluid_contact); }
-    /// Neighbours of solid slots: entry k of slot s at [k * solids + s - fluid].
-    __device__ std::uint16_t* solid_contact() const { return in_scratch<std::uint16_t>(at_.solid_contact); }
-    __device__ std::uint16_t* contact_count() const { return in_scratch<std::uint16_t>(at_.contact_count); }
-    /// Bit k set if plane k may be touched in this substep.
-    __device__ std::uint16_t* plane_contact() const { return in_scratch<std::uint16_t>(at_.plane_contact); }
-    __device__ std::uint16_t* touched() const { return in_scratch<std::uint16_t>(at_.touched); }  ///< in no order
-    /// What its contacts push a slot by; w: how many they are.
-    __device__ Quad<Real>* contact_push() const { return in_scratch<Quad<Real>>(at_.contact_push); }
-    __device__ ClusterFit<Real>* fit_before() const { return in_scratch<ClusterFit<Real>>(at_.fit_before); }
-
-    // In device memory, by slot, each where an effect needs it.
-    __device__ Real* density() const { return in_scratch<Real>(at_.density); }    ///< in units of rest density
-    __device__ Real* overlaps() const { return in_scratch<Real>(at_.overlaps); }  ///< contacts that are, when predicted
-    __device__ Quad<Real>* normal() const { return in_scratch<Quad<Real>>(at_.normal); }
-    __device__ Quad<Real>* curl() const { return in_scratch<Quad<Real>>(at_.curl); }
 
     // What a substep ends with; w of the position is its inverse mass.
     __device__ Quad<Real>* new_velocity() const { return next_velocity(); }
@@ -127,21 +98,9 @@ public:
     int phase = 0;                   ///< of for_each_unit
 
 private:
-    template <class T>
-    __device__ T* on_the_chip(unsigned offset) const {
-        return reinterpret_cast<T*>(chip_ + offset);
-    }
-    template <class T>
-    __device__ T* in_scratch(unsigned offset) const {
-        return reinterpret_cast<T*>(scratch_ + offset);
-    }
-    template <class T>
-    __device__ T* large(unsigned offset) const {
-        if constexpr (on_chip)
-            return on_the_chip<T>(offset);
-        else
-            return in_scratch<T>(offset);
-    }
+    __device__ char* chip() const { return chip_; }
+    __device__ char* scratch() const { return scratch_; }
+    __device__ char* where_it_fits() const { return on_chip ? chip_ : scratch_; }
 
     const Layout& at_;
     char* chip_;

@@ -190,8 +190,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
         const int index = static_cast<int>(springs.size());
         const int a = solid(spring.a), b = solid(spring.b);
         if (a < 0 || b < 0) throw InputError("backend cuda: a spring on a fluid particle; must be on solids");
-        springs.push_back({a, b, static_cast<Real>(spring.rest_length), static_cast<Real>(spring.stiffness),
-                           cpu::softness(spring.stiffness)});
+        springs.push_back({a, b, static_cast<Real>(spring.rest_length), physics::SpringRule<Real>(spring)});
         spring_shares[a].push_back({index, b});
         spring_shares[b].push_back({index, a});
     }
@@ -223,7 +222,7 @@ void DeviceModel<Real>::upload_solids(const Model& model) {
             }
         }
         clusters.push_back({begin, static_cast<int>(members.size()), static_cast<Real>(cluster.stiffness),
-                            cpu::softness(cluster.stiffness)});
+                            physics::softness(cluster.stiffness)});
     }
     std::vector<int> body;
     for (const int i : model.body.particles) body.push_back(solid(i));

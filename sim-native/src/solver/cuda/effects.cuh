@@ -69,7 +69,7 @@ __device__ void measure_damping(const ModelView<Real>& model, const Block& block
 
 /// What `change` says.
 template <class Real, class Block>
-__device__ void apply_change(const Block& block, int s) {
+__device__ void apply_change(const ModelView<Real>&, const Block& block, int s) {
     set_velocity(block, s, velocity_of<Real>(block, s) + xyz(block.change()[s]));
 }
 
@@ -145,7 +145,7 @@ __device__ void apply_restitution(const ModelView<Real>& model, const Block& blo
     Vec3<Real> v = velocity_of<Real>(block, s);
     for_each_near_plane(model, block, s, xyz(end), [&](const physics::PlaneSurface<Real>& plane, Real distance) {
         if (distance > model.touching_distance) return;
-        const Real missing = rebound_speed(plane.normal, xyz(block.drift()[s]), v, model.restitution,
+        const Real missing = rebound_speed(plane.normal, xyz(block.predicted_velocity()[s]), v, model.restitution,
                                            block.h * model.slowest_impact);
         v += missing * plane.normal;
     });

@@ -124,7 +124,7 @@ __device__ void add_springs_and_clusters(const ModelView<Real>& model, const Blo
         const Vec3<Real> difference = x - xyz(block.next()[block.slot_of_solid()[share.other]]);
         correction.sum +=
             inverse_mass * physics::spring_push(difference, weights, block.rest_length()[share.constraint],
-                                                model.spring[share.constraint].stiffness);
+                                                model.spring[share.constraint].rule);
         correction.constraints += 1;
     }
     for (int e = model.cluster_shares_begin[solid]; e < model.cluster_shares_begin[solid + 1]; ++e) {
@@ -193,7 +193,7 @@ __device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Block& bl
             const Real r = physics::length_of(x - xyz(block.position()[other]));
             smoothing.add(1 - r * model.inverse_radius, xyz(block.next()[other]) - u);
         });
-    const Vec3<Real> drift = xyz(block.drift()[s]);
+    const Vec3<Real> predicted = xyz(block.predicted_velocity()[s]);
     const physics::VelocityRule<Real> rule{viscous,
                                            block.h * model.viscosity,
                                            model.plan.damping,
@@ -202,7 +202,7 @@ __device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Block& bl
                                            block.h * model.max_acceleration,
                                            model.plan.clamp_speed,
                                            model.max_speed};
-    return flex_velocity(u, model.density_scale * smoothing.sum, drift, rule);
+    return flex_velocity(u, model.density_scale * smoothing.sum, predicted, rule);
 }
 
 /// True if all that this thread wrote is finite.
@@ -220,7 +220,7 @@ __device__ bool update_velocities(const ModelView<Real>& model, Block& block) {
         const Quad<Real> here = block.position()[s];
         const Vec3<Real> v = new_velocity(model, block, s);
         finite &= isfinite(here.x + here.y + here.z) && isfinite(v.x + v.y + v.z);
-        block.next_velocity()[s] = quad(here.w > 0 ? v : xyz(block.drift()[s]), Real(0));
+        block.next_velocity()[s] = quad(here.w > 0 ? v : xyz(block.predicted_velocity()[s]), Real(0));
     });
     return finite;
 }

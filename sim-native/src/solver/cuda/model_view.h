@@ -5,6 +5,7 @@
 #include "natator/plan.h"
 #include "physics/dfsph.h"
 #include "physics/plane.h"
+#include "physics/spring.h"
 #include "physics/velocity.h"
 #include "vec3.cuh"
 
@@ -45,7 +46,7 @@ struct GridView {
 };
 
 template <class Real>
-struct PlaneView {
+struct DevicePlane {
     physics::PlaneSurface<Real> surface;
     physics::PlaneSurface<double> exact;  ///< for the measurement
 };
@@ -53,8 +54,8 @@ struct PlaneView {
 template <class Real>
 struct SpringView {
     int a, b;  ///< solid ids
-    Real rest_length, stiffness;
-    double softness;  ///< see cpu::softness
+    Real rest_length;
+    physics::SpringRule<Real> rule;
 };
 
 struct MuscleView {
@@ -66,7 +67,7 @@ template <class Real>
 struct ClusterView {
     int begin, end;  ///< of its members
     Real stiffness;
-    double softness;
+    double softness;  ///< see physics::softness
 };
 
 /// One entry of what acts on a solid particle: a spring with its other end, or a cluster with a member's rest offset.
@@ -127,7 +128,7 @@ struct ModelView {
 
     GridView<Real> grid;
     int planes;
-    PlaneView<Real> plane[most_planes];
+    DevicePlane<Real> plane[most_planes];
 
     const Real* inverse_mass;         ///< by particle
     const std::uint32_t* phase;       ///< by particle

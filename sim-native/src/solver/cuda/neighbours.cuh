@@ -11,9 +11,9 @@ __device__ bool needs_cells(const ModelView<Real>& model) {
 }
 
 template <class Real>
-__device__ Vec3<Real> drift_velocity(const ModelView<Real>& model, const Vec3<Real>& v, Real inverse_mass, bool fluid,
+__device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec3<Real>& v, Real inverse_mass, bool fluid,
                                      Real h) {
-    return physics::drift_velocity(v, inverse_mass, fluid ? model.fluid_gravity : model.gravity, h,
+    return physics::predicted_velocity(v, inverse_mass, fluid ? model.fluid_gravity : model.gravity, h,
                                    model.plan.clamp_speed, model.max_speed);
 }
 
@@ -27,10 +27,10 @@ __device__ void predict(const ModelView<Real>& model, Block& block) {
     for (int s = threadIdx.x; s < model.particles; s += threads) {
         const Quad<Real> x = block.position()[s];
         const Real inverse_mass = x.w;
-        const Vec3<Real> v = drift_velocity(model, xyz(block.velocity[s]), inverse_mass, s < model.fluid, block.h);
+        const Vec3<Real> v = predicted_velocity(model, xyz(block.velocity[s]), inverse_mass, s < model.fluid, block.h);
         const Vec3<Real> there = xyz(x) + block.h * v;
-        block.predicted()[s] = quad(there, as_number<Real>(block.number()[s]));
-        block.drift_before()[s] = quad(v, inverse_mass);
+        block.unsorted_position()[s] = quad(there, as_number<Real>(block.number()[s]));
+        block.unsorted_velocity()[s] = quad(v, inverse_mass);
         if (needs_cells(model)) count_up(table, model.grid.cell(there) + (s < model.fluid ? 0 : model.grid.cells));
     }
     __syncthreads();
@@ -76,7 +76,7 @@ __device__ void sort_keys(const ModelView<Real>& model, Block& block) {
     }
     exclusive_scan(table, 2 * model.grid.cells, block.scan());
     for (int s = threadIdx.x; s < model.particles; s += threads) {
-        const Quad<Real> there = block.predicted()[s];
+        const Quad<Real> there = block.unsorted_position()[s];
         const int cell = model.grid.cell(xyz(there)) + (s < model.fluid ? 0 : model.grid.cells);
         keys[count_up(table, cell)] = key_of(number_in(there.w), s);
     }
@@ -101,13 +101,13 @@ __device__ void sort_into_cells(const ModelView<Real>& model, Block& block) {
     for (int s = threadIdx.x; s < model.particles; s += threads) {
         const int before = keys[s] & 0xffff;
         block.start()[s] = block.position()[before];
-        block.drift()[s] = block.drift_before()[before];
+        block.predicted_velocity()[s] = block.unsorted_velocity()[before];
     }
     __syncthreads();
     for (int s = threadIdx.x; s < model.particles; s += threads) {
         const std::uint32_t key = keys[s];
         const int number = static_cast<int>(key >> 16);
-        const Quad<Real> there = quad(xyz(block.predicted()[key & 0xffff]), block.drift()[s].w);
+        const Quad<Real> there = quad(xyz(block.unsorted_position()[key & 0xffff]), block.predicted_velocity()[s].w);
         block.position()[s] = there;
         block.number()[s] = static_cast<std::uint16_t>(number);
         if (s >= model.fluid) block.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);

@@ -163,7 +163,7 @@ __device__ void note_instability(const ModelView<Real>& model, Block& block, dou
     // Velocities are still in the order that slots had before the substep.
     for (int s = threadIdx.x; s < model.particles; s += threads) {
         block.position()[s] = block.start()[s];
-        block.next_velocity()[slot_of[number_in(block.predicted()[s].w)]] = block.velocity[s];
+        block.next_velocity()[slot_of[number_in(block.unsorted_position()[s].w)]] = block.velocity[s];
     }
     for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit()[k] = block.fit_before()[k];
     __syncthreads();

@@ -11,12 +11,12 @@ namespace natator::cpu {
 template <class Real>
 void ConservingStages<Real>::solve_clusters() {
     for (std::size_t k = 0; k < model_.clusters.size(); ++k) {
-        const double compliance = physics::relative_compliance(softness(model_.clusters[k].stiffness), h_);
+        const double compliance = physics::relative_compliance(physics::softness(model_.clusters[k].stiffness), h_);
         if (!std::isfinite(compliance)) continue;
         const Real alpha = static_cast<Real>(compliance);
         const std::vector<int>& members = model_.clusters[k].particles;
         const std::vector<Vec3<Real>>& offsets = cluster_offset_[k];
-        const std::vector<Real>& masses = cluster_mass_[k];
+        const std::vector<Real>& masses = member_mass_[k];
         const auto place = [&](std::size_t m) { return cast<double>(position_of_slot(ws_.slot_of[members[m]])); };
 
         Vec3<double> sum{};
@@ -40,7 +40,7 @@ void ConservingStages<Real>::solve_clusters() {
         for (std::size_t m = 0; m < members.size(); ++m) {
             const int slot = ws_.slot_of[members[m]];
             const Vec3<Real> change = compliant_goal_change(centre, matrix, offsets[m], position_of_slot(slot), alpha,
-                                                            cluster_displacement_[k][m]);
+                                                            member_displacement_[k][m]);
             ws_.correction.add(slot, masses[m] * ws_.inverse_mass[slot] * change);
         }
     }

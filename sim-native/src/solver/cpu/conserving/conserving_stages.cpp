@@ -28,8 +28,8 @@ ConservingStages<Real>::ConservingStages(const Model& model, const Plan& plan)
 
     cluster_offset_.clear();
     for (SplitCluster<Real>& split : split_clusters<Real>(model)) {
-        cluster_displacement_.emplace_back(split.mass.size());
-        cluster_mass_.push_back(std::move(split.mass));
+        member_displacement_.emplace_back(split.mass.size());
+        member_mass_.push_back(std::move(split.mass));
         cluster_offset_.emplace_back();
         for (const Vector3<Real>& offset : split.offset) cluster_offset_.back().push_back(vec3(offset));
     }
@@ -44,7 +44,7 @@ void ConservingStages<Real>::begin_iterations() {
             std::fill(coordinate->begin(), coordinate->end(), Real(0));
     std::fill(internal_.begin(), internal_.end(), Vec3<Real>{});
     std::fill(spring_lambda_.begin(), spring_lambda_.end(), Real(0));
-    for (auto& displacements : cluster_displacement_)
+    for (auto& displacements : member_displacement_)
         std::fill(displacements.begin(), displacements.end(), Vec3<Real>{});
 }
 

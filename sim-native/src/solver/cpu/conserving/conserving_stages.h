@@ -77,7 +77,7 @@ private:
     /// Of a particle as the iterations have left it, length/s.
     Vec3<Real> present_velocity(int particle) const {
         const int slot = ws_.slot_of[particle];
-        return ws_.predicted.at(slot) + 1 / h_ * displacement_.at(slot);
+        return ws_.predicted_velocity.at(slot) + 1 / h_ * displacement_.at(slot);
     }
 
     std::optional<Water<Real>> water_;
@@ -91,8 +91,8 @@ private:
     std::vector<std::vector<int>> bodies_;  ///< see free_bodies
     std::vector<int> springs_per_particle_;  ///< n of the springs' mass splitting
     std::vector<Real> spring_lambda_;
-    std::vector<std::vector<Real>> cluster_mass_;                ///< m_j / n_j per member
-    std::vector<std::vector<Vec3<Real>>> cluster_displacement_;  ///< sum of the substep's corrections per member
+    std::vector<std::vector<Real>> member_mass_;                ///< m_j / n_j per member
+    std::vector<std::vector<Vec3<Real>>> member_displacement_;  ///< sum of the substep's corrections per member
 
     using Substep<Real>::model_;
     using Substep<Real>::plan_;
@@ -101,6 +101,7 @@ private:
     using Substep<Real>::state_;
     using Substep<Real>::h_;
     using Substep<Real>::inverse_mass_;
+    using Substep<Real>::spring_rules_;
     using Substep<Real>::cluster_offset_;
     using Substep<Real>::cluster_rotation_;
     using Substep<Real>::cluster_centre_;

@@ -24,7 +24,7 @@ void ConservingStages<Real>::move_fluid() {
         if (!(inverse_mass_[i] > 0)) continue;
         Vec3<Real> v = water_->velocity(i);
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
-        displacement_.set(slot, h_ * (v - ws_.predicted.at(slot)));
+        displacement_.set(slot, h_ * (v - ws_.predicted_velocity.at(slot)));
         ws_.position.set(slot, before_planes(base_.at(slot) + displacement_.at(slot), wall_distance(i)));
     }
 }

@@ -44,8 +44,8 @@ void ConservingStages<Real>::predict() {
     for (int i = 0; i < ws_.particles; ++i) {
         Vec3<Real> v = water_->velocity(i);
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
-        ws_.predicted_velocity[i] = eigen(v);
-        ws_.predicted_position[i] = eigen(vec3(state_->position[i]) + h_ * v + water_->shift(i));
+        ws_.unsorted_velocity[i] = eigen(v);
+        ws_.unsorted_position[i] = eigen(vec3(state_->position[i]) + h_ * v + water_->shift(i));
     }
 }
 

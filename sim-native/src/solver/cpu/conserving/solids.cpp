@@ -1,17 +1,9 @@
 #include "solids.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace natator::cpu {
-
-double softness(double stiffness) {
-    const double left_over = std::pow(1 - stiffness, 4);
-    if (left_over >= 1) return std::numeric_limits<double>::infinity();
-    return left_over / (1 - left_over);
-}
 
 double overlap_acceleration(const SolverParameters& p) {
     return std::min(std::max(p.maxAcceleration, 10 * p.gravity.norm()), 1e30);

@@ -23,10 +23,4 @@ struct SplitCluster {
 template <class Real>
 std::vector<SplitCluster<Real>> split_clusters(const Model& model);
 
-/// Compliance of a constraint of stiffness k in [0, 1] relative to its inverse mass at substep length h0 (s),
-/// physics::relative_compliance at others: r / (1 - r) with r = (1 - k)^4, so that a fully solved constraint leaves
-/// over as much of its error as 4 iterations of stiffness k do in the thesis' substep h0 = 1/240 s. Infinite (never
-/// solved) at k = 0.
-double softness(double stiffness);
-
 }  // namespace natator::cpu

@@ -1,7 +1,3 @@
-#include "physics/spring.h"
-
-#include <cmath>
-
 #include "conserving_stages.h"
 
 namespace natator::cpu {
@@ -13,15 +9,11 @@ void ConservingStages<Real>::solve_springs() {
         const int a = ws_.slot_of[spring.a];
         const int b = ws_.slot_of[spring.b];
         const Real wa = ws_.inverse_mass[a], wb = ws_.inverse_mass[b];
-        const Vec3<Real> difference = position_of_slot(a) - position_of_slot(b);
-        const Real length = norm(difference);
-        const double softness_of_both = softness(spring.stiffness) * static_cast<double>(wa + wb);
-        const Real alpha = static_cast<Real>(physics::relative_compliance(softness_of_both, h_));
-        if (!std::isfinite(alpha) || wa + wb == 0 || !(length > 0)) continue;
         const Real split = wa * static_cast<Real>(springs_per_particle_[spring.a]) +
                            wb * static_cast<Real>(springs_per_particle_[spring.b]);
-        const Vec3<Real> push = physics::xpbd_spring_push(difference, length, state_->spring_rest_length[s], split,
-                                                          alpha, spring_lambda_[s]);
+        const Vec3<Real> push =
+            physics::xpbd_spring_push(position_of_slot(a) - position_of_slot(b), wa + wb, split,
+                                      state_->spring_rest_length[s], spring_rules_[s], h_, spring_lambda_[s]);
         ws_.correction.add(a, wa * push);
         ws_.correction.add(b, -wb * push);
     }

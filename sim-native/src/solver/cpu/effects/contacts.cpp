@@ -8,7 +8,7 @@ template <class Real>
 void Substep<Real>::damp_contacts() {
     const Real step = h_ * static_cast<Real>(model_.parameters.dissipation);
     const auto touch = [this](int i, int j) {
-        return norm(vec3(ws_.predicted_position[i]) - vec3(ws_.predicted_position[j])) < constants_.solid_rest_distance;
+        return norm(vec3(ws_.unsorted_position[i]) - vec3(ws_.unsorted_position[j])) < constants_.solid_rest_distance;
     };
     for (std::size_t k = 0; k < ws_.touched.size(); ++k) {
         const int i = ws_.particle_of[ws_.touched[k]];

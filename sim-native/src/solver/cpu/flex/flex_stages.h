@@ -49,7 +49,7 @@ private:
     using Substep<Real>::ws_;
     using Substep<Real>::state_;
     using Substep<Real>::h_;
-    using Substep<Real>::spring_stiffness_;
+    using Substep<Real>::spring_rules_;
     using Substep<Real>::cluster_offset_;
     using Substep<Real>::cluster_rotation_;
     using Substep<Real>::cluster_centre_;

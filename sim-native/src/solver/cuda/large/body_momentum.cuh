@@ -52,8 +52,8 @@ __device__ void keep_body_momentum(const ModelView<Real>& model, const Slots<Rea
 /// The velocity that the displacement of slot s means, with its inverse mass.
 template <class Real>
 __device__ Quad<Real> constrained_velocity(const Slots<Real>& slots, int s) {
-    const Quad<Real> drift = slots.drift()[s];
-    return quad(xyz(drift) + (1 / slots.h) * xyz(slots.displacement()[s]), drift.w);
+    const Quad<Real> predicted = slots.predicted_velocity()[s];
+    return quad(xyz(predicted) + (1 / slots.h) * xyz(slots.displacement()[s]), predicted.w);
 }
 
 /// The velocity that slot s leaves the substep with, where `next` holds what the constraints left.

@@ -1,12 +1,8 @@
 #pragma once
 
-#include "slots.cuh"
+#include "kernels.cuh"
 
 namespace natator::cuda {
-
-__device__ inline int own_index() {
-    return static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
-}
 
 /// Puts what starts behind a plane, or nearer to one than `distance`, there: see physics::put_before.
 template <class Real>
@@ -17,11 +13,7 @@ __device__ Vec3<Real> put_before_planes(const ModelView<Real>& model, Vec3<Real>
 
 /// v* = v + h g, |v*| <= maxSpeed, x* = x + h v*; counts the particles of each cell, the fluid's first.
 template <Scheme scheme, class Real>
-__global__ void __launch_bounds__(large_threads)
-    predict_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void predict_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     Quad<Real> x = slots.at.state_position[s];
     const Quad<Real> before = slots.at.state_velocity[s];
     const bool fluid = number_in(before.w) < model.fluid;
@@ -29,34 +21,26 @@ __global__ void __launch_bounds__(large_threads)
         x = quad(put_before_planes(model, xyz(x), model.collision_distance), x.w);
         slots.at.state_position[s] = x;
     }
-    const Vec3<Real> v = drift_velocity(model, xyz(before), x.w, fluid, slots.h);
+    const Vec3<Real> v = predicted_velocity(model, xyz(before), x.w, fluid, slots.h);
     const Vec3<Real> there = xyz(x) + slots.h * v;
     const int cell = model.grid.cell(there) + (fluid ? 0 : model.grid.cells);
-    slots.at.predicted[s] = quad(there, x.w);
-    slots.at.drift_before[s] = quad(v, before.w);
+    slots.at.unsorted_position[s] = quad(there, x.w);
+    slots.at.unsorted_velocity[s] = quad(v, before.w);
     slots.at.cell[s] = cell;
     atomicAdd(slots.at.table + cell, 1);
 }
 
 /// Puts the particles of each cell together, in no order. Turns the cells' begins in the table into their ends.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    scatter_into_cells(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s >= model.particles || slots.failed()) return;
-    const auto number = static_cast<std::uint64_t>(number_in(slots.at.drift_before[s].w));
+__device__ void scatter_into_cells(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    const auto number = static_cast<std::uint64_t>(number_in(slots.at.unsorted_velocity[s].w));
     slots.at.keys[atomicAdd(slots.at.table + slots.at.cell[s], 1)] = number << 32 | static_cast<unsigned>(s);
 }
 
 /// Numbers the slots anew: a particle's slot is its rank in its cell by number, so that the order depends on positions
 /// alone.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    order_in_cells(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int k = own_index();
-    if (k >= model.particles || slots.failed()) return;
+__device__ void order_in_cells(const ModelView<Real>& model, const Slots<Real>& slots, int k) {
     const StateArrays<Real>& at = slots.at;
     const std::uint64_t key = at.keys[k];
     const int before = static_cast<int>(key & 0xffffffffu), number = static_cast<int>(key >> 32);
@@ -64,25 +48,21 @@ __global__ void __launch_bounds__(large_threads)
     const int begin = cell > 0 ? at.table[cell - 1] : 0, end = at.table[cell];
     int s = begin;
     for (int other = begin; other < end; ++other) s += at.keys[other] < key;
-    const Quad<Real> there = at.predicted[before];
+    const Quad<Real> there = at.unsorted_position[before];
     at.start[s] = at.state_position[before];
-    at.drift[s] = quad(xyz(at.drift_before[before]), there.w);
+    at.predicted_velocity[s] = quad(xyz(at.unsorted_velocity[before]), there.w);
     at.position[s] = at.base[s] = there;
     at.number[s] = number;
     if (model.plan.water) slots.water.slot_before[s] = before;
     if (s >= model.fluid) at.slot_of_solid[number - model.fluid] = s;
 }
 
-/// One block, which finds the box around the solids.
+/// The box around the solids, by one block.
 template <class Real>
-__global__ void prepare_search(const __grid_constant__ ModelView<Real> model,
-                               const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    if (slots.failed()) return;
+__device__ void prepare_search(const ModelView<Real>& model, const Slots<Real>& slots) {
     bound_solids(model, slots);
     if (threadIdx.x > 0) return;
-    LargeShared<Real>& shared = slots.shared();
-    shared.touched = 0;
+    slots.shared().touched = 0;
 }
 
 }  // namespace natator::cuda

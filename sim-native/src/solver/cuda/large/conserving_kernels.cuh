@@ -1,6 +1,6 @@
 #pragma once
 
-// Scheme conserving but for its water: a kernel per stage; what acts on solids is done by one block.
+// Scheme conserving but for its water: a kernel per stage; what acts on solids is done by one block of threads.
 #include "body_momentum.cuh"
 #include "flex_kernels.cuh"
 #include "solids.cuh"
@@ -8,14 +8,12 @@
 namespace natator::cuda {
 
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    begin_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
+__device__ void begin_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     const Quad<Real> zero{0, 0, 0, 0};
     const int first = own_index(), step = static_cast<int>(gridDim.x * blockDim.x);
     for (int s = first; s < model.particles; s += step) {
         slots.displacement()[s] = zero;
-        slots.active()[s] = 0;
+        slots.constraint_count()[s] = 0;
     }
     for (int k = first; k < model.solids; k += step) slots.internal()[k] = zero;
     for (int k = first; k < model.springs; k += step) slots.spring_lambda()[k] = 0;
@@ -24,10 +22,7 @@ __global__ void __launch_bounds__(large_threads)
 
 /// Contacts, springs, clusters and planes of the solids; tells the water how they move by then. One block.
 template <class Real>
-__global__ void __launch_bounds__(threads)
-    solids_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    if (slots.failed()) return;
+__device__ void solids_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     if (model.plan.contacts) solve_contacts(model, slots);
     if (model.plan.springs) solve_springs(model, slots);
     if (model.plan.clusters) solve_clusters(model, slots);
@@ -40,27 +35,13 @@ __global__ void __launch_bounds__(threads)
 }
 
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    constrained_velocities(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s < model.particles && !slots.failed()) slots.next()[s] = constrained_velocity<Real>(slots, s);
-}
-
-/// One block.
-template <class Real>
-__global__ void __launch_bounds__(threads)
-    body_momentum_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    if (!slots.failed()) keep_body_momentum(model, slots);
+__device__ void constrained_velocities(const ModelView<Real>&, const Slots<Real>& slots, int s) {
+    slots.next()[s] = constrained_velocity<Real>(slots, s);
 }
 
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    velocities_in_turn_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s < model.particles && !slots.failed()) commit_large(slots, s, velocity_in_turn(model, slots, s));
+__device__ void velocities_in_turn_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    commit_large(slots, s, velocity_in_turn(model, slots, s));
 }
 
 }  // namespace natator::cuda

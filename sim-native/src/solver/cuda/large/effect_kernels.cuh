@@ -6,66 +6,33 @@
 
 namespace natator::cuda {
 
-enum class Effect {
-    count_overlaps,
-    damp,
-    measure_damping,
-    apply_change,
-    drag,
-    measure_fluid,
-    push_fluid,
-    adhesion,
-    restitution,
-    sleep,
-    check
-};
-
-/// Does one of them to every slot.
-template <Effect effect, class Real>
-__global__ void __launch_bounds__(large_threads)
-    effect_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    constexpr bool of_fluid = effect == Effect::drag || effect == Effect::measure_fluid || effect == Effect::push_fluid;
-    const int s = own_index();
-    if (s >= (of_fluid ? model.fluid : model.particles) || slots.failed()) return;
-    if constexpr (effect == Effect::count_overlaps) count_overlaps(model, slots, s);
-    if constexpr (effect == Effect::damp) damp(model, slots, s);
-    if constexpr (effect == Effect::measure_damping) measure_damping(model, slots, s);
-    if constexpr (effect == Effect::apply_change) apply_change<Real>(slots, s);
-    if constexpr (effect == Effect::drag) drag(model, slots, s);
-    if constexpr (effect == Effect::measure_fluid) measure_fluid(model, slots, s);
-    if constexpr (effect == Effect::push_fluid) push_fluid_by_forces(model, slots, s);
-    if constexpr (effect == Effect::adhesion) apply_adhesion(model, slots, s);
-    if constexpr (effect == Effect::restitution) apply_restitution(model, slots, s);
-    if constexpr (effect == Effect::sleep) apply_sleep(model, slots, s);
-    if constexpr (effect == Effect::check)
-        note_if_bad(slots, s, xyz(slots.end_position()[s]), velocity_of<Real>(slots, s));
+template <class Real>
+__device__ void check_slot(const ModelView<Real>&, const Slots<Real>& slots, int s) {
+    note_if_bad(slots, s, xyz(slots.end_position()[s]), velocity_of<Real>(slots, s));
 }
 
 /// Stages of a substep with their effects.
 template <Scheme scheme, class Real>
 struct LaunchEffects : LaunchStages<scheme, Real> {
-    template <Effect effect>
-    void launch_effect() const {
-        effect_large<effect>
-            <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
-    }
+    using LaunchStages<scheme, Real>::launch, LaunchStages<scheme, Real>::model;
+    using Large = Slots<Real>;
+
     void begin_iterations() {
-        if (this->model.plan.dissipation) launch_effect<Effect::count_overlaps>();
+        if (model.plan.dissipation) launch.template each_particle<count_overlaps<Real, Large>>();
     }
     void damp_contacts() {
-        if constexpr (scheme == Scheme::flex) return launch_effect<Effect::damp>();
-        launch_effect<Effect::measure_damping>();
-        launch_effect<Effect::apply_change>();
+        if constexpr (scheme == Scheme::flex) return launch.template each_particle<damp<Real, Large>>();
+        launch.template each_particle<measure_damping<Real, Large>>();
+        launch.template each_particle<apply_change<Real, Large>>();
     }
-    void drag_free_surface() { launch_effect<Effect::drag>(); }
+    void drag_free_surface() { launch.template each_slot<drag<Real, Large>>(model.fluid); }
     void apply_fluid_forces() {
-        launch_effect<Effect::measure_fluid>();
-        launch_effect<Effect::push_fluid>();
+        launch.template each_slot<measure_fluid<Real, Large>>(model.fluid);
+        launch.template each_slot<push_fluid_by_forces<Real, Large>>(model.fluid);
     }
-    void apply_adhesion() { launch_effect<Effect::adhesion>(); }
-    void apply_restitution() { launch_effect<Effect::restitution>(); }
-    void apply_sleep() { launch_effect<Effect::sleep>(); }
+    void apply_adhesion() { launch.template each_particle<cuda::apply_adhesion<Real, Large>>(); }
+    void apply_restitution() { launch.template each_particle<cuda::apply_restitution<Real, Large>>(); }
+    void apply_sleep() { launch.template each_particle<cuda::apply_sleep<Real, Large>>(); }
 };
 
 /// Launches a substep.
@@ -73,7 +40,7 @@ template <class Stages>
 void launch_by(const LargeLaunch<typename Stages::Real>& launch) {
     Stages stages{{{launch}}};
     natator::substep(stages, launch.model.plan, launch.model.iterations, AfterLaunch<Stages>{stages});
-    if (launch.model.plan.effects()) stages.template launch_effect<Effect::check>();
+    if (launch.model.plan.effects()) launch.template each_particle<check_slot<typename Stages::Real>>();
     check(cudaGetLastError(), "launch");
 }
 

@@ -63,11 +63,18 @@ LargeRunner<Real>::~LargeRunner() {
 /// The arrays of a State one behind the other, and so for each State.
 template <class Real>
 void LargeRunner<Real>::allocate() {
-    const StateSize<Real> size{base_.model, base_.slots.room, std::size_t(base_.model.most_neighbours + 3) / 4};
+    const ModelView<Real>& size = base_.model;
     const Plan& plan = size.plan;
+    Slots<Real>& slots = base_.slots;
     const bool turns = size.scheme != Scheme::flex;
     const std::size_t all = size.particles + 1, water = plan.water ? size.particles : 0;
-    Slots<Real>& slots = base_.slots;
+    slots.chunks = (size.most_neighbours + 3) / 4;
+    const struct {
+        std::size_t next, cells, neighbours, fluid_contacts, solid_contacts;
+    } room{all, std::size_t(2) * size.grid.cells,
+           plan.fluid ? std::size_t(size.fluid + 31) / 32 * 32 * slots.chunks : 0,
+           plan.contacts && plan.fluid ? std::size_t(size.fluid) * slots.room.fluid : 0,
+           plan.contacts ? std::size_t(size.solids) * slots.room.solid : 0};
     std::vector<std::pair<void**, std::size_t>> places;
     std::size_t bytes = 0;
     const auto give = [&](auto*& array, std::size_t count) {
@@ -75,7 +82,7 @@ void LargeRunner<Real>::allocate() {
         places.emplace_back(reinterpret_cast<void**>(&array), bytes);
         bytes += (count * sizeof *array + alignment - 1) / alignment * alignment;
     };
-#define NATATOR_GIVE(type, name, count) give(slots.at.name, count);
+#define NATATOR_GIVE(type, name, count, ...) give(slots.at.name, count);
     NATATOR_STATE_ARRAYS(NATATOR_GIVE)
 #undef NATATOR_GIVE
 #define NATATOR_GIVE(type, name, count) give(slots.water.name, count);
@@ -84,7 +91,6 @@ void LargeRunner<Real>::allocate() {
     memory_ = DeviceBuffer<char>(bytes * base_.states);
     for (const auto& [array, place] : places) *array = memory_.data() + place;
     slots.stride = bytes;
-    slots.chunks = static_cast<int>(size.neighbour_chunks);
     shared_ = DeviceBuffer<LargeShared<Real>>(base_.states);
     slots.at.shared = shared_.data();
     device_idle_ = DeviceBuffer<int>(idle_);

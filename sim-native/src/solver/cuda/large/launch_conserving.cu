@@ -5,7 +5,6 @@
 namespace natator::cuda {
 namespace {
 
-/// See cpu/conserving/conserving_stages.h.
 template <class Real>
 struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     using Base = LaunchEffects<Scheme::conserving, Real>;
@@ -13,66 +12,69 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     static constexpr Grouping grouping = Grouping::together;
     static constexpr bool effects = true;
 
-    template <class Kernel>
-    void each_particle(Kernel kernel) const {
-        kernel<<<launch.grid(blocks), large_threads, 0, launch.stream>>>(model, slots);
+    template <auto work>
+    void each_particle() const {
+        launch.template each_particle<work>();
     }
-    template <class Kernel>
-    void each_pair(Kernel kernel, int block = large_threads) const {
-        kernel<<<launch.grid(blocks_for(model.particles * pair_lanes, block)), block, 0, launch.stream>>>(model, slots);
+    template <auto work>
+    void each_pair() const {
+        launch.template each_slot<work, pair_lanes>(model.particles);
+    }
+    template <auto work>
+    void each_pair_of_fluid() const {
+        launch.template each_slot<work, pair_lanes>(model.fluid);
     }
     template <Pass which>
     void pass() const {
-        each_pair(water_impulses<which, Real>);
-        each_pair(push_water_apart<which, Real>);
+        each_pair<water_impulses<which, Real>>();
+        each_pair<push_water_apart<which, Real>>();
     }
 
     void find_water_neighbours() const {
         const int cells = model.water.grid.cells;
         const WaterArrays<Real>& water = slots.water;
         launch.clear(water.table, cells);
-        each_particle(begin_water<Real>);
+        each_particle<begin_water<Real>>();
         launch.add_up(water.table, cells);
-        each_particle(scatter_water<Real>);
-        each_particle(order_water<Real>);
-        each_pair(find_water_neighbours_large<Real>, search_threads);
+        each_particle<scatter_water<Real>>();
+        launch.template each_state<order_water<Real>>(blocks);
+        launch.template each_slot<find_water_neighbours_large<Real>, pair_lanes, search_threads>(model.particles);
     }
     void compute_water_gradients() const {
-        each_pair(water_moments<Real>);
-        each_pair(water_gradients<Real>);
+        each_pair<water_moments<Real>>();
+        each_pair<water_gradients<Real>>();
     }
     void solve_divergence() const {
         pass<Pass::first_parting>();
         for (int k = 1; k < physics::parting_passes; ++k) pass<Pass::parting>();
         for (int k = 0; k < physics::divergence_passes; ++k) pass<Pass::divergence>();
     }
-    void add_viscosity() const { each_pair(water_viscosity<Real>); }
+    void add_viscosity() const { each_pair<water_viscosity<Real>>(); }
     void add_fluid_forces() const {
-        if (model.plan.surface_tension || model.plan.vorticity) each_pair(measure_water<Real>);
-        each_pair(push_water_by_effects<Real>);
+        if (model.plan.surface_tension || model.plan.vorticity) each_pair_of_fluid<measure_water<Real>>();
+        each_pair_of_fluid<push_water_by_effects<Real>>();
     }
     void predict() const {
         if (!model.plan.water) return launch_predict<Real, Scheme::conserving>(launch);
         launch.clear(slots.at.table, 2 * model.grid.cells);
-        each_particle(predict_in_water<Real>);
+        each_particle<predict_in_water<Real>>();
     }
     void begin_iterations() {
-        each_particle(begin_large<Real>);
+        launch.template each_state<begin_large<Real>>(blocks);
         Base::begin_iterations();
     }
     void solve_density_constraint() const { pass<Pass::density>(); }
     void solve_solids_together() const {
-        if (model.solids > 0) solids_large<<<launch.grid(1), threads, 0, launch.stream>>>(model, slots);
+        if (model.solids > 0) launch.template each_state<solids_large<Real>, threads>(1);
     }
     void update_velocities() const {
         if (model.plan.water) {
-            if (model.planes > 0) each_pair(hold_at_walls<Real>);
-            each_particle(move_water<Real>);
+            if (model.planes > 0 && norm(model.fluid_gravity) > 0) each_pair<hold_at_walls<Real>>();
+            launch.template each_slot<move_water<Real>>(model.fluid);
         }
-        each_particle(constrained_velocities<Real>);
-        if (model.free_bodies > 0)
-            body_momentum_large<<<launch.grid(1), threads, 0, launch.stream>>>(model, slots);
-        each_particle(velocities_in_turn_large<Real>);
+        each_particle<constrained_velocities<Real>>();
+        if (model.free_bodies > 0) launch.template each_state<keep_body_momentum<Real>, threads>(1);
+        each_particle<velocities_in_turn_large<Real>>();
     }
 };
 

@@ -6,25 +6,21 @@ namespace {
 
 template <class Real>
 struct FlexLaunches : LaunchEffects<Scheme::flex, Real> {
+    using Base = LaunchEffects<Scheme::flex, Real>;
+    using Base::blocks, Base::launch, Base::model;
     static constexpr Grouping grouping = Grouping::together;
     static constexpr bool effects = true;
 
     void compute_density_and_fits() {
-        const int fits = blocks_for(this->model.clusters, large_threads / 32);
-        density_large
-            <<<this->launch.grid(this->blocks + fits), large_threads, 0, this->launch.stream>>>(
-                this->model, this->slots);
+        const int fits = blocks_for(model.clusters, large_threads / 32);
+        launch.template each_state<compute_density<Real, const Slots<Real>>>(blocks + fits, Real(0));
     }
     void apply_corrections() {
-        corrections_large
-            <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
+        launch.template each_state<cuda::apply_corrections<Real, const Slots<Real>>, large_threads, 6>(blocks);
     }
     void update_velocities() {
-        if (this->model.plan.viscosity)
-            movements_large
-                <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
-        velocities_large
-            <<<this->launch.grid(this->blocks), large_threads, 0, this->launch.stream>>>(this->model, this->slots);
+        if (model.plan.viscosity) launch.template each_slot<movements_large<Real>>(model.fluid);
+        launch.template each_particle<velocities_large<Real>, 6>();
     }
 };
 

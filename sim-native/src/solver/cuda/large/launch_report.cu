@@ -6,39 +6,26 @@ namespace natator::cuda {
 namespace {
 
 template <class Real>
-__global__ void densities_large(const __grid_constant__ ModelView<Real> model,
-                                const __grid_constant__ Slots<Real> states, Real* density) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s >= model.fluid) return;
+__device__ void densities_large(const ModelView<Real>& model, const Slots<Real>& slots, int s, Real* density) {
     density += static_cast<std::size_t>(blockIdx.y) * model.fluid;
-    if (model.plan.water) {
+    if (model.plan.water)
         density[s] = slots.water.density_of[s];
-        return;
-    }
-    const Vec3<Real> x = xyz(slots.position()[s]);
-    density[slots.number()[s]] = compression_of(model, slots, s, x) + 1;
+    else
+        density[slots.number()[s]] = compression_of(model, slots, s, xyz(slots.position()[s])) + 1;
 }
 
 template <class Real>
-__global__ void neighbour_counts_large(const __grid_constant__ ModelView<Real> model,
-                                       const __grid_constant__ Slots<Real> states, int* counts) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s >= model.particles) return;
+__device__ void neighbour_counts_large(const ModelView<Real>& model, const Slots<Real>& slots, int s, int* counts) {
     counts += static_cast<std::size_t>(blockIdx.y) * model.particles;
-    if (model.plan.water) {
+    if (model.plan.water)
         counts[s] = slots.water.count_of[s];
-        return;
-    }
-    counts[slots.number()[s]] =
-        (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
+    else
+        counts[slots.number()[s]] =
+            (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
 }
 
 template <class Real>
-__global__ void measure_large(const __grid_constant__ ModelView<Real> model,
-                              const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
+__device__ void measure_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     measure_path(model, slots, &slots.shared().mean_x);
     measure_tail(model, slots, &slots.shared().tail_z);
     const bool touches = touches_plane(model, slots);
@@ -47,53 +34,38 @@ __global__ void measure_large(const __grid_constant__ ModelView<Real> model,
 
 /// Adds a substep's work of the muscles to the update's. One warp, always in the same order.
 template <class Real>
-__global__ void work_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    if (slots.failed()) return;
+__device__ void work_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     const Real* const before = slots.rest_length() - model.springs;
     double sum = 0;
     for (int k = threadIdx.x; k < model.springs; k += 32)
         sum += physics::spring_work(double(model.relaxation_factor) * slots.spring_lambda()[k], double(slots.h),
                                     double(slots.rest_length()[k]) - double(before[k]));
-    for (int step = 16; step > 0; step /= 2) sum += __shfl_xor_sync(0xffffffff, sum, step);
+    sum = sum_of_warp(sum);
     double& work = slots.shared().muscle_work;
     if (threadIdx.x == 0) work = slots.substep == 0 ? sum : work + sum;
 }
 
 template <class Real>
-__global__ void rest_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s < model.particles && !*slots.at.idle) slots.at.state_velocity[s] = {0, 0, 0, slots.at.state_velocity[s].w};
+__device__ void rest_large(const ModelView<Real>&, const Slots<Real>& slots, int s) {
+    slots.at.state_velocity[s] = {0, 0, 0, slots.at.state_velocity[s].w};
 }
 
 template <class Real>
-__global__ void far_slot_large(const __grid_constant__ ModelView<Real> model,
-                               const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
+__device__ void far_slot_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     for (Quad<Real>* const array : {slots.at.state_position, slots.position(), slots.next(), slots.start()})
         array[model.particles] = far_away<Real>();
 }
 
 template <class Real>
-__global__ void record_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
-                             Quad<Real>* to) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s < model.particles) to[s] = quad(xyz(slots.position()[s]), as_number<Real>(slots.number()[s]));
+__device__ void record_large(const ModelView<Real>&, const Slots<Real>& slots, int s, Quad<Real>* to) {
+    if (blockIdx.y == 0) to[s] = quad(xyz(slots.position()[s]), as_number<Real>(slots.number()[s]));
 }
 
 /// With the State's positions in place of those of the last iteration: they differ for particles of infinite mass.
 template <class Real>
-Slots<Real> at_the_end(const LargeLaunch<Real>& launch) {
-    Slots<Real> slots = launch.slots;
-    slots.at.position = slots.at.state_position;
-    return slots;
-}
-
-template <class Real>
-int blocks_of(const LargeLaunch<Real>& launch) {
-    return blocks_for(launch.model.particles, large_threads);
+LargeLaunch<Real> at_the_end(LargeLaunch<Real> launch) {
+    launch.slots.at.position = launch.slots.at.state_position;
+    return launch;
 }
 
 }  // namespace
@@ -113,49 +85,42 @@ void launch_substep(const LargeLaunch<Real>& launch) {
 
 template <class Real>
 void record_positions(const LargeLaunch<Real>& launch, Quad<Real>* to, int row) {
-    if (!to) return;
-    to += static_cast<std::size_t>(row) * launch.model.particles;
-    record_large<<<blocks_of(launch), large_threads, 0, launch.stream>>>(launch.model, launch.slots, to);
+    if (to)
+        launch.template report_slots<record_large<Real>>(
+            launch.model.particles, to + static_cast<std::size_t>(row) * launch.model.particles);
 }
 
 template <class Real>
 void launch_densities(const LargeLaunch<Real>& launch, Real* density) {
-    densities_large
-        <<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(
-            launch.model, at_the_end(launch), density);
-    check(cudaGetLastError(), "launch");
+    at_the_end(launch).template report_slots<densities_large<Real>>(launch.model.fluid, density);
 }
 
 template <class Real>
 void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts) {
-    neighbour_counts_large
-        <<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(launch.model, launch.slots, counts);
-    check(cudaGetLastError(), "launch");
+    launch.template report_slots<neighbour_counts_large<Real>>(launch.model.particles, counts);
 }
 
 template <class Real>
 void launch_measure(const LargeLaunch<Real>& launch) {
-    measure_large<<<launch.grid(1), threads, 0, launch.stream>>>(launch.model, at_the_end(launch));
-    check(cudaGetLastError(), "launch");
+    at_the_end(launch).template report_states<measure_large<Real>, threads>();
 }
 
 template <class Real>
 void launch_work(const LargeLaunch<Real>& launch) {
     if (launch.model.scheme == Scheme::flex || launch.model.springs == 0) return;
-    work_large<<<launch.grid(1), 32, 0, launch.stream>>>(launch.model, launch.slots);
+    launch.template each_state<work_large<Real>, 32>(1);
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_rest(const LargeLaunch<Real>& launch) {
-    rest_large<<<launch.grid(blocks_of(launch)), large_threads, 0, launch.stream>>>(launch.model, launch.slots);
+    launch.template each_particle<rest_large<Real>>();
     check(cudaGetLastError(), "launch");
 }
 
 template <class Real>
 void launch_far_slot(const LargeLaunch<Real>& launch) {
-    far_slot_large<<<launch.grid(1), 1, 0, launch.stream>>>(launch.model, launch.slots);
-    check(cudaGetLastError(), "launch");
+    launch.template report_states<far_slot_large<Real>, 1>();
 }
 
 #define NATATOR_INSTANTIATE(Real)                                               \

@@ -5,29 +5,22 @@ namespace natator::cuda {
 
 template <class Real, Scheme scheme>
 void launch_predict(const LargeLaunch<Real>& launch) {
-    const ModelView<Real>& model = launch.model;
-    launch.clear(launch.slots.at.table, 2 * model.grid.cells);
-    predict_large<scheme>
-        
-            <<<launch.grid(blocks_for(model.particles, large_threads)), large_threads, 0, launch.stream>>>(
-                model, launch.slots);
+    launch.clear(launch.slots.at.table, 2 * launch.model.grid.cells);
+    launch.template each_particle<predict_large<scheme, Real>>();
 }
 
 template <class Real>
 void launch_sort_into_cells(const LargeLaunch<Real>& launch) {
-    const ModelView<Real>& model = launch.model;
-    const Slots<Real>& slots = launch.slots;
-    const int blocks = blocks_for(model.particles, large_threads);
-    launch.add_up(slots.at.table, 2 * model.grid.cells);
-    scatter_into_cells<<<launch.grid(blocks), large_threads, 0, launch.stream>>>(model, slots);
-    order_in_cells<<<launch.grid(blocks), large_threads, 0, launch.stream>>>(model, slots);
-    prepare_search<<<launch.grid(1), 32, 0, launch.stream>>>(model, slots);
+    launch.add_up(launch.slots.at.table, 2 * launch.model.grid.cells);
+    launch.template each_particle<scatter_into_cells<Real>>();
+    launch.template each_particle<order_in_cells<Real>>();
+    launch.template each_state<prepare_search<Real>, 32>(1);
 }
 
 template <class Real>
 void launch_find_neighbours(const LargeLaunch<Real>& launch) {
-    const int blocks = blocks_for(launch.model.particles, search_threads);
-    find_neighbours_large<<<launch.grid(blocks), search_threads, 0, launch.stream>>>(launch.model, launch.slots);
+    launch.template each_state<find_neighbours_large<Real>, search_threads, 12>(
+        blocks_for(launch.model.particles, search_threads));
     check(cudaGetLastError(), "launch");
 }
 

@@ -65,12 +65,10 @@ __device__ int list_contacts(const ModelView<Real>& model, const Slots<Real>& sl
 /// Lists fluid neighbours, contacts and planes of every slot at the predicted positions. The last slots first: solids
 /// take longest.
 template <class Real>
-__global__ void __launch_bounds__(search_threads, 12)
-    find_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
+__device__ void find_neighbours_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     __shared__ int staging[(staged_neighbours + 1) * search_threads];
     const int s = static_cast<int>((gridDim.x - 1 - blockIdx.x) * blockDim.x + threadIdx.x);
-    if (s >= model.particles || slots.failed()) return;
+    if (s >= model.particles) return;
     const Quad<Real> here = slots.base()[s];
     const Vec3<Real> x = xyz(here);
     const bool water = model.plan.water && s < model.fluid;  // its walls are mirrors

@@ -20,53 +20,27 @@ struct LargeShared : Shared<Real> {
 
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
 
-// The arrays of a large State in device memory: X(type, name, how many). Members, accessors, their layout and the step from
-// one State to the next are all made from this table. `all` is one for each slot, and one more for the slot that is far
-// from all others; others are by what they are named after. A number is a particle's number of the Model.
-#define NATATOR_STATE_ARRAYS(X)                                                                                       \
+// What only a large State has, in device memory: X(type, name, how many), see arrays.cuh. A number is a particle's number of the
+// Model.
+#define NATATOR_LARGE_ARRAYS(X)                                                                                       \
     /* The State, in the order of slots that the last substep left; w: inverse mass, and the number as an integer. */ \
     X(Quad<Real>, state_position, all)                                                                                \
     X(Quad<Real>, state_velocity, all)                                                                                \
-    X(ClusterFit<Real>, fit, size.clusters)                                                                           \
-    /* In the order before slots are numbered; w: inverse mass, number. */                                            \
-    X(Quad<Real>, predicted, all)                                                                                     \
-    X(Quad<Real>, drift_before, all)                                                                                  \
+    /* In the order before slots are numbered. */                                                                     \
     X(int, cell, all)                                                                                                 \
-    /* Particle << 32 | slot before, cell by cell; ends of the fluid's cells, then of the solids'. */                 \
-    X(std::uint64_t, keys, all)                                                                                       \
-    X(int, table, 2 * size.grid.cells)                                                                                \
-    /* By slot. */                                                                                                    \
-    X(Quad<Real>, position, all)                                                                                      \
-    X(Quad<Real>, next, all)                                                                                          \
-    X(Quad<Real>, start, all)                                                                                         \
-    X(Quad<Real>, base, all)                                                                                          \
-    X(Quad<Real>, drift, all)                                                                                         \
-    X(int, number, all)                                                                                               \
-    X(int, slot_of_solid, size.solids)                                                                                \
-    X(int, neighbour_count, all)                                                                                      \
-    X(int, contact_count, all)                                                                                        \
-    X(int, plane_contact, all)                                                                                        \
-    X(int, touched, all)                                                                                              \
-    X(Quad<Real>, contact_push, all)                                                                                  \
-    /* Chunks of four slots: chunk c of slot s at [(s / 32 * chunks + c) * 32 + s % 32]. */                           \
-    X(uint4, neighbour, plan.fluid ? (size.fluid + 31) / 32 * 32 * size.neighbour_chunks : 0)                         \
-    /* Entry k of slot s at [k * fluid + s], and at [k * solids + s - fluid]. */                                      \
-    X(int, fluid_contact, plan.contacts && plan.fluid ? size.fluid * size.room.fluid : 0)                             \
-    X(int, solid_contact, plan.contacts ? size.solids * size.room.solid : 0)                                          \
-    /* Where an effect needs them. */                                                                                 \
-    X(Real, density, plan.fluid && plan.free_surface_drag ? all : 0)                                                  \
-    X(Real, overlaps, plan.dissipation ? all : 0)                                                                     \
+    X(std::uint64_t, keys, all) /* particle << 32 | slot before, cell by cell */                                      \
+    X(Quad<Real>, base, all)    /* predicted positions by slot */                                                     \
     X(Quad<Real>, change, plan.dissipation ? all : 0)                                                                 \
-    X(Quad<Real>, normal, plan.fluid && plan.surface_tension ? all : 0)                                               \
-    X(Quad<Real>, curl, plan.fluid && plan.vorticity ? all : 0)                                                       \
     /* Of solids, in scheme conserving. */                                                                            \
-    X(int, active, turns ? all : 0)                                                                                   \
+    X(int, constraint_count, turns ? all : 0)                                                                                   \
     X(Quad<Real>, displacement, turns ? all : 0)                                                                      \
     X(Quad<Real>, internal, turns ? size.solids : 0)                                                                  \
     X(Quad<Real>, spring_push, turns ? size.springs : 0)                                                              \
     X(Real, spring_lambda, turns ? size.springs : 0)                                                                  \
     X(Quad<Real>, member_displacement, turns ? size.members : 0)                                                      \
     X(Quad<Real>, member_push, turns ? size.members : 0)
+
+#define NATATOR_STATE_ARRAYS(X) NATATOR_SOLVER_ARRAYS(X) NATATOR_LARGE_ARRAYS(X)
 
 // The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise. An entry is a slot
 // with the set of planes that it is the ghost of: planes << most_slot_bits | slot.
@@ -95,9 +69,11 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(int, slot_before, water) /* by slot of this substep */                                                          \
     X(int, slot_of_solid, plan.water ? size.solids : 0)
 
-#define NATATOR_MEMBER(type, name, size) type* name = nullptr;
+#define NATATOR_MEMBER(type, name, ...) type* name = nullptr;
 template <class Real>
 struct StateArrays {
+    using Index = int;
+    using Word = int;
     NATATOR_STATE_ARRAYS(NATATOR_MEMBER)
     LargeShared<Real>* shared = nullptr;
     int* idle = nullptr;  ///< not 0: the State stays as it is
@@ -116,21 +92,16 @@ struct ContactRoom {
     int fluid, solid;
 };
 
-/// What the sizes of a State's arrays depend on.
-template <class Real>
-struct StateSize : ModelView<Real> {
-    ContactRoom room{};
-    std::size_t neighbour_chunks = 0;
-};
-
 /// Large States as the kernels see them, and one of them: what Block is to the kernel of a batch, for a grid of blocks.
 /// The functions of both take either. The y of the grid is the State's number.
 template <class R>
 class Slots {
 public:
     using Real = R;
+    using Index = typename StateArrays<Real>::Index;
+    using Word = typename StateArrays<Real>::Word;
 
-#define NATATOR_ACCESSOR(type, name, size) \
+#define NATATOR_ACCESSOR(type, name, ...) \
     __device__ type* name() const { return at.name; }
     NATATOR_STATE_ARRAYS(NATATOR_ACCESSOR)
 #undef NATATOR_ACCESSOR
@@ -145,10 +116,10 @@ public:
         const auto shift = [bytes = k * stride](auto*& array) {
             array = reinterpret_cast<std::remove_reference_t<decltype(array)>>(reinterpret_cast<char*>(array) + bytes);
         };
-#define NATATOR_SHIFT(type, name, size) shift(own.at.name);
+#define NATATOR_SHIFT(type, name, ...) shift(own.at.name);
         NATATOR_STATE_ARRAYS(NATATOR_SHIFT)
 #undef NATATOR_SHIFT
-#define NATATOR_SHIFT(type, name, size) shift(own.water.name);
+#define NATATOR_SHIFT(type, name, ...) shift(own.water.name);
         NATATOR_WATER_ARRAYS(NATATOR_SHIFT)
 #undef NATATOR_SHIFT
         own.at.shared += k;
@@ -160,6 +131,7 @@ public:
         return own;
     }
 
+    /// Chunks of four slots: chunk c of slot s at [(s / 32 * chunks + c) * 32 + s % 32].
     __device__ unsigned& neighbour_entry(int s, int k) const {
         uint4* const chunk = at.neighbour + (static_cast<std::size_t>(s / 32) * chunks + k / 4) * 32 + s % 32;
         return reinterpret_cast<unsigned*>(chunk)[k % 4];
@@ -181,8 +153,6 @@ public:
     Real h = 0;               ///< substep, s
     int substep = 0;
 };
-
-inline constexpr int large_threads = 256;  ///< of a block
 
 /// Units of work by the warps of the whole grid.
 template <class Real, class Work>

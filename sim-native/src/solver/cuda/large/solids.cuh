@@ -37,14 +37,14 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& 
                 for_each_contact_of(model, slots, s, lane, pair_lanes,
                                     [&](int other) { active += contact_depth<Real>(model, slots, s, other) > 0; });
             active = sum_of_lanes(active);
-            if (s >= 0 && lane == 0) slots.active()[s] = static_cast<std::uint16_t>(active);
+            if (s >= 0 && lane == 0) slots.constraint_count()[s] = static_cast<std::uint16_t>(active);
         });
     });
     __syncthreads();
     for_each_unit(slots, units, [&](int unit) {
         work_on_touched(slots, unit, [&](int s, int lane) {
             const Real inverse_mass = s >= 0 ? slots.position()[s].w : Real(0);
-            const int active = s >= 0 ? slots.active()[s] : 0;
+            const int active = s >= 0 ? slots.constraint_count()[s] : 0;
             Vec3<Real> sum{0, 0, 0};
             if (active > 0 && inverse_mass > 0)
                 for_each_contact_of(model, slots, s, lane, pair_lanes, [&](int other) {
@@ -52,7 +52,7 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& 
                     if (!(depth > 0)) return;
                     const Real share = physics::split_share(inverse_mass, static_cast<Real>(active),
                                                             partner_weight(model, slots, s, other),
-                                                            static_cast<Real>(slots.active()[other]));
+                                                            static_cast<Real>(slots.constraint_count()[other]));
                     sum += share * contact_push(model, slots, s, other, depth);
                 });
             const Quad<Real> push{sum_of_lanes(sum.x), sum_of_lanes(sum.y), sum_of_lanes(sum.z), Real(0)};
@@ -62,7 +62,7 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& 
     __syncthreads();
     for (int t = threadIdx.x; t < slots.shared().touched; t += threads) {
         const int s = slots.touched()[t];
-        if (slots.active()[s] > 0 && slots.position()[s].w > 0)
+        if (slots.constraint_count()[s] > 0 && slots.position()[s].w > 0)
             move(slots, s, model.relaxation_factor * xyz(slots.contact_push()[s]));
     }
     __syncthreads();
@@ -76,11 +76,6 @@ __device__ void move_by_internal(const ModelView<Real>& model, const Slots<Real>
     move(slots, slots.slot_of_solid()[solid], by);
 }
 
-template <class Real>
-__device__ Real compliance_at(double softness, Real h) {
-    return static_cast<Real>(physics::relative_compliance(softness, static_cast<double>(h)));
-}
-
 /// Ends with a barrier.
 template <class Real>
 __device__ void solve_springs(const ModelView<Real>& model, const Slots<Real>& slots) {
@@ -92,16 +87,10 @@ __device__ void solve_springs(const ModelView<Real>& model, const Slots<Real>& s
         const Real wa = model.inverse_mass[model.fluid + spring.a], wb = model.inverse_mass[model.fluid + spring.b];
         const Vec3<Real> difference = xyz(slots.position()[slots.slot_of_solid()[spring.a]]) -
                                       xyz(slots.position()[slots.slot_of_solid()[spring.b]]);
-        const Real length = norm(difference);
-        const Real alpha = compliance_at(spring.softness * static_cast<double>(wa + wb), slots.h);
-        Quad<Real> push{0, 0, 0, 0};
-        if (isfinite(alpha) && wa + wb > 0 && length > 0) {
-            const Real split = wa * count(spring.a) + wb * count(spring.b);
-            push = quad(physics::xpbd_spring_push(difference, length, slots.rest_length()[k], split, alpha,
-                                                  slots.spring_lambda()[k]),
-                        Real(0));
-        }
-        slots.spring_push()[k] = push;
+        const Real split = wa * count(spring.a) + wb * count(spring.b);
+        const Vec3<Real> push = physics::xpbd_spring_push(difference, wa + wb, split, slots.rest_length()[k],
+                                                          spring.rule, slots.h, slots.spring_lambda()[k]);
+        slots.spring_push()[k] = quad(push, Real(0));
     }
     __syncthreads();
     for (int solid = threadIdx.x; solid < model.solids; solid += threads) {
@@ -128,7 +117,8 @@ __device__ void solve_clusters(const ModelView<Real>& model, const Slots<Real>& 
     };
     for (int k = warp; k < model.clusters; k += warps) {
         const ClusterView<Real> cluster = model.cluster[k];
-        const Real alpha = compliance_at(cluster.softness, slots.h);
+        const Real alpha = static_cast<Real>(
+            physics::relative_compliance(cluster.softness, static_cast<double>(slots.h)));
         if (!isfinite(alpha)) {
             for (int m = cluster.begin + lane; m < cluster.end; m += 32) slots.member_push()[m] = {0, 0, 0, 0};
             continue;

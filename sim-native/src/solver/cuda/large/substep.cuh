@@ -1,11 +1,15 @@
 #pragma once
 
+#include "kernels.cuh"
 #include "scan.h"
-#include "slots.cuh"
 #include "solver/step.h"
 #include "stage_clock.h"
 
 namespace natator::cuda {
+
+inline int blocks_for(int count, int threads_of_block) {
+    return (count + threads_of_block - 1) / threads_of_block;
+}
 
 /// What the stages of large States, side by side, are launched with.
 template <class Real>
@@ -21,6 +25,37 @@ struct LargeLaunch {
 
     /// Of blocks for each State.
     dim3 grid(int blocks) const { return {static_cast<unsigned>(blocks), static_cast<unsigned>(states)}; }
+
+    /// Calls work(model, slots, s, more...) for the slots s below `count` of each State, by `lanes` threads each.
+    template <auto work, int lanes = 1, int block = large_threads, int least_blocks = 1, class... More>
+    void each_slot(int count, More... more) const {
+        if (count > 0)
+            for_each_slot<work, Of::running, lanes, block, least_blocks>
+                <<<grid(blocks_for(count * lanes, block)), block, 0, stream>>>(model, slots, count, more...);
+    }
+    template <auto work, int least_blocks = 1>
+    void each_particle() const {
+        each_slot<work, 1, large_threads, least_blocks>(model.particles);
+    }
+    /// Calls work(model, slots, more...) by all threads of the blocks for each State.
+    template <auto work, int block = large_threads, int least_blocks = 1, class... More>
+    void each_state(int blocks, More... more) const {
+        for_each_state<work, Of::running, block, least_blocks>
+            <<<grid(blocks), block, 0, stream>>>(model, slots, more...);
+    }
+    /// The same for what is asked about all States, also those that are not advanced any more.
+    template <auto work, class... More>
+    void report_slots(int count, More... more) const {
+        if (count > 0)
+            for_each_slot<work, Of::all, 1, large_threads, 1>
+                <<<grid(blocks_for(count, large_threads)), large_threads, 0, stream>>>(model, slots, count, more...);
+        check(cudaGetLastError(), "launch");
+    }
+    template <auto work, int block>
+    void report_states() const {
+        for_each_state<work, Of::all, block, 1><<<grid(1), block, 0, stream>>>(model, slots);
+        check(cudaGetLastError(), "launch");
+    }
 
     /// Sets a table of each State to 0.
     void clear(int* table, int count) const {
@@ -74,10 +109,6 @@ void launch_rest(const LargeLaunch<Real>& launch);
 /// Sets the slot far from all others.
 template <class Real>
 void launch_far_slot(const LargeLaunch<Real>& launch);
-
-inline int blocks_for(int count, int threads_of_block) {
-    return (count + threads_of_block - 1) / threads_of_block;
-}
 
 /// The stages of a substep that schemes share, each a launch or several.
 template <Scheme scheme_of_step, class R>

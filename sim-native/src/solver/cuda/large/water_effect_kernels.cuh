@@ -9,11 +9,7 @@ namespace natator::cuda {
 
 /// Normals of the surface and vorticity of the fluid, by all neighbours.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    measure_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot();
-    if (s >= model.fluid || slots.failed()) return;
+__device__ void measure_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Vec3<Real> v = xyz(water.velocity[s]);
     Vec3<Real> gradients{}, vorticity{};
@@ -36,11 +32,7 @@ __global__ void __launch_bounds__(large_threads)
 
 /// Free-surface drag, then cohesion, surface tension and vorticity confinement of the fluid.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    push_water_by_effects(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot();
-    if (s >= model.fluid || slots.failed()) return;
+__device__ void push_water_by_effects(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const WaterModel<Real>& of = model.water;
     const bool cohesive = of.cohesion_strength > 0, tense = model.surface_tension > 0, confined = model.vorticity > 0;

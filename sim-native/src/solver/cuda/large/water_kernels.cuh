@@ -52,11 +52,7 @@ __device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x,
 
 /// Puts what is behind planes before them, and counts particles and ghosts by cell.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    begin_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (s == 0) slots.shared().high = 0;
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> before = slots.at.state_velocity[s];
@@ -77,11 +73,7 @@ __global__ void __launch_bounds__(large_threads)
 
 /// Puts the particles and ghosts of each cell together, in no order. Turns the cells' begins in the table into their ends.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    scatter_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void scatter_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const auto number = static_cast<std::uint64_t>(number_in(slots.at.state_velocity[s].w));
     for_each_copy(model, xyz(water.position[s]), [&](unsigned planes, const Vec3<Real>& at) {
@@ -92,10 +84,7 @@ __global__ void __launch_bounds__(large_threads)
 
 /// Lays out what searches read, in each cell by set of planes and then by particle: the order depends on positions alone.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    order_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    if (slots.failed()) return;
+__device__ void order_water(const ModelView<Real>& model, const Slots<Real>& slots) {
     const WaterArrays<Real>& water = slots.water;
     const int copies = water.table[model.water.grid.cells - 1];
     for (int k = own_index(); k < copies; k += static_cast<int>(gridDim.x * blockDim.x)) {
@@ -114,9 +103,6 @@ __global__ void __launch_bounds__(large_threads)
 __device__ inline int own_lane() {
     return static_cast<int>(threadIdx.x) % pair_lanes;
 }
-__device__ inline int own_slot() {
-    return own_index() / pair_lanes;
-}
 template <class Real>
 __device__ Vec3<Real> sum_of_lanes(const Vec3<Real>& v) {
     return {sum_of_lanes(v.x), sum_of_lanes(v.y), sum_of_lanes(v.z)};
@@ -132,11 +118,8 @@ __device__ Real largest_of_lanes(Real value) {
 
 /// Lists what is within the kernel's support of each particle, solids and ghosts too, in the order of the cells.
 template <class Real>
-__global__ void __launch_bounds__(search_threads)
-    find_water_neighbours_large(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot(), lane = own_lane();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void find_water_neighbours_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    const int lane = own_lane();
     const WaterArrays<Real>& water = slots.water;
     const Vec3<Real> x = xyz(water.position[s]);
     const Real distance_squared = model.water.radius * model.water.radius;
@@ -200,11 +183,7 @@ __device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>* vecto
 
 /// Density, correction, crowding.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    water_moments(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void water_moments(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
     physics::MomentSums<Real> sums;
@@ -239,11 +218,7 @@ __device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction,
 
 /// G_ij and the response.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    water_gradients(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], own_shear = water.shear[s];
     const physics::Symmetric3<Real> own = correction_of(water.correction[s], own_shear);
@@ -278,11 +253,8 @@ constexpr bool parts(Pass pass) {
 
 /// The impulses of a Jacobi pass.
 template <Pass pass, class Real>
-__global__ void __launch_bounds__(large_threads)
-    water_impulses(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot();
-    if (s >= model.particles || slots.failed() || (parts(pass) && !slots.shared().high)) return;
+__device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    if (parts(pass) && !slots.shared().high) return;
     const WaterArrays<Real>& water = slots.water;
     Real rate = 0;
     if (pass != Pass::first_parting) {
@@ -306,11 +278,8 @@ __global__ void __launch_bounds__(large_threads)
 
 /// v_i -= w_i sum (impulse_i + impulse_j) G_ij.
 template <Pass pass, class Real>
-__global__ void __launch_bounds__(large_threads)
-    push_water_apart(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot();
-    if (s >= model.particles || slots.failed() || (parts(pass) && !slots.shared().high)) return;
+__device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    if (parts(pass) && !slots.shared().high) return;
     const WaterArrays<Real>& water = slots.water;
     const Real own = water.impulse[s];
     Vec3<Real> sum{0, 0, 0};
@@ -335,11 +304,7 @@ __global__ void __launch_bounds__(large_threads)
 
 /// Viscosity; the velocities that neighbours see stay as they were.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    water_viscosity(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void water_viscosity(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
     const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
@@ -371,11 +336,7 @@ __device__ Quad<Real> pushed_by_forces(const ModelView<Real>& model, const Water
 
 /// Gravity; then x* = x + h v* + shift, v* without the density solve; counts the particles of each cell, the fluid's first.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    predict_in_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> x = slots.at.state_position[s], crowding = water.crowding[s];
     const Real number = slots.at.state_velocity[s].w;
@@ -392,45 +353,43 @@ __global__ void __launch_bounds__(large_threads)
     if (slots.shared().high)
         there += clamped(slots.h * xyz(water.parting[s]), Real(physics::longest_parting) * model.water.spacing);
     const int cell = model.grid.cell(there) + (fluid ? 0 : model.grid.cells);
-    slots.at.predicted[s] = quad(there, x.w);
-    slots.at.drift_before[s] = quad(v, number);
+    slots.at.unsorted_position[s] = quad(there, x.w);
+    slots.at.unsorted_velocity[s] = quad(v, number);
     slots.at.cell[s] = cell;
     atomicAdd(slots.at.table + cell, 1);
 }
 
-/// Once all passes are done: holds up what lies at walls.
+/// Once all passes are done: holds up what lies at walls. Ghosts are behind planes, so only what is nearer to a plane than
+/// the kernel's support has any for neighbours.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    hold_at_walls(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_slot();
-    if (s >= model.particles || slots.failed()) return;
+__device__ void hold_at_walls(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
+    const Vec3<Real> here = xyz(water.position[s]);
+    bool near = false;
+    for (int k = 0; k < model.planes; ++k) near |= distance_to(model.plane[k].surface, here) < model.water.radius;
     Vec3<Real> sum{};
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int owner, unsigned planes) {
-        if (planes == 0 || owner >= model.fluid) return;
-        const Quad<Real> x = water.position[owner];
-        sum += physics::weight_to_ghost(slots.at.state_position[owner].w, x.w, slots.h, model.fluid_gravity,
-                                        ghost_of(model.water, xyz(x), planes) - xyz(x), water.impulse_sum[owner]) *
-               gradient;
-    });
+    if (near)
+        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int owner, unsigned planes) {
+            if (planes == 0 || owner >= model.fluid) return;
+            const Quad<Real> x = water.position[owner];
+            sum += physics::weight_to_ghost(slots.at.state_position[owner].w, x.w, slots.h, model.fluid_gravity,
+                                            ghost_of(model.water, xyz(x), planes) - xyz(x), water.impulse_sum[owner]) *
+                   gradient;
+        });
     sum = sum_of_lanes(sum);
+    if (!near || own_lane() != 0) return;
     const Quad<Real> v = water.velocity[s];
-    if (own_lane() == 0) water.velocity[s] = quad(xyz(v) - v.w * sum, v.w);
+    water.velocity[s] = quad(xyz(v) - v.w * sum, v.w);
 }
 
 /// The fluid goes where its velocities take it.
 template <class Real>
-__global__ void __launch_bounds__(large_threads)
-    move_water(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states) {
-    const Slots<Real> slots = states.state(blockIdx.y);
-    const int s = own_index();
-    if (s >= model.fluid || slots.failed()) return;
+__device__ void move_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const Quad<Real> base = slots.base()[s];
     if (!(base.w > 0)) return;
     Vec3<Real> v = xyz(slots.water.velocity[slots.water.slot_before[s]]);
     if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
-    const Vec3<Real> displacement = slots.h * (v - xyz(slots.drift()[s]));
+    const Vec3<Real> displacement = slots.h * (v - xyz(slots.predicted_velocity()[s]));
     slots.displacement()[s] = quad(displacement, Real(0));
     slots.position()[s] =
         quad(put_before_planes(model, xyz(base) + displacement, wall_distance(model, true)), base.w);

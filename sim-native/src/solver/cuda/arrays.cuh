@@ -1,0 +1,45 @@
+#pragma once
+
+// The arrays that a State has on the device, whether one block advances it (block.cuh) or the whole GPU (large/slots.cuh):
+// X(type, name, how many, where a block has it). Members, accessors, layouts and allocation are all made from these tables,
+// and those of what only one of the two has. `all` is one for each slot, and one more for the slot that is far from all
+// others; `room` is what lists have room for, `size` the Model. An Index holds a slot, a particle's number or a count; a Word what cells hold.
+//
+// A block has arrays on the chip, in scratch (device memory), or on the chip where they fit.
+#define NATATOR_SOLVER_ARRAYS(X)                                                                                   \
+    /* By slot; w: inverse mass. Positions are read from these in turn. */                                         \
+    X(Quad<Real>, position, all, where_it_fits)                                                                    \
+    X(Quad<Real>, next, room.next, where_it_fits)                                                                  \
+    /* Ends of the fluid's cells, then of the solids'. */                                                          \
+    X(Word, table, room.cells, where_it_fits)                                                                      \
+    X(ClusterFit<Real>, fit, size.clusters, chip)                                                                  \
+    X(Index, slot_of_solid, size.solids, chip)                                                                     \
+    /* In the order before slots are numbered, with inverse mass and number in w. */                               \
+    X(Quad<Real>, unsorted_position, all, scratch)                                                                 \
+    X(Quad<Real>, unsorted_velocity, all, scratch)                                                                 \
+    /* By slot; w of the start as in position. */                                                                  \
+    X(Quad<Real>, start, all, scratch)                                                                             \
+    X(Quad<Real>, predicted_velocity, all, scratch) /* v* after external forces */                                 \
+    X(Index, number, all, scratch)                                                                                 \
+    X(uint4, neighbour, room.neighbours, scratch) /* fluid neighbours of fluid slots, in chunks */                 \
+    X(Index, neighbour_count, all, scratch)                                                                        \
+    /* Entry k of fluid slot s at [k * fluid + s], of a solid's at [k * solids + s - fluid]. */                    \
+    X(Index, fluid_contact, room.fluid_contacts, scratch)                                                          \
+    X(Index, solid_contact, room.solid_contacts, scratch)                                                          \
+    X(Index, contact_count, all, scratch)                                                                          \
+    X(Index, plane_contact, all, scratch)     /* bit k: plane k may be touched in this substep */                  \
+    X(Index, touched, all, scratch)           /* slots that have contacts, in no order */                          \
+    X(Quad<Real>, contact_push, all, scratch) /* w: how many contacts */                                           \
+    /* Where an effect needs them. */                                                                              \
+    X(Real, density, plan.fluid && plan.free_surface_drag ? all : 0, scratch)     /* in units of rest density */   \
+    X(Real, overlaps, plan.dissipation ? all : 0, scratch)                 /* contacts that are, when predicted */ \
+    X(Quad<Real>, normal, plan.fluid && plan.surface_tension ? all : 0, scratch)                                   \
+    X(Quad<Real>, curl, plan.fluid && plan.vorticity ? all : 0, scratch)
+
+// What only the block has.
+#define NATATOR_BLOCK_ARRAYS(X)                  \
+    X(Real, rest_length, size.springs, chip)     \
+    X(int, scan, warps, chip) /* one per warp */ \
+    X(Shared<Real>, common, 1, chip)             \
+    X(Quad<Real>, next_velocity, all, scratch)   \
+    X(ClusterFit<Real>, fit_before, size.clusters, scratch)

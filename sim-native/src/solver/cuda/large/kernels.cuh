@@ -1,0 +1,42 @@
+#pragma once
+
+#include "slots.cuh"
+
+namespace natator::cuda {
+
+inline constexpr int large_threads = 256;  ///< of a block
+
+__device__ inline int own_index() {
+    return static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+}
+
+/// Which States a kernel works on.
+enum class Of { running, all };
+
+template <Of states, class Real>
+__device__ bool left_out(const Slots<Real>& slots) {
+    return states == Of::running && slots.failed();
+}
+
+// The kernels of a large State are these two: what they do is a device function. The y of the grid is the State's number.
+
+/// Calls work(model, slots, s, more...) for the slots s below `count`, by `lanes` threads each.
+template <auto work, Of which, int lanes, int block, int least_blocks, class Real, class... More>
+__global__ void __launch_bounds__(block, least_blocks)
+    for_each_slot(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states, int count,
+                  More... more) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    const int s = own_index() / lanes;
+    if (s < count && !left_out<which>(slots)) work(model, slots, s, more...);
+}
+
+/// Calls work(model, slots, more...) by every thread.
+template <auto work, Of which, int block, int least_blocks, class Real, class... More>
+__global__ void __launch_bounds__(block, least_blocks)
+    for_each_state(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
+                   More... more) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    if (!left_out<which>(slots)) work(model, slots, more...);
+}
+
+}  // namespace natator::cuda
