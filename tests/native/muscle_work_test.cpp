@@ -7,7 +7,7 @@
 #include "energy.h"
 #include "natator/actuate.h"
 #include "physics/constants.h"
-#include "solver/cpu/conserving/solids.h"
+#include "physics/spring.h"
 
 namespace natator::test {
 namespace {

@@ -268,7 +268,7 @@ TEST_P(SolverKernels, MotionIsTheSameInAllSets) {
                                       .end_block = Fluid::blocks,
                                       .position = {x[0], x[1], x[2]},
                                       .start = {x0[0], x0[1], x0[2]},
-                                      .predicted = {v0[0], v0[1], v0[2]},
+                                      .predicted_velocity = {v0[0], v0[1], v0[2]},
                                       .correction = {dx[0], dx[1], dx[2]},
                                       .constraint_count = particles->constraint_count.data(),
                                       .velocity = {v[0], v[1], v[2]}};

@@ -33,7 +33,7 @@ inline namespace NATATOR_SET {
 /// Scheme `flex`: Dx_a = k w_a / (w_a + w_b) (l0 - l) n, the stiffness as it is in every iteration. Returns
 /// Dx_a / w_a = -Dx_b / w_b for `difference` from b to a.
 template <class T>
-NATATOR_HD Vec3<T> spring_push(const Vec3<T>& difference, T weights, T rest_length, const SpringRule<T>& rule) {
+NATATOR_HD Vec3<T> spring_push(const Vec3<T>& difference, T weights, T rest_length, SpringRule<T> rule) {
     const T length = norm(difference);
     if (!(weights > 0 && length > 0)) return {};
     return rule.stiffness * (rest_length - length) / weights / length * difference;
@@ -50,7 +50,7 @@ NATATOR_HD double relative_compliance(double softness, double h) {
 /// `weights` is w_a + w_b, `split` the sum with n. Returns Dx_a / w_a and adds to lambda.
 template <class T>
 NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T split, T rest_length,
-                                    const SpringRule<T>& rule, T h, T& lambda) {
+                                    SpringRule<T> rule, T h, T& lambda) {
     const T length = norm(difference);
     const T alpha = static_cast<T>(
         relative_compliance(rule.softness * static_cast<double>(weights), static_cast<double>(h)));

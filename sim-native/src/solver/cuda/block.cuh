@@ -47,7 +47,6 @@ struct Stopwatch {
 /// Where in a block's memory its arrays begin, in bytes.
 struct Layout {
 #define NATATOR_OFFSET(type, name, count, place) unsigned name;
-    NATATOR_SOLVER_ARRAYS(NATATOR_OFFSET)
     NATATOR_BLOCK_ARRAYS(NATATOR_OFFSET)
 #undef NATATOR_OFFSET
     unsigned chip_bytes, scratch_bytes;
@@ -79,7 +78,6 @@ public:
 
 #define NATATOR_ACCESSOR(type, name, count, place) \
     __device__ type* name() const { return reinterpret_cast<type*>(place() + at_.name); }
-    NATATOR_SOLVER_ARRAYS(NATATOR_ACCESSOR)
     NATATOR_BLOCK_ARRAYS(NATATOR_ACCESSOR)
 #undef NATATOR_ACCESSOR
     __device__ Word* keys() const { return reinterpret_cast<Word*>(next()); }         ///< while slots are numbered

@@ -40,7 +40,6 @@ Layout layout_of(const ModelView<Real>& model, bool on_chip) {
     Pieces chip, scratch;
     Pieces& where_it_fits = on_chip ? chip : scratch;
 #define NATATOR_TAKE(type, name, count, place) at.name = place.template take<type>(count);
-    NATATOR_SOLVER_ARRAYS(NATATOR_TAKE)
     NATATOR_BLOCK_ARRAYS(NATATOR_TAKE)
 #undef NATATOR_TAKE
     at.chip_bytes = chip.used();

@@ -40,7 +40,7 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Quad<Real>, member_displacement, turns ? size.members : 0)                                                      \
     X(Quad<Real>, member_push, turns ? size.members : 0)
 
-#define NATATOR_STATE_ARRAYS(X) NATATOR_SOLVER_ARRAYS(X) NATATOR_LARGE_ARRAYS(X)
+#define NATATOR_STATE_ARRAYS(X) NATATOR_CHIP_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_LARGE_ARRAYS(X)
 
 // The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise. An entry is a slot
 // with the set of planes that it is the ghost of: planes << most_slot_bits | slot.

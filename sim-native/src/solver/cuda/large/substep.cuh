@@ -27,18 +27,18 @@ struct LargeLaunch {
     dim3 grid(int blocks) const { return {static_cast<unsigned>(blocks), static_cast<unsigned>(states)}; }
 
     /// Calls work(model, slots, s, more...) for the slots s below `count` of each State, by `lanes` threads each.
-    template <auto work, int lanes = 1, int block = large_threads, int least_blocks = 1, class... More>
+    template <auto work, int lanes = 1, int block = large_threads, int least_blocks = 0, class... More>
     void each_slot(int count, More... more) const {
         if (count > 0)
             for_each_slot<work, Of::running, lanes, block, least_blocks>
                 <<<grid(blocks_for(count * lanes, block)), block, 0, stream>>>(model, slots, count, more...);
     }
-    template <auto work, int least_blocks = 1>
+    template <auto work, int least_blocks = 0>
     void each_particle() const {
         each_slot<work, 1, large_threads, least_blocks>(model.particles);
     }
     /// Calls work(model, slots, more...) by all threads of the blocks for each State.
-    template <auto work, int block = large_threads, int least_blocks = 1, class... More>
+    template <auto work, int block = large_threads, int least_blocks = 0, class... More>
     void each_state(int blocks, More... more) const {
         for_each_state<work, Of::running, block, least_blocks>
             <<<grid(blocks), block, 0, stream>>>(model, slots, more...);
@@ -47,13 +47,13 @@ struct LargeLaunch {
     template <auto work, class... More>
     void report_slots(int count, More... more) const {
         if (count > 0)
-            for_each_slot<work, Of::all, 1, large_threads, 1>
+            for_each_slot<work, Of::all, 1, large_threads, 0>
                 <<<grid(blocks_for(count, large_threads)), large_threads, 0, stream>>>(model, slots, count, more...);
         check(cudaGetLastError(), "launch");
     }
     template <auto work, int block>
     void report_states() const {
-        for_each_state<work, Of::all, block, 1><<<grid(1), block, 0, stream>>>(model, slots);
+        for_each_state<work, Of::all, block, 0><<<grid(1), block, 0, stream>>>(model, slots);
         check(cudaGetLastError(), "launch");
     }
 
