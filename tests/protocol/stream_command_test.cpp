@@ -297,9 +297,9 @@ TEST(StreamCommandTest, OverridesDoNotGrowWithoutEnd) {
     std::string error;
     while (accepted < 10 && error.empty()) {
         json overrides;
-        for (int k = 0; k < 10'000; ++k) {
-            std::string key(20, 'x');
-            key.append(std::to_string(10'000 * accepted + k));
+        for (int k = 0; k < 500; ++k) {
+            std::string key(600, 'x');
+            key.append(std::to_string(500 * accepted + k));
             overrides[key] = nullptr;
         }
         const json answer = client.ask({{"do", "overrides"}, {"overrides", overrides}});
