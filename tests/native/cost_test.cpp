@@ -67,7 +67,7 @@ TEST(CostTest, NeighboursAreEstimatedFromAbove) {
             const Model model = build_model(scene);
             Solver<float> solver(model);
             State<float> state = initial_state<float>(model);
-            for (int frame = 0; frame < 5; ++frame) ASSERT_FALSE(solver.frame(state, resting_gait(model.actuators)));
+            for (int frame = 0; frame < 2; ++frame) ASSERT_FALSE(solver.frame(state, resting_gait(model.actuators)));
             const std::vector<int> counts = solver.neighbour_counts();
             const double found = std::accumulate(counts.begin(), counts.end(), 0.0);
             EXPECT_GE(cost_of(model).neighbours, found) << name;

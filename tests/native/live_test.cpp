@@ -57,7 +57,7 @@ TEST(LiveTest, BeginsWithTheSettledStart) {
 
 TEST(LiveTest, FramesAreThoseOfAnEvaluationBitByBit) {
     for (const char* scheme : {"flex", "conserving"}) {
-        const json overrides{{"scheme", scheme}};
+        const json overrides{{"scheme", scheme}, {"settling", {{"updates", 5}}}};
         LiveSimulation<float> simulation = swimmer(in_water, overrides);
         for (const int frames : {1, 2, 9}) {
             const Evaluation expected = evaluated(in_water, frames, overrides);

@@ -32,7 +32,7 @@ protected:
     ~SettledStateCacheTest() override { fs::remove_all(cache_.folder()); }
 
     static Scene scene(const std::string& overrides = "{}") {
-        nlohmann::json all = {{"duration", 0.05}};
+        nlohmann::json all = {{"duration", 0.02}, {"settling", {{"updates", 5}}}};
         all.merge_patch(nlohmann::json::parse(overrides));
         return load_scene("bench/small-tank", all);
     }

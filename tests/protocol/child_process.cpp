@@ -1,3 +1,4 @@
+// The one source of the tests that each build compiles for itself: it knows what is tested.
 #include "child_process.h"
 
 #include <fcntl.h>
@@ -58,14 +59,24 @@ Outcome run_program(const char* program, const std::vector<std::string>& argumen
 
 }  // namespace
 
+const char* simulator() { return NATATOR_SIM_PATH; }
+
+bool sanitized() {
+#ifdef NATATOR_SANITIZED
+    return true;
+#else
+    return false;
+#endif
+}
+
 Outcome run_simulator(const std::vector<std::string>& arguments, const std::string& input,
                       const std::string& out_path) {
-    return run_program(NATATOR_SIM_PATH, arguments, input, out_path);
+    return run_program(simulator(), arguments, input, out_path);
 }
 
 Outcome run_with_memory(std::size_t bytes, const std::vector<std::string>& arguments, const std::string& input) {
     std::vector<std::string> all{"-c", "ulimit -v " + std::to_string(bytes >> 10) + " && exec \"$0\" \"$@\"",
-                                 NATATOR_SIM_PATH};
+                                 simulator()};
     all.insert(all.end(), arguments.begin(), arguments.end());
     return run_program("/bin/sh", all, input, "");
 }

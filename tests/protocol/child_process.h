@@ -8,6 +8,12 @@ namespace natator::test {
 /// A gait of creature 1.
 inline constexpr const char* gait = R"({"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]})";
 
+/// Path of natator-sim.
+const char* simulator();
+
+/// Whether what is tested is built with sanitizers.
+bool sanitized();
+
 /// What a finished program left behind.
 struct Outcome {
     int exit_code = -1;  ///< -1 if a signal ended it

@@ -11,6 +11,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "child_process.h"
+
 namespace natator::test {
 namespace {
 
@@ -83,14 +85,14 @@ StreamClient::StreamClient(const std::vector<std::string>& arguments) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, child_input, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, child_output, STDOUT_FILENO);
-    std::vector<char*> argv{const_cast<char*>(NATATOR_SIM_PATH), const_cast<char*>("stream")};
+    std::vector<char*> argv{const_cast<char*>(simulator()), const_cast<char*>("stream")};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    const int failed = posix_spawn(&pid_, NATATOR_SIM_PATH, &actions, nullptr, argv.data(), environ);
+    const int failed = posix_spawn(&pid_, simulator(), &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(child_input);
     ::close(child_output);
-    if (failed != 0) throw std::runtime_error("cannot start " NATATOR_SIM_PATH);
+    if (failed != 0) throw std::runtime_error(std::string("cannot start ") + simulator());
 }
 
 StreamClient::~StreamClient() {

@@ -236,11 +236,7 @@ TEST(StreamTest, AReaderThatStopsReadingCostsNoMemory) {
         ::usleep(2'000);
     }
     EXPECT_LT(taken, 140 * command.size());
-#ifdef NATATOR_SANITIZED
-    constexpr double room = 300;  // MB: what is freed is kept aside for a while
-#else
-    constexpr double room = 30;
-#endif
+    const double room = sanitized() ? 300 : 30;  // MB: sanitizers keep aside for a while what is freed
     EXPECT_LT(resident(client.pid()), before + room);
     EXPECT_GT(before, 1);
 }

@@ -13,7 +13,6 @@ import io.natator.config.SimulatorMode;
 import io.natator.encoding.Gait;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.FakeSimulator;
-import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SimulationResult.Status;
 import java.io.IOException;
@@ -21,11 +20,8 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.concurrent.TimeUnit;
-import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.IntConsumer;
 import java.util.stream.LongStream;
 import java.util.stream.Stream;
@@ -39,13 +35,11 @@ import org.junit.jupiter.params.provider.CsvSource;
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
 class FaultInjectionTest {
 
-    private static final Path REAL = Path.of(System.getProperty("natator.simulator")).normalize();
-
     @TempDir
     private Path folder;
 
-    /** {@code then} is told how many evaluations there have been. */
-    private static List<EvaluationRecord> evolve(EvolutionSettings settings, ExecutionSettings execution,
+    /** Also used where other simulators fail; {@code then} is told how many evaluations there have been. */
+    static List<EvaluationRecord> evolve(EvolutionSettings settings, ExecutionSettings execution,
             IntConsumer then) {
         List<EvaluationRecord> evaluations = new ArrayList<>();
         try (Evaluator evaluator = Evaluator.open(execution)) {
@@ -106,48 +100,5 @@ class FaultInjectionTest {
         }
         assertThatNoChildIsLeft();
         assertThatOpenFilesAreAtMost(filesBefore + 4);
-    }
-
-    /** What survives has the bits of an evaluation in peace; what was killed twice says so. */
-    @Test
-    void theRealSimulatorUnderKill9() throws IOException, InterruptedException {
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
-                .withSize(40, EvolutionSettings.NO_LIMIT).withEvaluations(160L).withScene(null, 0.05, null);
-        ExecutionSettings execution =
-                new ExecutionSettings(REAL, 2, Duration.ofMinutes(5)).withMode(SimulatorMode.RESIDENT);
-        long filesBefore = openFiles();
-        AtomicInteger kills = new AtomicInteger();
-        List<EvaluationRecord> evaluations = evolve(settings, execution, count -> killNowAndThen(count, kills));
-        assertThat(evaluations).hasSize(160);
-        assertThat(kills.get()).as("processes killed").isGreaterThan(10);
-        assertThatNoChildIsLeft();
-        assertThatOpenFilesAreAtMost(filesBefore + 4);
-        List<SimulationRequest> requests = evaluations.stream()
-                .map(one -> new SimulationRequest(one.result().id(), settings.scene(), one.gait(), 0.05, null, null))
-                .toList();
-        Map<Long, SimulationResult> inPeace = new HashMap<>();
-        try (Evaluator evaluator = Evaluator.open(execution)) {
-            evaluator.evaluateAll(requests, result -> inPeace.put(result.id(), result));
-        }
-        for (EvaluationRecord evaluation : evaluations) {
-            SimulationResult result = evaluation.result();
-            if (result.status() == Status.FAILED) {
-                // The second is Java's helper that was killed on its way to become the simulator.
-                assertThat(result.error()).containsAnyOf("exit status 137", "signal: 9");
-            } else {
-                assertThat(result).isEqualTo(inPeace.get(result.id()));
-            }
-        }
-    }
-
-    /** After every fourth evaluation, one process or the other, whatever it is doing. */
-    private static void killNowAndThen(int evaluations, AtomicInteger kills) {
-        if (evaluations % 4 == 0) {
-            ProcessHandle.current().children().skip(evaluations / 4 % 2).findFirst().ifPresent(child -> {
-                if (child.destroyForcibly()) {
-                    kills.incrementAndGet();
-                }
-            });
-        }
     }
 }

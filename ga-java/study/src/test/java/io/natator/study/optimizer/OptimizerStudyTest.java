@@ -96,7 +96,7 @@ class OptimizerStudyTest {
                 String run = "creature-3/" + variant.label() + "/seed-" + seed + "/";
                 for (String file : List.of("evaluations.jsonl", "generations.csv", "best.json")) {
                     assertThat(folder.resolve("pieces").resolve(run + file))
-                            .hasSameTextualContentAs(folder.resolve("whole").resolve(run + file));
+                            .hasSameBinaryContentAs(folder.resolve("whole").resolve(run + file));
                 }
                 assertThat(folder.resolve("whole").resolve(run + "evaluations.jsonl").toFile())
                         .satisfies(log -> assertThat(Files.readAllLines(log.toPath())).hasSize(EVALUATIONS));
@@ -104,7 +104,7 @@ class OptimizerStudyTest {
         }
         for (String file : List.of("README.md", "comparison.csv")) {
             assertThat(folder.resolve("pieces").resolve(file))
-                    .hasSameTextualContentAs(folder.resolve("whole").resolve(file));
+                    .hasSameBinaryContentAs(folder.resolve("whole").resolve(file));
         }
         assertThat(Files.readAllLines(folder.resolve("whole/comparison.csv"))).hasSize(1 + 4 * 4);
         // The toy drifts by its frequency less 1 in vacuum.
@@ -141,7 +141,7 @@ class OptimizerStudyTest {
         lines.report("the command");
         for (String file : List.of("README.md", "comparison.csv")) {
             assertThat(folder.resolve("lines").resolve(file))
-                    .hasSameTextualContentAs(folder.resolve("whole").resolve(file));
+                    .hasSameBinaryContentAs(folder.resolve("whole").resolve(file));
         }
         assertThat(folder.resolve("lines/creature-3.jsonl")).content().hasLineCount(12);
         assertThat(folder.resolve("lines/creature-3")).doesNotExist();

@@ -1,0 +1,101 @@
+package io.natator.view;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.awt.image.BufferedImage;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.regex.Pattern;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+/** The picture of a swimmer in water, in both ways of drawing and with less detail. */
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
+class ViewPictureTest extends ViewBrowserTest {
+
+    /** An empty picture has its background's few colours. */
+    private static final int LEAST_COLOURS = 500;
+
+    @Test
+    void aSwimmerInWaterIsSeen() {
+        open(water);
+        await("natator.fps() > 0");
+
+        BufferedImage before = picture(get("picture-a"));
+        assertThat(colours(before)).isGreaterThan(LEAST_COLOURS);
+        await("natator.frame() > 60");
+        assertThat(difference(before, picture(get("picture-a")))).as("what has moved").isGreaterThan(0.005);
+        assertThat(get("time-a")).containsText("s");
+        assertThat(get("dropped-a")).hasText(Pattern.compile("\\d+"));
+        assertThat(get("distance-a")).hasText(Pattern.compile("-?\\d+\\.\\d+"));
+        assertThat(get("overlay-a")).isHidden();
+        assertThat(get("banner")).isHidden();
+    }
+
+    /** Each of them draws its own way; both must do without a graphics card. */
+    @ParameterizedTest
+    @CsvSource({"webgl, WebGL", "plain, processor"})
+    void bothWaysOfDrawingShowIt(String drawing, String name) {
+        open(water);
+        get("run").click();
+        get("drawing").selectOption(drawing);
+        choose("water-none");
+        BufferedImage without = stillPicture(get("picture-a"));
+        assertThat(page.evaluate("() => natator.drawing()")).isEqualTo(name);
+        for (String shown : List.of("spheres", "surface")) {
+            choose("water-" + shown);
+            BufferedImage with = stillPicture(get("picture-a"));
+            keepPicture("ViewPictureTest-" + drawing + "-" + shown);
+            assertThat(colours(with)).as("colours of %s", shown).isGreaterThan(LEAST_COLOURS);
+            assertThat(difference(without, with)).as("share of %s", shown).isGreaterThan(0.2);
+        }
+    }
+
+    /** Slows the page down, so that it draws with less detail; notes each picture that it shows black. */
+    private static final String SLOW_AND_WATCHED = """
+            () => {
+              const sample = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+              window.black = 0;
+              const next = () => {
+                const until = performance.now() + 25;
+                while (performance.now() < until && !window.isQuick) { }
+                sample.clearRect(0, 0, 30, 30);
+                sample.drawImage(document.querySelector('.picture canvas'), 0, 0, 30, 30);
+                const {data} = sample.getImageData(0, 0, 30, 30);
+                window.black += data.every((value, i) => i % 4 === 3 || value < 8) ? 1 : 0;
+                requestAnimationFrame(next);
+              };
+              requestAnimationFrame(next);
+            }""";
+
+    @Test
+    void lessDetailIsNoBlackFlash() {
+        open(water);
+        get("drawing").selectOption("webgl");
+        awaitDrawings(3);
+        page.evaluate(SLOW_AND_WATCHED);
+
+        await("natator.share() < 0.8");
+
+        assertThat(number("window.black")).as("black pictures").isZero();
+    }
+
+    @Test
+    void aPausedPictureGetsAllItsDetail() {
+        open(water);
+        get("drawing").selectOption("webgl");
+        page.evaluate(SLOW_AND_WATCHED);
+        await("natator.share() < 1");
+
+        get("run").click();
+
+        await("natator.share() === 1");
+        page.evaluate("() => { window.isQuick = true; }");
+        BufferedImage still = stillPicture(get("picture-a"));
+        assertThat(number("natator.share()")).isOne();
+        assertThat(colours(still)).isGreaterThan(LEAST_COLOURS);
+    }
+}
