@@ -9,6 +9,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Judge;
 import io.natator.config.Limits;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
@@ -59,8 +60,9 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
-            description = "quick (population 16, 3 generations of 2 s in pool/creature-N) or thesis (150, 100, as "
-                    + "thesis/creature-N has it). Other options change parts of it. Default: ${DEFAULT-VALUE}.")
+            description = "quick (population 16, 3 generations of 2 s in pool/creature-N, 1 start) or thesis (150, 100, "
+                    + "as thesis/creature-N has it, 4 starts). Other options change parts of it. "
+                    + "Default: ${DEFAULT-VALUE}.")
     private Preset preset;
 
     @Section(Topic.EXTENT)
@@ -73,8 +75,19 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--evaluations", paramLabel = "N",
-            description = "End after so many evaluations, from 1. Default: what the generations take.")
+            description = "End after so many evaluations, from 1; of several starts, with the last whole gait. "
+                    + "Default: what the generations take.")
     private Long evaluations;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--starts", paramLabel = "K", description = "Run every gait from so many starts, from 1, and the best "
+            + "of each generation again from others; 1 is the scene's own start, once. Default: the preset's.")
+    private Integer starts;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--judge", paramLabel = "HOW", defaultValue = "mean", description = "What the runs of a gait are worth: "
+            + "mean, median (from 3 starts) or lower-quartile (from 4). Default: ${DEFAULT-VALUE}.")
+    private Judge judge;
 
     @Section(Topic.SEARCH)
     @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
@@ -172,6 +185,7 @@ final class EvolveCommand implements Callable<Integer> {
                 .withSize(population != null ? population : preset.population(), generations())
                 .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)
                 .withFitness(fitness, vacuumCheck).withBackend(execution.backend())
+                .withStarts(starts != null ? starts : preset.starts(), judge)
                 .withScene(sceneOptions.scheme(),
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
                         sceneOptions.overrides());

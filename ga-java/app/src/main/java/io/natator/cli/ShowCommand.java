@@ -63,6 +63,8 @@ final class ShowCommand implements Callable<Integer> {
         if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.gaussianDeviation());
         }
+        text.append(settings.starts() == 1 ? "" : ", " + EnumNames.of(settings.judge()) + " of " + settings.starts()
+                + " starts");
         text.append(settings.fitness() == FitnessKind.NET ? ", net fitness" : "");
         text.append(", backend ").append(settings.backend().argument());
         text.append(settings.scheme() == null ? "" : ", scheme " + settings.scheme().name().toLowerCase(Locale.ROOT));

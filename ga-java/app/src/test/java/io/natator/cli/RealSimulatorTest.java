@@ -67,13 +67,14 @@ class RealSimulatorTest {
     }
 
     /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
-    @Test
-    void everyModeGivesTheSameBits() throws IOException {
+    @ParameterizedTest
+    @ValueSource(strings = {"1", "2"})
+    void everyModeGivesTheSameBits(String starts) throws IOException {
         List<String> logs = new ArrayList<>();
         for (String mode : List.of("process", "resident", "batch")) {
             Path run = folder.resolve(mode);
             assertThat(natator("evolve", "--population", "6", "--generations", "1", "--duration", "0.1", "--workers",
-                    "2", "--no-cache", "--simulator", mode, "--output-dir", run.toString())).as(err.toString()).isZero();
+                    "2", "--starts", starts, "--no-cache", "--simulator", mode, "--output-dir", run.toString())).as(err.toString()).isZero();
             logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
         }
 

@@ -11,6 +11,8 @@ import io.natator.simulator.SimulationResult;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.SortedMap;
+import java.util.TreeMap;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -134,28 +136,42 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return optional(directory, name, JsonNode.class);
     }
 
-    /** The best evaluation of all generations up to this one, the earliest of equals; null if none is recorded. */
-    public EvaluationRecord bestUntil(int generation) {
-        EvaluationRecord found = null;
-        for (EvaluationRecord one : evaluations) {
-            if (one.generation() <= generation && one.result().status() == SimulationResult.Status.OK
-                    && (found == null || one.result().score() > found.result().score())) {
-                found = one;
+    /** The best gait of all generations up to this one, the earliest of equals; null if none is recorded. */
+    public JudgedGait bestUntil(int generation) {
+        JudgedGaits gaits = new JudgedGaits(settings);
+        evaluations.stream().filter(one -> one.generation() <= generation).forEach(gaits::add);
+        return gaits.best();
+    }
+
+    /** The best gait up to each generation that any is recorded of, the earliest generation first. */
+    public SortedMap<Integer, JudgedGait> bestsByGeneration() {
+        JudgedGaits gaits = new JudgedGaits(settings);
+        SortedMap<Integer, JudgedGait> bests = new TreeMap<>();
+        for (int i = 0; i < evaluations.size(); i++) {
+            int generation = evaluations.get(i).generation();
+            gaits.add(evaluations.get(i));
+            boolean isLast = i + 1 == evaluations.size() || evaluations.get(i + 1).generation() != generation;
+            if (isLast && gaits.best() != null) {
+                bests.put(generation, gaits.best());
             }
         }
-        return found;
+        return bests;
+    }
+
+    /** All gaits that are recorded, the best first. */
+    public List<JudgedGait> gaits() {
+        JudgedGaits gaits = new JudgedGaits(settings);
+        evaluations.forEach(gaits::add);
+        return gaits.ranked();
     }
 
     /** Best fitness after each evaluation. */
     public double[] bestFitness() {
-        return bestFitness(evaluations);
-    }
-
-    /** Best fitness after each of these evaluations. */
-    public static double[] bestFitness(List<EvaluationRecord> evaluations) {
-        double[] best = evaluations.stream().mapToDouble(one -> one.result().fitness()).toArray();
-        for (int i = 1; i < best.length; i++) {
-            best[i] = Math.max(best[i], best[i - 1]);
+        JudgedGaits gaits = new JudgedGaits(settings);
+        double[] best = new double[evaluations.size()];
+        for (int i = 0; i < best.length; i++) {
+            gaits.add(evaluations.get(i));
+            best[i] = gaits.best() == null ? 0 : Math.max(gaits.best().score(), 0);
         }
         return best;
     }

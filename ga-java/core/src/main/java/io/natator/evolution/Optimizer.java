@@ -11,11 +11,11 @@ import java.util.List;
 interface Optimizer extends AutoCloseable {
 
     /**
-     * Takes note of the simulations of earlier generations, when a run continues.
+     * Takes note of what was evaluated in earlier generations, when a run continues.
      *
-     * @param earlier all of them, in the order of their ids
+     * @param earlier all newborns in their order, each as it was before any was run again
      */
-    default void recall(List<EvaluationRecord> earlier) {
+    default void recall(List<Individual> earlier) {
     }
 
     /**

@@ -4,10 +4,13 @@ import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.Simulator;
+import java.util.SplittableRandom;
 import java.util.concurrent.atomic.AtomicInteger;
 
 /** Swims by a formula, in this process; takes an uneven time so that workers finish out of order. */
 public final class ToySimulator implements Simulator {
+
+    static final double LUCK = 0.1;
 
     private final AtomicInteger calls = new AtomicInteger();
 
@@ -17,7 +20,8 @@ public final class ToySimulator implements Simulator {
         if (request.id() % 5 == 0) {
             Thread.sleep(1);
         }
-        double distance = isVacuum(request) ? drift(request.gait()) : distance(request.gait());
+        double distance = isVacuum(request) ? drift(request.gait())
+                : distance(request.gait()) + luck(request.gait(), request.start());
         return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex",
                 "float", "0123456789abcdef", null, null);
     }
@@ -29,6 +33,11 @@ public final class ToySimulator implements Simulator {
             distance -= Math.pow(gait.amplitude().get(i) - 0.6, 2) + (i == 0 ? 0 : Math.pow(gait.phase().get(i) - 0.3, 2));
         }
         return distance;
+    }
+
+    /** What a start adds, of standard deviation {@value #LUCK}, otherwise for each gait; nothing from the scene's own. */
+    static double luck(Gait gait, Integer start) {
+        return start == null ? 0 : LUCK * new SplittableRandom(31L * start + gait.hashCode()).nextGaussian();
     }
 
     private static boolean isVacuum(SimulationRequest request) {

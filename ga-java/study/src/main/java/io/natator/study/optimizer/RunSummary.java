@@ -28,7 +28,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         List<Improvement> improvements) {
 
     /**
-     * An evaluation that was better than all before it.
+     * An evaluation that changed how good the best gait is; for the worse, where it was that gait's own, from another start.
      *
      * @param evaluation its number, from 0
      * @param fitness    what it was judged by
@@ -42,7 +42,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         List<Improvement> improvements = new ArrayList<>();
         double[] best = run.bestFitness();
         for (int i = 0; i < best.length; i++) {
-            if (i == 0 || best[i] > best[i - 1]) {
+            if (i == 0 || best[i] != best[i - 1]) {
                 improvements.add(new Improvement(i, best[i]));
             }
         }
