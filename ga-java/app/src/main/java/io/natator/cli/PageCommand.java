@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -13,6 +14,7 @@ import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
+import io.natator.verdict.Mechanics;
 import io.natator.verdict.Reproduction;
 import io.natator.verdict.Verdict;
 import java.nio.file.Path;
@@ -136,7 +138,13 @@ final class PageCommand implements Callable<Integer> {
         String name = swimmer.run() == null ? swimmer.name() : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
         return new Replay(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
                 + " s", swim.scene(), swim.json(), swim.frames(),
-                stored == null ? null : Verdict.of(swimmer.best()).text());
+                stored == null ? null : judgement(swimmer.best()));
+    }
+
+    /** Whether it swims, how sure that is, and what it costs. */
+    private static String judgement(BestGait best) {
+        String mechanics = Mechanics.of(best);
+        return Verdict.of(best).text() + (mechanics == null ? "" : " (" + mechanics + ")");
     }
 
     private void warn(Reproduction stored, List<StreamFrame> frames) throws InterruptedException {

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
@@ -9,6 +10,7 @@ import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
+import io.natator.verdict.ControlVerdict;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
@@ -39,6 +41,7 @@ final class ShowCommand implements Callable<Integer> {
         out.println(progress(run));
         if (run.state() != null) {
             new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
+            printControls(run, out);
             printSavings(run, out);
         }
         printVacuum(run.vacuum(), out);
@@ -83,6 +86,13 @@ final class ShowCommand implements Callable<Integer> {
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
                                 + " resume " + run.directory());
+    }
+
+    private static void printControls(StoredRun run, PrintWriter out) {
+        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().gait());
+        if (controls != null) {
+            out.println("  checked     " + ControlVerdict.of(controls).text());
+        }
     }
 
     private static void printSavings(StoredRun run, PrintWriter out) {

@@ -3,6 +3,7 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Json;
@@ -64,6 +65,33 @@ class RealSimulatorTest {
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
+    }
+
+    /** In the pool, whose scheme has no clamp; half a second is too short to swim, so only what was run is looked at. */
+    @ParameterizedTest
+    @CsvSource({"pool/creature-1, false", "thesis/creature-1, true"})
+    void aWinnerIsCheckedByItsControls(String scene, boolean hasClamp) throws IOException {
+        Path run = folder.resolve("run");
+        assertThat(natator("evolve", "--scene", scene, "--population", "3", "--generations", "0", "--duration", "0.2",
+                "--output-dir", run.toString())).as(err.toString()).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("check", "--starts", "2", run.toString())).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("in water ", "with resting muscles ", "in vacuum ", "half the time step ",
+                "mirrored ", "other backend             not tried", "under water ", "2 completed", "\nverdict: ");
+        assertThat(out.toString().contains("no acceleration clamp")).isEqualTo(hasClamp);
+        Controls controls = Json.read(run.resolve("check.json"), Controls.class, "check");
+        assertThat(controls.underWater()).isBetween(0.5, 1.0);
+        assertThat(controls.water().distance().sd()).as("two different starts").isPositive();
+        assertThat(controls.halfStep().substeps()).isEqualTo(2 * controls.water().substeps());
+        assertThat(Math.abs(controls.vacuum().distance().mean())).isLessThan(hasClamp ? 1 : 1e-6);
+        assertThat(controls.resting().work() == null ? 0 : controls.resting().work()).isZero();
+        assertThat(controls.mirrored().distance()).isNotEqualTo(controls.water().distance());
+
+        out.getBuffer().setLength(0);
+        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).execute("show", run.toString())).isZero();
+        assertThat(out.toString()).contains("  checked     ");
     }
 
     /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */

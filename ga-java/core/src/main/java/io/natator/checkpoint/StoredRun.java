@@ -118,7 +118,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
             LOG.warn("{}; taken from {} instead", e.getMessage(), RunFolder.CHECKPOINT);
         }
         return state == null || state.best() == null ? null : BestGait.of(settings.scene(), state.best(),
-                settings.encoding().forActuators(settings.actuators()).decode(state.best().genes()), null, null);
+                settings.encoding().forActuators(settings.actuators()).decode(state.best().genes()));
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */

@@ -4,6 +4,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -18,6 +19,8 @@ import io.natator.kinematics.ModeFit;
 import io.natator.kinematics.Swimming;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
+import io.natator.verdict.ControlVerdict;
+import io.natator.verdict.FreshText;
 import io.natator.verdict.Mechanics;
 import io.natator.verdict.Reproduction;
 import io.natator.verdict.Verdict;
@@ -71,8 +74,11 @@ public final class GaitReport {
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         progress(page);
         Verdict verdict = Verdict.of(run.best());
-        page.text("**" + verdict.text() + "** (one run, not a mean)."
+        page.text("**" + verdict.text() + "**" + (run.best().fresh() == null ? " (one run, not a mean)." : ".")
                 + (verdict.advice() == null ? "" : " To go on: " + verdict.advice() + "."));
+        Controls controls = Controls.of(run.directory(), run.best().gait());
+        page.text(controls == null ? "Its controls were not run; `natator check " + run.directory() + "` runs them."
+                : "By its controls (`natator check`): **" + ControlVerdict.of(controls).text() + "**.");
         difference = difference(recording, execution);
         if (difference != null) {
             page.text(difference + ".");
@@ -149,9 +155,12 @@ public final class GaitReport {
         rows.add(List.of("frequency (1/s)", number(gait.frequency())));
         rows.add(List.of("amplitudes", numbers(gait.amplitude())));
         rows.add(List.of("phases", numbers(gait.phase())));
-        rows.add(List.of("speed in fluid (units/s)", number(best.speed())));
-        rows.add(List.of("speed in fluid (body lengths/s)", number(best.speed() / length)));
-        String mechanics = Mechanics.of(best.result());
+        FreshText.of(best).forEach((name, text) -> rows.add(List.of(name + " in fluid", text)));
+        if (best.fresh() == null) {
+            rows.add(List.of("speed in fluid (units/s), one run", number(best.speed())));
+            rows.add(List.of("speed in fluid (body lengths/s), one run", number(best.speed() / length)));
+        }
+        String mechanics = Mechanics.of(best);
         if (mechanics != null) {
             rows.add(List.of("mechanics", mechanics));
         }

@@ -59,7 +59,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         List<Generation> generations = generations(run);
         return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
                 settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()),
-                run.best() == null ? null : Mechanics.of(run.best().result()));
+                run.best() == null ? null : Mechanics.of(run.best()));
     }
 
     /** What the page calls a run: its folder, without where that is. */
