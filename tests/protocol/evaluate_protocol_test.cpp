@@ -31,7 +31,7 @@ TEST(EvaluateProtocolTest, AResultHasExactlyTheDocumentedFields) {
     const json result = result_of(request("thesis/creature-1", 0.1));
     std::vector<std::string> keys;
     for (const auto& [key, value] : result.items()) keys.push_back(key);
-    EXPECT_EQ(keys, (std::vector<std::string>{"distance", "fitness", "frames", "hash", "id", "laws", "precision",
+    EXPECT_EQ(keys, (std::vector<std::string>{"course", "distance", "fitness", "frames", "hash", "id", "laws", "precision",
                                               "scheme", "simulated", "status", "stopped"}));
     for (const char* figure : {"linearMomentum", "angularMomentum", "densityErrorMean", "densityErrorMax"}) {
         EXPECT_GT(result["laws"].at(figure).get<double>(), 0) << figure;

@@ -14,6 +14,7 @@ import io.natator.config.Limits;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
+import io.natator.config.WeightedObjective;
 import io.natator.simulator.SceneInfo;
 import java.io.IOException;
 import java.nio.file.Path;
@@ -35,6 +36,7 @@ import picocli.CommandLine.Spec;
         footer = {"", "Examples:",
             "  natator evolve --creature 2 --generations 6",
             "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
+            "  natator evolve --optimizer nsga2 --objectives distance,work",
             "  natator evolve --preset thesis --dry-run"})
 final class EvolveCommand implements Callable<Integer> {
 
@@ -91,7 +93,8 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.SEARCH)
     @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
-            description = "jgap (the thesis' genetic algorithm), cma-es or random. Default: ${DEFAULT-VALUE}.")
+            description = "jgap (the thesis' genetic algorithm), cma-es, random, or for several objectives nsga2. "
+                    + "Default: ${DEFAULT-VALUE}.")
     private OptimizerKind optimizer;
 
     @Section(Topic.SEARCH)
@@ -113,6 +116,12 @@ final class EvolveCommand implements Callable<Integer> {
     @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
             + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
     private FitnessKind fitness;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--objectives", paramLabel = "NAME[=WEIGHT],...", description = "What is rewarded instead of --fitness: "
+            + "distance, net, forward (by its own heading), straight, work, efficiency. One; several with weights, as a sum; "
+            + "for nsga2 several without.")
+    private String objectives;
 
     @Section(Topic.SEARCH)
     @Option(names = "--vacuum-check", description = "Run every generation's new best in vacuum too; see vacuum.jsonl.")
@@ -183,9 +192,11 @@ final class EvolveCommand implements Callable<Integer> {
         int actuators = SceneInfo.toEvolve(sceneName, kind, sceneOptions.overrides(), execution.simulator()).actuators();
         return EvolutionSettings.of(sceneName, kind, actuators)
                 .withSize(population != null ? population : preset.population(), generations())
-                .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)
+                .withEvaluations(evaluations).withSeed(seed)
+                .withOptimizer(OptimizerKind.JGAP, operators, gaussianDeviation)
                 .withFitness(fitness, vacuumCheck).withBackend(execution.backend())
                 .withStarts(starts != null ? starts : preset.starts(), judge)
+                .withObjectives(optimizer, objectives == null ? null : WeightedObjective.parse(objectives))
                 .withScene(sceneOptions.scheme(),
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
                         sceneOptions.overrides());

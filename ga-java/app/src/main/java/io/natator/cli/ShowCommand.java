@@ -9,6 +9,7 @@ import io.natator.config.FitnessKind;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
+import io.natator.evolution.Individual;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.ControlVerdict;
 import java.io.PrintWriter;
@@ -16,6 +17,7 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Locale;
 import java.util.concurrent.Callable;
+import java.util.stream.Collectors;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Model.CommandSpec;
@@ -42,6 +44,7 @@ final class ShowCommand implements Callable<Integer> {
         if (run.state() != null) {
             new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
             printControls(run, out);
+            printFront(run, out);
             printSavings(run, out);
         }
         printVacuum(run.vacuum(), out);
@@ -68,6 +71,9 @@ final class ShowCommand implements Callable<Integer> {
         }
         text.append(settings.starts() == 1 ? "" : ", " + EnumNames.of(settings.judge()) + " of " + settings.starts()
                 + " starts");
+        text.append(settings.objectives() == null ? "" : ", objectives " + settings.objectives().stream()
+                .map(one -> EnumNames.of(one.objective()) + (one.weight() == null ? "" : "=" + one.weight()))
+                .collect(Collectors.joining(",")));
         text.append(settings.fitness() == FitnessKind.NET ? ", net fitness" : "");
         text.append(", backend ").append(settings.backend().argument());
         text.append(settings.scheme() == null ? "" : ", scheme " + settings.scheme().name().toLowerCase(Locale.ROOT));
@@ -86,6 +92,21 @@ final class ShowCommand implements Callable<Integer> {
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
                                 + " resume " + run.directory());
+    }
+
+    /** What no other gait is better than in all objectives. */
+    private static void printFront(StoredRun run, PrintWriter out) {
+        List<Individual> front = run.front();
+        if (front.isEmpty()) {
+            return;
+        }
+        out.println("of several objectives, the gaits that no other is better than in all");
+        out.println("  " + run.settings().objectives().stream().map(one -> String.format("%-14s", EnumNames.of(one.objective())))
+                .collect(Collectors.joining()) + "runs  genes");
+        for (Individual one : front) {
+            out.println("  " + one.objectives().stream().map(value -> String.format("%-14s", RunReport.number(value)))
+                    .collect(Collectors.joining()) + String.format("%-6d", one.runs()) + RunReport.row(one.genes()));
+        }
     }
 
     private static void printControls(StoredRun run, PrintWriter out) {

@@ -4,8 +4,11 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.Individual;
+import io.natator.evolution.ParetoRanking;
 import io.natator.file.JsonLines;
 import io.natator.simulator.SimulationResult;
 import java.nio.file.Files;
@@ -141,6 +144,16 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         JudgedGaits gaits = new JudgedGaits(settings);
         evaluations.stream().filter(one -> one.generation() <= generation).forEach(gaits::add);
         return gaits.best();
+    }
+
+    /**
+     * Of a run with several objectives, the individuals that no other is better than in all of them, the best by the first
+     * objective first; else none.
+     */
+    public List<Individual> front() {
+        boolean several = settings.optimizer() == OptimizerKind.NSGA2 && state != null;
+        return several ? ParetoRanking.front(state.population(),
+                settings.encoding().forActuators(settings.actuators()).genes()) : List.of();
     }
 
     /** The best gait up to each generation that any is recorded of, the earliest generation first. */

@@ -128,7 +128,7 @@ public final class Evolution {
             SimulationResult shown = own.stream().filter(one -> one.status() == SimulationResult.Status.OK).findFirst()
                     .orElse(own.get(0));
             newborns.add(new Individual(genomes.get(i), 0, shown,
-                    starts == 1 ? null : Estimate.of(scores(own), settings.judge())));
+                    starts == 1 ? null : Estimate.of(own, settings.judge())));
         }
         return newborns;
     }
@@ -163,13 +163,9 @@ public final class Evolution {
         for (int i = 0; i * starts < results.size(); i++) {
             List<SimulationResult> own = results.subList(i * starts, Math.min((i + 1) * starts, results.size()));
             Individual one = individuals.get(i);
-            repeated.add(one.withEstimate(one.estimate().with(scores(own), settings.judge())));
+            repeated.add(one.withEstimate(one.estimate().with(own, settings.judge())));
         }
         return repeated;
-    }
-
-    private static List<Double> scores(List<SimulationResult> results) {
-        return results.stream().map(SimulationResult::score).toList();
     }
 
     /** Simulates, save what the interrupted run had finished. */

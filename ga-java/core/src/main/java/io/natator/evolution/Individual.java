@@ -35,6 +35,11 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
         return Math.max(score(), 0.0);
     }
 
+    /** What it is worth by each of the run's objectives; null where it has none. */
+    public List<Double> objectives() {
+        return estimate == null ? result.objectives() : estimate.objectives();
+    }
+
     /** How many runs the score rests on. */
     public int runs() {
         return estimate == null ? 1 : estimate.runs().size();

@@ -42,6 +42,7 @@ interface Optimizer extends AutoCloseable {
             case JGAP -> new GeneticAlgorithm(settings, ranges, evaluator);
             case CMA_ES -> new CmaEs(settings, ranges, evaluator);
             case RANDOM -> new RandomSearch(settings, ranges, evaluator);
+            case NSGA2 -> new Nsga2(settings, ranges, evaluator);
         };
     }
 }

@@ -46,12 +46,12 @@ final class Race {
         this.repeater = repeater;
         this.places = Math.max(settings.elites(), 1);
         population.forEach(this::enter);
-        champions.forEach(one -> field.putIfAbsent(one.genes(), one));
+        champions.forEach(this::enter);
     }
 
     private void enter(Individual one) {
         if (one.isMeasured()) {
-            field.put(one.genes(), one);
+            field.merge(one.genes(), one, (known, other) -> other.runs() >= known.runs() ? other : known);
         }
     }
 

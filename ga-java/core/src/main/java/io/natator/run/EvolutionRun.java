@@ -15,6 +15,7 @@ import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.NetEvaluator;
+import io.natator.simulator.ObjectiveEvaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.TimeLimit;
@@ -117,7 +118,8 @@ public final class EvolutionRun {
             all.add(new VacuumCheck(folder, evaluator));
         }
         all.addAll(listeners);
-        Evaluator rewarding = settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
+        Evaluator rewarding = settings.objectives() != null ? new ObjectiveEvaluator(evaluator, settings.objectives())
+                : settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
         EvolutionState state = new Evolution(settings, rewarding, all, folder.recorded()).run(folder.checkpoint());
         BestGait best = folder.writeResults(state);
         if (best != null) {

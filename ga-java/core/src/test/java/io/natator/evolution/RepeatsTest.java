@@ -6,9 +6,11 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Judge;
-import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
+import io.natator.config.WeightedObjective;
 import io.natator.encoding.Gait;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.ObjectiveEvaluator;
 import io.natator.simulator.WorkerPool;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -26,14 +28,18 @@ class RepeatsTest {
     private static final int STARTS = 4;
 
     private static EvolutionSettings settings(OptimizerKind optimizer, int generations) {
-        return EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5).withSize(20, generations).withSeed(6)
-                .withOptimizer(optimizer, OperatorSet.CORRECTED, 0.05).withStarts(STARTS, Judge.MEAN);
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
+                .withSize(20, generations).withSeed(6).withStarts(STARTS, Judge.MEAN);
+        return optimizer == OptimizerKind.NSGA2 ? settings.withObjectives(optimizer, WeightedObjective.parse("distance,work"))
+                : settings.withObjectives(optimizer, null);
     }
 
     private static EvolutionState run(EvolutionSettings settings, int workers, EvolutionState from,
             List<EvaluationRecord> recorded, EvolutionListener... listeners) {
         try (WorkerPool pool = new WorkerPool(new ToySimulator(), workers)) {
-            return new Evolution(settings, pool, List.of(listeners), recorded).run(from);
+            Evaluator evaluator =
+                    settings.objectives() == null ? pool : new ObjectiveEvaluator(pool, settings.objectives());
+            return new Evolution(settings, evaluator, List.of(listeners), recorded).run(from);
         }
     }
 

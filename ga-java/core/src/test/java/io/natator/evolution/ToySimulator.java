@@ -1,6 +1,7 @@
 package io.natator.evolution;
 
 import io.natator.encoding.Gait;
+import io.natator.simulator.Course;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.Simulator;
@@ -23,7 +24,8 @@ public final class ToySimulator implements Simulator {
         double distance = isVacuum(request) ? drift(request.gait())
                 : distance(request.gait()) + luck(request.gait(), request.start());
         return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex",
-                "float", "0123456789abcdef", null, null);
+                "float", "0123456789abcdef", null, null, null, work(request.gait()), new Course(distance, 0.1, -0.2), null, null,
+                null);
     }
 
     /** Best at f = 1.2, a = 0.6, φ = 0.3; negative far from there. */
@@ -43,6 +45,11 @@ public final class ToySimulator implements Simulator {
     private static boolean isVacuum(SimulationRequest request) {
         return request.overrides() != null && request.overrides().has("fluid")
                 && request.overrides().get("fluid").isNull();
+    }
+
+    /** What grows with all amplitudes and the frequency. */
+    static double work(Gait gait) {
+        return gait.frequency() * (0.1 + gait.amplitude().stream().mapToDouble(a -> a * a).sum());
     }
 
     /** In vacuum: forwards above f = 1, backwards below. */

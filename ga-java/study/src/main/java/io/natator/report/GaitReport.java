@@ -12,6 +12,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
+import io.natator.evolution.Individual;
 import io.natator.flow.FlowField;
 import io.natator.kinematics.Attitude;
 import io.natator.kinematics.FishMode;
@@ -124,6 +125,12 @@ public final class GaitReport {
         Files.createDirectories(folder);
         FitnessPlot.draw(run.settings().scene() + ", seed " + run.settings().seed(), run.state().history(), folder);
         page.picture(folder.resolve("fitness.png"), "fitness over generations");
+        List<Individual> front = run.front();
+        for (int other = 1; !front.isEmpty() && other < run.settings().objectives().size(); other++) {
+            page.picture(FrontPlot.draw("gaits that no other is better than in all objectives", run.settings().objectives(),
+                    run.state().population(), front, 0, other, folder.resolve("front-" + other)),
+                    "all gaits and those that no other is better than, in two objectives");
+        }
         MotionPlots plots = new MotionPlots(run.settings().scene(), recording, folder);
         page.picture(plots.position("position"), "position over time");
         page.picture(plots.rotation("rotation"), "rotation over time");
