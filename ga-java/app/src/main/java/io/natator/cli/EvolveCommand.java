@@ -93,8 +93,8 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.SEARCH)
     @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
-            description = "jgap (the thesis' genetic algorithm), cma-es, random, or for several objectives nsga2. "
-                    + "Default: ${DEFAULT-VALUE}.")
+            description = "jgap (the thesis' genetic algorithm), cma-es, random, map-elites (the best of every kind of gait), "
+                    + "or for several objectives nsga2. Default: ${DEFAULT-VALUE}.")
     private OptimizerKind optimizer;
 
     @Section(Topic.SEARCH)

@@ -7,6 +7,7 @@ import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.OptimizerKind;
+import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
@@ -45,6 +46,10 @@ final class ShowCommand implements Callable<Integer> {
             new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
             printControls(run, out);
             printFront(run, out);
+            if (run.elites() != null) {
+                out.printf("map of gaits: %d of %d kinds found; natator report draws it%n", run.elites().elites().size(),
+                        EliteMap.SIDE * EliteMap.SIDE);
+            }
             printSavings(run, out);
         }
         printVacuum(run.vacuum(), out);

@@ -110,7 +110,7 @@ class CommandLineTest {
             assertThat(file("resident", name)).as(name).isEqualTo(file("process", name));
             assertThat(file("batch", name)).as(name).isEqualTo(file("process", name));
         }
-        assertThat(file("process", "evaluations.jsonl").lines()).hasSizeBetween(30 - starts, 29);
+        assertThat(file("process", "evaluations.jsonl").lines()).hasSize(29);
     }
 
     @Test
@@ -448,7 +448,7 @@ class CommandLineTest {
         "--stop-after 0|--stop-after is 0.0",
         "--simulator thread|expected process, resident or batch but was 'thread'",
         "--backend opencl|expected cpu, cuda or auto but was 'opencl'",
-        "--optimizer cma|expected jgap, cma-es, random or nsga2 but was 'cma'; did you mean cma-es?",
+        "--optimizer cma|expected jgap, cma-es, random, nsga2 or map-elites but was 'cma'; did you mean cma-es?",
         "--fitness speed|expected distance or net",
         "--timeout 0|--timeout is 0.0",
         "--timeout NaN|--timeout is NaN",

@@ -94,6 +94,36 @@ class RealSimulatorTest {
         assertThat(out.toString()).contains("  checked     ");
     }
 
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "--optimizer nsga2 --objectives forward,work|front-1.png|of several objectives, the gaits that no other is better than",
+        "--optimizer map-elites --objectives forward=1,straight=0.1|elites.png|map of gaits: "})
+    void reportsDrawWhatIsMoreThanOneGait(String options, String picture, String line) {
+        Path run = folder.resolve("run");
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1", "--duration", "0.1",
+                "--output-dir", run.toString()));
+        arguments.addAll(List.of(options.split(" ")));
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).execute("show", run.toString())).isZero();
+        assertThat(natator("report", run.toString())).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains(line);
+        assertThat(run.resolve("report").resolve(picture)).isNotEmptyFile();
+        assertThat(run.resolve("report/README.md")).content().contains(picture, "fresh starts");
+    }
+
+    /** In scheme flex muscles have no work that could be measured. */
+    @Test
+    void whatIsNotMeasuredIsNoObjective() {
+        assertThat(natator("evolve", "--preset", "thesis", "--population", "2", "--generations", "0", "--starts", "1",
+                "--duration", "0.02", "--objectives", "work", "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
+
+        assertThat(err.toString().lines().reduce((first, second) -> second)).hasValue(
+                "natator evolve: objective work: this simulator does not measure it in scheme flex");
+    }
+
     /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
     @ParameterizedTest
     @ValueSource(strings = {"1", "2"})

@@ -5,6 +5,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
+import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
@@ -154,6 +155,12 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         boolean several = settings.optimizer() == OptimizerKind.NSGA2 && state != null;
         return several ? ParetoRanking.front(state.population(),
                 settings.encoding().forActuators(settings.actuators()).genes()) : List.of();
+    }
+
+    /** The best gait of each kind that MAP-Elites found; null of another optimizer. */
+    public EliteMap elites() {
+        return settings.optimizer() == OptimizerKind.MAP_ELITES && state != null
+                ? new EliteMap(settings, state.population()) : null;
     }
 
     /** The best gait up to each generation that any is recorded of, the earliest generation first. */

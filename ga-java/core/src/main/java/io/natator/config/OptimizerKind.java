@@ -15,5 +15,8 @@ public enum OptimizerKind {
     RANDOM,
     /** NSGA-II (Deb, Pratap, Agarwal, Meyarivan 2002) on jMetal, for several objectives at once. */
     @JsonProperty("nsga2")
-    NSGA2
+    NSGA2,
+    /** MAP-Elites (Mouret and Clune 2015): the best gait of every kind. */
+    @JsonProperty("map-elites")
+    MAP_ELITES
 }

@@ -86,6 +86,9 @@ public final class Evolution {
         if (settings.starts() > 1) {
             Race race = new Race(settings, this::repeat, bred, before == null ? List.of() : before.champions());
             champions = race.run();
+            if (budgetLeft() > 0 && budgetLeft() < settings.starts()) {
+                champions = race.useUp((int) budgetLeft());
+            }
             population = bred.stream().map(race::known).toList();
             best = race.winner();
         } else {

@@ -43,6 +43,7 @@ interface Optimizer extends AutoCloseable {
             case CMA_ES -> new CmaEs(settings, ranges, evaluator);
             case RANDOM -> new RandomSearch(settings, ranges, evaluator);
             case NSGA2 -> new Nsga2(settings, ranges, evaluator);
+            case MAP_ELITES -> new MapElites(settings, ranges, evaluator);
         };
     }
 }

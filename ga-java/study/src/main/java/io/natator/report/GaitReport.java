@@ -131,6 +131,10 @@ public final class GaitReport {
                     run.state().population(), front, 0, other, folder.resolve("front-" + other)),
                     "all gaits and those that no other is better than, in two objectives");
         }
+        if (run.elites() != null && !run.elites().elites().isEmpty()) {
+            page.picture(EliteMapPlot.draw(run.elites(), run.settings().actuators(), folder.resolve("elites")),
+                    "worth of the best gait of each kind, by waves on the body and beats per second");
+        }
         MotionPlots plots = new MotionPlots(run.settings().scene(), recording, folder);
         page.picture(plots.position("position"), "position over time");
         page.picture(plots.rotation("rotation"), "rotation over time");

@@ -3,6 +3,7 @@ package io.natator.study.optimizer;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.GenerationSummary;
@@ -63,6 +64,11 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
             Arrays.fill(curve, improvements.get(i).evaluation(), end, improvements.get(i).fitness());
         }
         return curve;
+    }
+
+    /** What the best gait does from fresh starts; null in old studies. */
+    FreshRuns fresh() {
+        return best == null ? null : best.fresh();
     }
 
     /** What the best gait does in vacuum, in scene units; NaN if that is not known. */
