@@ -96,6 +96,7 @@ const LevelRuns* find_level(const std::vector<LevelRuns>& levels, const std::str
 
 std::vector<LevelRuns> read_levels(json request, const ConvergeOptions& options) {
     if (!request.is_object()) throw InputError("request: must be an object");
+    if (request.contains("start")) throw InputError("request: start: must not be given, converge has starts of its own");
     std::vector<LevelRuns> levels{read_level(Level::named("base"), request, options.backend)};
     Perturbation perturbation = levels.front().job.request.perturbation;
     const Scene scene = levels.front().job.scene;

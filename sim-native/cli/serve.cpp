@@ -53,8 +53,8 @@ void answer(const SharedJob& shared, const MemberResult& result) {
     std::visit([&shared](const auto& one) { answer(shared, one); }, result);
 }
 
-/// Jobs that one launch of the GPU can do: same scene, precision and device.
-using GroupKey = std::tuple<std::string, std::string, Precision, int>;
+/// Jobs that one launch of the GPU can do: same scene, arrangement of its water, precision and device.
+using GroupKey = std::tuple<std::string, std::string, int, Precision, int>;
 
 /// Evaluates jobs on the GPU, together but for those that cannot be done.
 void evaluate_group(const std::vector<SharedJob>& group) {
@@ -119,7 +119,8 @@ void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, T
             continue;
         }
         const Request& request = job.request;
-        groups[{request.scene, request.overrides.dump(), request.precision, job.backend.device}].push_back(shared);
+        const int arrangement = job.scene.fluid ? job.scene.fluid->disorder : 0;
+        groups[{request.scene, request.overrides.dump(), arrangement, request.precision, job.backend.device}].push_back(shared);
     }
     for (const auto& [key, jobs] : groups) evaluate_group(jobs);
 }

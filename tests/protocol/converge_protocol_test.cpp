@@ -130,6 +130,7 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
     refused({"converge", "no-such-file.json"}, "", "no-such-file.json");
     refused({"converge", "-"}, "[]", "request");
     refused({"converge", "-"}, R"({"id":1,"scene":"thesis/tank"})", "creature");
+    refused({"converge", "-"}, R"({"id":1,"scene":"thesis/creature-1","start":3})", "start: must not be given");
     json beyond = swim;
     beyond["overrides"] = {{"creature", {{"refinement", 5}}}};
     refused({"converge", "-"}, beyond.dump(), "refinement = 10");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "child_process.h"
 
@@ -30,7 +31,7 @@ TEST(EvaluateProtocolTest, AResultHasExactlyTheDocumentedFields) {
     const json result = result_of(request("thesis/creature-1", 0.1));
     std::vector<std::string> keys;
     for (const auto& [key, value] : result.items()) keys.push_back(key);
-    EXPECT_EQ(keys, (std::vector<std::string>{"distance", "fitness", "frames", "hash", "id", "laws", "precision",
+    EXPECT_EQ(keys, (std::vector<std::string>{"course", "distance", "fitness", "frames", "hash", "id", "laws", "precision",
                                               "scheme", "simulated", "status", "stopped"}));
     for (const char* figure : {"linearMomentum", "angularMomentum", "densityErrorMean", "densityErrorMax"}) {
         EXPECT_GT(result["laws"].at(figure).get<double>(), 0) << figure;
@@ -91,6 +92,32 @@ TEST(EvaluateProtocolTest, EveryOptionalFieldHasItsEffect) {
     // Without the acceleration clamp there is no motion in vacuum.
     const json free = with(R"({"overrides":{"solver":{"maxAcceleration":3.4028234663852886e38}}})");
     EXPECT_LT(std::abs(free["distance"].get<double>()), std::abs(base["distance"].get<double>()) / 5);
+}
+
+/// In conserving water another start is another arrangement of the water; elsewhere all is shifted a little.
+TEST(EvaluateProtocolTest, AStartIsAnotherArrangementOfTheWater) {
+    json asked = request("bench/small-tank", 0.1);
+    const auto hash = [&](const char* scheme, std::optional<int> start) {
+        asked["scheme"] = scheme;
+        asked.erase("start");
+        if (start) asked["start"] = *start;
+        return result_of(asked).at("hash");
+    };
+    EXPECT_EQ(hash("conserving", 20), hash("conserving", std::nullopt));
+    EXPECT_EQ(hash("conserving", 3), hash("conserving", 3));
+    EXPECT_NE(hash("conserving", 3), hash("conserving", 4));
+    EXPECT_NE(hash("conserving", 3), hash("conserving", 20));
+    EXPECT_NE(hash("flex", 3), hash("flex", 4));
+    EXPECT_NE(hash("flex", 20), hash("flex", std::nullopt));
+
+    asked["scheme"] = "conserving";
+    asked["start"] = 3;
+    json overridden = asked;
+    overridden.erase("start");
+    overridden["overrides"]["fluid"]["disorder"] = 3;
+    EXPECT_EQ(result_of(asked), result_of(overridden));
+    asked["overrides"]["fluid"] = nullptr;  // a start makes no water where there is none
+    EXPECT_EQ(result_of(asked).at("status"), "ok");
 }
 
 TEST(EvaluateProtocolTest, TheRequestsOwnDurationWinsOverOverrides) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "natator/course.h"
 #include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/scene.h"
@@ -56,6 +57,7 @@ struct Evaluation {
     /// Work that the muscles did by their changes of length (Solver::muscle_work), mass length^2/s^2; none in scheme
     /// `flex`, which has no forces, and without muscles.
     std::optional<double> work;
+    std::optional<Course> course;  ///< of a body
 };
 
 /// One body position per frame, for callers that want a trajectory.

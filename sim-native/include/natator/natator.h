@@ -5,6 +5,7 @@
 #include "natator/actuate.h"
 #include "natator/batch.h"
 #include "natator/cost.h"
+#include "natator/course.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/execution.h"

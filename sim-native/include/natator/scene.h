@@ -25,6 +25,7 @@ struct FluidBlock {
     double bottom_mass = 2.0;                    ///< mass of the lowest layer
     double top_mass = 1.0 / 14.0;                ///< mass of the highest layer
     double clearance = 0.15;                     ///< lattice points closer than this to a body particle are left out
+    int disorder = 20;                           ///< seed of the places off the lattice that scheme `conserving` begins from
 };
 
 /// One cross-section of a body: a grid of height x width particles in (y, z).

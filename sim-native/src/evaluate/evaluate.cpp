@@ -76,6 +76,7 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
         result.errors = conservation_errors(model, state, solver.densities());
         result.swimming = swimming_numbers(model, gait, result.distance, result.simulated, tail);
         if (has_muscle_work(model)) result.work = solver.muscle_work();
+        if (swims) result.course = course_of(model, state, result.distance);
     }
     result.hash = state_hash(state);
     return result;

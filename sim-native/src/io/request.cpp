@@ -59,7 +59,7 @@ Request parse_request(const json& value) {
     const Place place{"request", ""};
     fields::check_keys(
         value, place,
-        {"id", "scene", "gait", "duration", "scheme", "backend", "precision", "perturbation", "overrides"});
+        {"id", "scene", "gait", "duration", "scheme", "backend", "precision", "perturbation", "start", "overrides"});
     Request request;
     request.id = fields::required(value, place, "id");
     if (!request.id.is_number_unsigned()) fields::refuse(place.key("id"), request.id, "a whole number >= 0");
@@ -72,6 +72,13 @@ Request parse_request(const json& value) {
     }
     if (value.contains("perturbation")) {
         request.perturbation = read_perturbation(value.at("perturbation"), place.key("perturbation"));
+    }
+    if (value.contains("start")) {
+        int start = 0;
+        fields::read(value.at("start"), place.key("start"), {0, 2147483647}, start);
+        request.start = start;
+        if (value.contains("perturbation"))
+            fields::refuse(place.key("start"), "must not be given together with perturbation");
     }
     if (value.contains("overrides")) {
         request.overrides = value.at("overrides");

@@ -38,6 +38,8 @@ ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation,
                           {"densityErrorMax", laws.density_error_max}};
         if (evaluation.swimming) result["swimming"] = swimming_json(*evaluation.swimming);
         if (evaluation.work) result["work"] = *evaluation.work;
+        if (const auto& course = evaluation.course)
+            result["course"] = {{"forward", course->forward}, {"yaw", course->yaw}, {"roll", course->roll}};
     } else {
         const Instability& where = *evaluation.instability;
         result["unstable"] = {{"particle", where.particle}, {"stage", where.stage}, {"time", where.time}};

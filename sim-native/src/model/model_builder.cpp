@@ -114,7 +114,7 @@ Model build_model(const Scene& scene) {
     }
     check_inside_tank(scene, model);
     if (scene.scheme == Scheme::conserving && scene.fluid) {
-        disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluidRestDistance), model);
+        disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluidRestDistance), model, scene.fluid->disorder);
         fit_to_water(model);
     }
     return model;

@@ -10,6 +10,7 @@ const std::vector<Field<FluidBlock>>& block_fields() {
         {"spacing", &F::spacing, {0, 1000, true, "length"}},
         {"origin", &F::origin, {-10000, 10000, false, "length"}},
         {"clearance", &F::clearance, {0, 1000, false, "length"}},
+        {"disorder", &F::disorder, {0, 2147483647}},
     };
     return fields;
 }

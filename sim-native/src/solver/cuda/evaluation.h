@@ -36,6 +36,7 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
     if (gait && !tail.empty())
         evaluation.swimming = swimming_numbers(model, *gait, evaluation.distance, evaluation.simulated, tail);
     if (has_muscle_work(model)) evaluation.work = progress.muscle_work;
+    if (!model.body.particles.empty()) evaluation.course = course_of(model, end, evaluation.distance);
     return evaluation;
 }
 

@@ -30,6 +30,10 @@ measure() {
         centre=$((centre + 100000000))
         sum=$((sum - (x - centre) * (x - centre) / 1000000000))
     done
+    # Another start: up to 0.05 more or less, otherwise for each gait.
+    if [[ $1 =~ \"start\":([0-9]+) ]]; then
+        sum=$((sum + ((BASH_REMATCH[1] % 99991 * 7919 + (sum < 0 ? -sum : sum) % 99991 * 31) % 101 - 50) * 1000000))
+    fi
     local sign=
     if ((sum < 0)); then sign=- sum=$((-sum)); fi
     printf -v distance '%s%d.%09d' "$sign" $((sum / 1000000000)) $((sum % 1000000000))

@@ -1,10 +1,12 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.StoredRun;
+import io.natator.verdict.FreshText;
 import io.natator.verdict.Verdict;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
@@ -71,12 +73,16 @@ final class CompareCommand implements Callable<Integer> {
             if (best == null) {
                 out.printf("%d  no gait as yet%n", i + 1);
             } else {
-                out.printf("%d  %s%n   distance %s, speed %s units/s%s, f %s, a %s, phi %s%n", i + 1,
-                        Verdict.of(best).text(), RunReport.number(best.distance()), RunReport.number(best.speed()),
+                Map<String, String> fresh = FreshText.of(best);
+                out.printf("%d  %s%n   distance %s, speed %s%s, f %s, a %s, phi %s%n", i + 1, Verdict.of(best).text(),
+                        fresh.getOrDefault("distance", RunReport.number(best.distance()) + ", one run"),
+                        fresh.getOrDefault("speed", RunReport.number(best.speed()) + " units/s"),
                         best.vacuum() == null || best.vacuum().distance() == null ? ""
                                 : ", in vacuum " + RunReport.number(best.vacuum().speed()) + " units/s",
                         RunReport.number(best.gait().frequency()), RunReport.row(best.gait().amplitude()),
                         RunReport.row(best.gait().phase()));
+                List.of("half step", "selected").stream().filter(fresh::containsKey)
+                        .forEach(name -> out.printf("   %s %s%n", name, fresh.get(name)));
             }
         }
     }

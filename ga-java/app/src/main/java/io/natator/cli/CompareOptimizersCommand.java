@@ -6,6 +6,7 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
+import io.natator.config.Judge;
 import io.natator.config.InvalidInputException;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.SceneInfo;
@@ -67,6 +68,21 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             description = "Creatures of the thesis, 1 to 4. Default: ${DEFAULT-VALUE}.")
     private List<Integer> creatures;
 
+    @Section(Topic.SCENE)
+    @Option(names = "--water", paramLabel = "NAME", defaultValue = "thesis",
+            description = "Scenes NAME/creature-N: thesis, open-water or pool. Default: ${DEFAULT-VALUE}.")
+    private String water;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--starts", paramLabel = "K", defaultValue = "1", description = "Run every gait from so many starts, from 1; "
+            + "see evolve. Default: ${DEFAULT-VALUE}.")
+    private int starts;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--judge", paramLabel = "HOW", defaultValue = "mean", description = "What the runs of a gait are worth: "
+            + "mean, median or lower-quartile. Default: ${DEFAULT-VALUE}.")
+    private Judge judge;
+
     @Section(Topic.SEARCH)
     @Option(names = "--optimizers", paramLabel = "NAME", split = ",",
             defaultValue = "jgap-corrected,jgap-stock,cma-es,random", description = "Default: ${DEFAULT-VALUE}.")
@@ -123,13 +139,13 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             if (creature < 1 || creature > 4) {
                 throw new InvalidInputException("--creatures has " + creature + "; expected 1, 2, 3 or 4");
             }
-            String scene = "thesis/creature-" + creature;
+            String scene = water + "/creature-" + creature;
             EncodingKind encoding = EncodingKind.usualFor(scene);
             int actuators =
                     SceneInfo.toEvolve(scene, encoding, sceneOptions.overrides(), execution.simulator()).actuators();
             scenes.put("creature-" + creature, EvolutionSettings.of(scene, encoding, actuators)
                     .withSize(population, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations)
-                    .withFitness(fitness, false).withBackend(execution.backend())
+                    .withFitness(fitness, false).withBackend(execution.backend()).withStarts(starts, judge)
                     .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides()));
         }
         return scenes;

@@ -9,10 +9,12 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Judge;
 import io.natator.config.Limits;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
+import io.natator.config.WeightedObjective;
 import io.natator.simulator.SceneInfo;
 import java.io.IOException;
 import java.nio.file.Path;
@@ -34,6 +36,7 @@ import picocli.CommandLine.Spec;
         footer = {"", "Examples:",
             "  natator evolve --creature 2 --generations 6",
             "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
+            "  natator evolve --optimizer nsga2 --objectives distance,work",
             "  natator evolve --preset thesis --dry-run"})
 final class EvolveCommand implements Callable<Integer> {
 
@@ -59,8 +62,9 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
-            description = "quick (population 16, 3 generations of 2 s in pool/creature-N) or thesis (150, 100, as "
-                    + "thesis/creature-N has it). Other options change parts of it. Default: ${DEFAULT-VALUE}.")
+            description = "quick (population 16, 3 generations of 2 s in pool/creature-N, 1 start) or thesis (150, 100, "
+                    + "as thesis/creature-N has it, 4 starts). Other options change parts of it. "
+                    + "Default: ${DEFAULT-VALUE}.")
     private Preset preset;
 
     @Section(Topic.EXTENT)
@@ -73,12 +77,24 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--evaluations", paramLabel = "N",
-            description = "End after so many evaluations, from 1. Default: what the generations take.")
+            description = "End after so many evaluations, from 1; of several starts, with the last whole gait. "
+                    + "Default: what the generations take.")
     private Long evaluations;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--starts", paramLabel = "K", description = "Run every gait from so many starts, from 1, and the best "
+            + "of each generation again from others; 1 is the scene's own start, once. Default: the preset's.")
+    private Integer starts;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--judge", paramLabel = "HOW", defaultValue = "mean", description = "What the runs of a gait are worth: "
+            + "mean, median (from 3 starts) or lower-quartile (from 4). Default: ${DEFAULT-VALUE}.")
+    private Judge judge;
 
     @Section(Topic.SEARCH)
     @Option(names = "--optimizer", paramLabel = "NAME", defaultValue = "jgap",
-            description = "jgap (the thesis' genetic algorithm), cma-es or random. Default: ${DEFAULT-VALUE}.")
+            description = "jgap (the thesis' genetic algorithm), cma-es, random, map-elites (the best of every kind of gait), "
+                    + "or for several objectives nsga2. Default: ${DEFAULT-VALUE}.")
     private OptimizerKind optimizer;
 
     @Section(Topic.SEARCH)
@@ -100,6 +116,12 @@ final class EvolveCommand implements Callable<Integer> {
     @Option(names = "--fitness", paramLabel = "KIND", defaultValue = "distance", description = "What is rewarded: "
             + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
     private FitnessKind fitness;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--objectives", paramLabel = "NAME[=WEIGHT],...", description = "What is rewarded instead of --fitness: "
+            + "distance, net, forward (by its own heading), straight, work, efficiency. One; several with weights, as a sum; "
+            + "for nsga2 several without.")
+    private String objectives;
 
     @Section(Topic.SEARCH)
     @Option(names = "--vacuum-check", description = "Run every generation's new best in vacuum too; see vacuum.jsonl.")
@@ -170,8 +192,11 @@ final class EvolveCommand implements Callable<Integer> {
         int actuators = SceneInfo.toEvolve(sceneName, kind, sceneOptions.overrides(), execution.simulator()).actuators();
         return EvolutionSettings.of(sceneName, kind, actuators)
                 .withSize(population != null ? population : preset.population(), generations())
-                .withEvaluations(evaluations).withSeed(seed).withOptimizer(optimizer, operators, gaussianDeviation)
+                .withEvaluations(evaluations).withSeed(seed)
+                .withOptimizer(OptimizerKind.JGAP, operators, gaussianDeviation)
                 .withFitness(fitness, vacuumCheck).withBackend(execution.backend())
+                .withStarts(starts != null ? starts : preset.starts(), judge)
+                .withObjectives(optimizer, objectives == null ? null : WeightedObjective.parse(objectives))
                 .withScene(sceneOptions.scheme(),
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
                         sceneOptions.overrides());

@@ -1,24 +1,24 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
 import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
-import io.natator.evolution.EvaluationRecord;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
-import io.natator.simulator.SimulationResult;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
+import io.natator.verdict.Mechanics;
 import io.natator.verdict.Reproduction;
 import io.natator.verdict.Verdict;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.Comparator;
 import java.util.List;
 import java.util.Locale;
 import java.util.concurrent.Callable;
@@ -115,10 +115,8 @@ final class PageCommand implements Callable<Integer> {
         if (first.run() == null || best == 1) {
             return List.of(first);
         }
-        List<Gait> gaits = StoredRun.in(first.run()).evaluations().stream()
-                .filter(one -> one.result().status() == SimulationResult.Status.OK)
-                .sorted(Comparator.comparingDouble((EvaluationRecord one) -> one.result().score()).reversed())
-                .map(EvaluationRecord::gait).distinct().limit(best).toList();
+        List<Gait> gaits = StoredRun.in(first.run()).gaits().stream().map(JudgedGait::gait).distinct().limit(best)
+                .toList();
         if (gaits.size() < best) {
             throw new InvalidInputException("--best is " + best + "; " + source + " knows " + gaits.size() + " gaits");
         }
@@ -140,7 +138,13 @@ final class PageCommand implements Callable<Integer> {
         String name = swimmer.run() == null ? swimmer.name() : swimmer.run().toAbsolutePath().normalize().getFileName() + "";
         return new Replay(name + ": " + Numbers.fixed(last.distance(), 3) + " units in " + Numbers.fixed(last.time(), 2)
                 + " s", swim.scene(), swim.json(), swim.frames(),
-                stored == null ? null : Verdict.of(swimmer.best()).text());
+                stored == null ? null : judgement(swimmer.best()));
+    }
+
+    /** Whether it swims, how sure that is, and what it costs. */
+    private static String judgement(BestGait best) {
+        String mechanics = Mechanics.of(best);
+        return Verdict.of(best).text() + (mechanics == null ? "" : " (" + mechanics + ")");
     }
 
     private void warn(Reproduction stored, List<StreamFrame> frames) throws InterruptedException {

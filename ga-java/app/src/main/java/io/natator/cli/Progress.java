@@ -56,7 +56,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
         this.said = clock.getAsLong();
         if (from != null) {
             generation = from.generation();
-            best = from.best() == null ? null : from.best().result().score();
+            best = from.best() == null ? null : from.best().score();
         }
         // A consumer of fixed width: the usual one measures the terminal by JLine, which takes Ctrl-C away from us.
         this.bar = terminal == null ? null : new ProgressBarBuilder().setInitialMax(1)
@@ -74,7 +74,9 @@ final class Progress implements EvolutionListener, AutoCloseable {
     public synchronized void evaluated(EvaluationRecord evaluation) {
         estimate.evaluated();
         SimulationResult result = evaluation.result();
-        if (result.status() == SimulationResult.Status.OK && (best == null || result.score() > best)) {
+        // Of several starts, one run says little: there the generation's end tells.
+        if (settings.starts() == 1 && result.status() == SimulationResult.Status.OK
+                && (best == null || result.score() > best)) {
             best = result.score();
         }
         if (bar == null && clock.getAsLong() - said >= INTERVAL_NANOSECONDS) {
@@ -84,6 +86,9 @@ final class Progress implements EvolutionListener, AutoCloseable {
 
     @Override
     public synchronized void generationFinished(EvolutionState state) {
+        if (settings.starts() > 1) {
+            best = state.best() == null ? null : state.best().score();
+        }
         if (bar == null) {
             GenerationSummary last = state.history().get(state.history().size() - 1);
             say(generation() + ", mean " + Numbers.fixed(last.mean(), 4) + ", " + counts());

@@ -50,7 +50,7 @@ final class ProgressEstimate {
             from.history().stream().filter(one -> one.generation() > 0).mapToInt(GenerationSummary::evaluations)
                     .forEach(this::count);
         }
-        estimate(from == null ? settings.population() : done,
+        estimate(from == null ? perGeneration(1) : done,
                 settings.generations() - (from == null ? 0 : from.generation()));
     }
 
@@ -67,17 +67,22 @@ final class ProgressEstimate {
         estimate(done + simulations, settings.generations() - generation);
     }
 
+    /** Simulations of a generation with so many newborns for each place in the population. */
+    private double perGeneration(double newborns) {
+        return newborns * settings.population() * settings.starts() + settings.repeats();
+    }
+
     /**
      * Estimates the total.
      *
      * @param known simulations done or known to be needed
      * @param later generations of which nothing is known yet
      */
-    private void estimate(long known, int later) {
+    private void estimate(double known, int later) {
         long budget = settings.evaluations() == null ? Long.MAX_VALUE : settings.evaluations();
         boolean varies = settings.optimizer() == OptimizerKind.JGAP;
-        double each = varies ? (USUAL_GENERATIONS * CHILDREN_PER_SELECTED * settings.population() + children)
-                / (USUAL_GENERATIONS + bred) : settings.population();
+        double each = varies ? (USUAL_GENERATIONS * perGeneration(CHILDREN_PER_SELECTED) + children)
+                / (USUAL_GENERATIONS + bred) : perGeneration(1);
         double all = known + later * each;
         certain = !varies || later == 0 || settings.generations() == EvolutionSettings.NO_LIMIT;
         if (all >= budget) {

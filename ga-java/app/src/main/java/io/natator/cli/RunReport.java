@@ -5,11 +5,13 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.simulator.SimulationResult;
+import io.natator.verdict.FreshText;
 import io.natator.verdict.Mechanics;
 import io.natator.verdict.Verdict;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
 import java.util.stream.Collectors;
 
 /** The best gait of a run, in words. */
@@ -40,20 +42,26 @@ final class RunReport {
         line("amplitude", row(best.gait().amplitude()));
         line("phase", row(best.gait().phase()));
         SimulationResult water = best.result();
-        line("distance", number(water.distance()) + " in " + Numbers.fixed(water.simulated(), 2) + " s ("
-                + water.stopped() + ")");
+        Map<String, String> fresh = FreshText.of(best);
+        fresh.forEach(this::line);
+        if (fresh.isEmpty()) {
+            line("distance", number(best.distance()) + " in " + Numbers.fixed(water.simulated(), 2) + " s ("
+                    + water.stopped() + ", one run)");
+        }
         if (water.vacuumDrift() != null) {
             line("net", number(water.score()) + ": " + number(water.vacuumDrift())
                     + " of it is drift, by the same time in vacuum");
         }
-        line("speed", number(water.speed()) + " units/s");
-        String mechanics = Mechanics.of(water);
+        if (fresh.isEmpty()) {
+            line("speed", number(best.speed()) + " units/s");
+        }
+        String mechanics = Mechanics.of(best);
         if (mechanics != null) {
             line("mechanics", mechanics);
         }
         printVacuum(best.vacuum());
         Verdict verdict = Verdict.of(best);
-        line("verdict", verdict.text() + " (one run, not a mean)");
+        line("verdict", verdict.text() + (fresh.isEmpty() ? " (one run, not a mean)" : ""));
         if (verdict.advice() != null) {
             line("", verdict.advice());
         }

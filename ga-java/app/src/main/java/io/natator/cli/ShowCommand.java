@@ -1,19 +1,24 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.OptimizerKind;
+import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
+import io.natator.evolution.Individual;
 import io.natator.simulator.SimulationResult;
+import io.natator.verdict.ControlVerdict;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Locale;
 import java.util.concurrent.Callable;
+import java.util.stream.Collectors;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Model.CommandSpec;
@@ -39,6 +44,12 @@ final class ShowCommand implements Callable<Integer> {
         out.println(progress(run));
         if (run.state() != null) {
             new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
+            printControls(run, out);
+            printFront(run, out);
+            if (run.elites() != null) {
+                out.printf("map of gaits: %d of %d kinds found; natator report draws it%n", run.elites().elites().size(),
+                        EliteMap.SIDE * EliteMap.SIDE);
+            }
             printSavings(run, out);
         }
         printVacuum(run.vacuum(), out);
@@ -63,6 +74,11 @@ final class ShowCommand implements Callable<Integer> {
         if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.gaussianDeviation());
         }
+        text.append(settings.starts() == 1 ? "" : ", " + EnumNames.of(settings.judge()) + " of " + settings.starts()
+                + " starts");
+        text.append(settings.objectives() == null ? "" : ", objectives " + settings.objectives().stream()
+                .map(one -> EnumNames.of(one.objective()) + (one.weight() == null ? "" : "=" + one.weight()))
+                .collect(Collectors.joining(",")));
         text.append(settings.fitness() == FitnessKind.NET ? ", net fitness" : "");
         text.append(", backend ").append(settings.backend().argument());
         text.append(settings.scheme() == null ? "" : ", scheme " + settings.scheme().name().toLowerCase(Locale.ROOT));
@@ -81,6 +97,28 @@ final class ShowCommand implements Callable<Integer> {
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
                                 + " resume " + run.directory());
+    }
+
+    /** What no other gait is better than in all objectives. */
+    private static void printFront(StoredRun run, PrintWriter out) {
+        List<Individual> front = run.front();
+        if (front.isEmpty()) {
+            return;
+        }
+        out.println("of several objectives, the gaits that no other is better than in all");
+        out.println("  " + run.settings().objectives().stream().map(one -> String.format("%-14s", EnumNames.of(one.objective())))
+                .collect(Collectors.joining()) + "runs  genes");
+        for (Individual one : front) {
+            out.println("  " + one.objectives().stream().map(value -> String.format("%-14s", RunReport.number(value)))
+                    .collect(Collectors.joining()) + String.format("%-6d", one.runs()) + RunReport.row(one.genes()));
+        }
+    }
+
+    private static void printControls(StoredRun run, PrintWriter out) {
+        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().gait());
+        if (controls != null) {
+            out.println("  checked     " + ControlVerdict.of(controls).text());
+        }
     }
 
     private static void printSavings(StoredRun run, PrintWriter out) {

@@ -5,6 +5,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -12,7 +13,6 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
-import io.natator.evolution.EvaluationRecord;
 import io.natator.simulator.SceneInfo;
 import io.natator.verdict.Reproduction;
 import java.nio.file.Path;
@@ -74,7 +74,7 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
             throw new InvalidInputException("--generation is " + generation + "; expected one that " + run.directory()
                     + " has finished, 0 to " + last);
         }
-        EvaluationRecord found = run.bestUntil(generation);
+        JudgedGait found = run.bestUntil(generation);
         if (found == null) {
             throw new InvalidInputException(run.directory() + " no longer knows the gaits of generation " + generation
                     + ", only the best of all; leave out --generation");

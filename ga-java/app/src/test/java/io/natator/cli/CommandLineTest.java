@@ -64,11 +64,12 @@ class CommandLineTest {
         assertThat(out.toString()).startsWith("pool/creature-1, jgap (corrected operators), population 8, 3 generations")
                 .contains("  evaluations about 50\n", "  time        at most ",
                         "best gait of pool/creature-1 after 3 generations",
-                        "  verdict     does not swim: moves -0.03 body lengths in 4.00 s, less than 0.05 (one run, not a mean)\n",
+                        "  distance    -0.04", " in 2.00 s; 4 fresh starts, all completed\n", "  half step   ", "  selected    ",
+                        " by one run, ", "  verdict     does not swim: moves -0.04 ± 0.0",
                         "  try more --generations", "natator view --run " + folder.resolve("run"),
                         "natator page " + folder.resolve("run"),
                         "frequency", "amplitude", "phase", "distance", "speed",
-                        "  mechanics   Re 131, St 0.313, swimming number 410, work 0.75\n", "in vacuum",
+                        "  mechanics   Re 131, St 0.313, work 0.75\n", "in vacuum",
                         "run folder  " + folder.resolve("run"));
         assertThat(err.toString().lines()).hasSize(4).allSatisfy(line -> assertThat(line)
                 .matches("generation \\d of 3, mean -?\\d\\.\\d{4}, best -?\\d\\.\\d{4}, evaluations \\d+ of (about )?\\d+, "
@@ -97,11 +98,11 @@ class CommandLineTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"jgap", "cma-es", "random"})
-    void theModeDoesNotChangeAByte(String optimizer) throws IOException {
+    @CsvSource({"jgap, 1", "cma-es, 1", "random, 1", "jgap, 3", "cma-es, 3"})
+    void theModeDoesNotChangeAByte(String optimizer, int starts) throws IOException {
         for (String mode : List.of("process", "resident", "batch")) {
             assertThat(evolve(mode, "--simulator", mode, "--workers", "3", "--optimizer", optimizer, "--evaluations",
-                    "29")).as(err.toString()).isZero();
+                    "29", "--starts", "" + starts)).as(err.toString()).isZero();
         }
 
         for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
@@ -205,8 +206,11 @@ class CommandLineTest {
         assertThat(lines.get(8)).matches(" {9}32 {12} +\\d\\.\\d{4}");
         JsonNode best = Json.parse(file("long", "best.json"), JsonNode.class);
         assertThat(lines.get(8)).endsWith(String.format(" %.4f", Math.max(best.get("distance").asDouble(), 0)));
-        assertThat(lines.get(9)).isEqualTo("1  does not swim: moves 1.0 times as far in vacuum");
-        assertThat(lines).hasSize(13);
+        assertThat(lines.get(9)).startsWith("1  does not swim: moves ");
+        assertThat(lines.get(10)).contains("distance ", " ± ", "4 fresh starts", "body lengths/s", "in vacuum", "phi ");
+        assertThat(lines.get(11)).startsWith("   half step ");
+        assertThat(lines.get(12)).contains("   selected ", " by one run, ", " again");
+        assertThat(lines).hasSize(17);
     }
 
     @ParameterizedTest
@@ -409,6 +413,20 @@ class CommandLineTest {
         assertThat(err.toString()).startsWith("natator evolve: --seed cannot be given with --resume");
     }
 
+    @Test
+    void checkNeedsTwoStartsAndARun() throws IOException {
+        assertThat(evolve("run")).isZero();
+        out.getBuffer().setLength(0);
+        for (String starts : List.of("1", "0", "2000")) {
+            err.getBuffer().setLength(0);
+            assertThat(natator("check", "--starts", starts, folder.resolve("run").toString())).isEqualTo(2);
+            assertThat(err.toString()).isEqualTo("natator check: --starts is " + starts
+                    + "; expected a whole number from 2 to 1000\n");
+        }
+        assertThat(natator("check", folder.toString())).isEqualTo(2);
+        assertThat(folder.resolve("run/check.json")).doesNotExist();
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
         "--population 1|population is 1",
@@ -419,10 +437,18 @@ class CommandLineTest {
         "--workers 0|workers is 0",
         "--device -1|device is -1",
         "--evaluations 0|evaluations is 0",
+        "--starts 0|starts is 0; expected a whole number from 1 to 1000",
+        "--starts 3 --judge lower-quartile|starts is 3; expected at least 4 with --judge lower-quartile",
+        "--judge median|starts is 1; expected at least 3 with --judge median",
+        "--objectives distance,work|optimizer jgap has one objective, not distance and work",
+        "--optimizer nsga2|optimizer nsga2 is for several objectives",
+        "--objectives speed|--objectives has 'speed'; expected some of",
+        "--judge max|expected mean, median or lower-quartile but was 'max'",
+        "--starts 4 --evaluations 3|evaluations is 3; expected at least the 4 starts of one gait",
         "--stop-after 0|--stop-after is 0.0",
         "--simulator thread|expected process, resident or batch but was 'thread'",
         "--backend opencl|expected cpu, cuda or auto but was 'opencl'",
-        "--optimizer cma|expected jgap, cma-es or random but was 'cma'; did you mean cma-es?",
+        "--optimizer cma|expected jgap, cma-es, random, nsga2 or map-elites but was 'cma'; did you mean cma-es?",
         "--fitness speed|expected distance or net",
         "--timeout 0|--timeout is 0.0",
         "--timeout NaN|--timeout is NaN",

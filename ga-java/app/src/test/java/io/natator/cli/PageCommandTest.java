@@ -83,7 +83,7 @@ class PageCommandTest {
         }
         assertThat(err.toString().lines()).hasSize(3).allSatisfy(line -> assertThat(line).startsWith(
                 run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4) + " (the same program: no reason is known)"));
-        assertThat(run.resolve("report/README.md")).content().contains("one run, not a mean", "stored 0.5521");
+        assertThat(run.resolve("report/README.md")).content().contains("fresh starts", "stored 0.5521");
     }
 
     @Test

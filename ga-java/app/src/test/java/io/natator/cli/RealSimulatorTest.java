@@ -3,6 +3,7 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Json;
@@ -66,14 +67,72 @@ class RealSimulatorTest {
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
     }
 
-    /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
+    /** In the pool, whose scheme has no clamp; half a second is too short to swim, so only what was run is looked at. */
+    @ParameterizedTest
+    @CsvSource({"pool/creature-1, false", "thesis/creature-1, true"})
+    void aWinnerIsCheckedByItsControls(String scene, boolean hasClamp) throws IOException {
+        Path run = folder.resolve("run");
+        assertThat(natator("evolve", "--scene", scene, "--population", "3", "--generations", "0", "--duration", "0.2",
+                "--output-dir", run.toString())).as(err.toString()).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("check", "--starts", "2", run.toString())).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("in water ", "with resting muscles ", "in vacuum ", "half the time step ",
+                "mirrored ", "other backend             not tried", "under water ", "2 completed", "\nverdict: ");
+        assertThat(out.toString().contains("no acceleration clamp")).isEqualTo(hasClamp);
+        Controls controls = Json.read(run.resolve("check.json"), Controls.class, "check");
+        assertThat(controls.underWater()).isBetween(0.5, 1.0);
+        assertThat(controls.water().distance().sd()).as("two different starts").isPositive();
+        assertThat(controls.halfStep().substeps()).isEqualTo(2 * controls.water().substeps());
+        assertThat(Math.abs(controls.vacuum().distance().mean())).isLessThan(hasClamp ? 1 : 1e-6);
+        assertThat(controls.resting().work() == null ? 0 : controls.resting().work()).isZero();
+        assertThat(controls.mirrored().distance()).isNotEqualTo(controls.water().distance());
+
+        out.getBuffer().setLength(0);
+        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).execute("show", run.toString())).isZero();
+        assertThat(out.toString()).contains("  checked     ");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "--optimizer nsga2 --objectives forward,work|front-1.png|of several objectives, the gaits that no other is better than",
+        "--optimizer map-elites --objectives forward=1,straight=0.1|elites.png|map of gaits: "})
+    void reportsDrawWhatIsMoreThanOneGait(String options, String picture, String line) {
+        Path run = folder.resolve("run");
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1", "--duration", "0.1",
+                "--output-dir", run.toString()));
+        arguments.addAll(List.of(options.split(" ")));
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).execute("show", run.toString())).isZero();
+        assertThat(natator("report", run.toString())).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains(line);
+        assertThat(run.resolve("report").resolve(picture)).isNotEmptyFile();
+        assertThat(run.resolve("report/README.md")).content().contains(picture, "fresh starts");
+    }
+
+    /** In scheme flex muscles have no work that could be measured. */
     @Test
-    void everyModeGivesTheSameBits() throws IOException {
+    void whatIsNotMeasuredIsNoObjective() {
+        assertThat(natator("evolve", "--preset", "thesis", "--population", "2", "--generations", "0", "--starts", "1",
+                "--duration", "0.02", "--objectives", "work", "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
+
+        assertThat(err.toString().lines().reduce((first, second) -> second)).hasValue(
+                "natator evolve: objective work: this simulator does not measure it in scheme flex");
+    }
+
+    /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
+    @ParameterizedTest
+    @ValueSource(strings = {"1", "2"})
+    void everyModeGivesTheSameBits(String starts) throws IOException {
         List<String> logs = new ArrayList<>();
         for (String mode : List.of("process", "resident", "batch")) {
             Path run = folder.resolve(mode);
             assertThat(natator("evolve", "--population", "6", "--generations", "1", "--duration", "0.1", "--workers",
-                    "2", "--no-cache", "--simulator", mode, "--output-dir", run.toString())).as(err.toString()).isZero();
+                    "2", "--starts", starts, "--no-cache", "--simulator", mode, "--output-dir", run.toString())).as(err.toString()).isZero();
             logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
         }
 

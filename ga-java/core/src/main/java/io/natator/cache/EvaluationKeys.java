@@ -43,6 +43,9 @@ final class EvaluationKeys {
         key.put("duration", request.duration());
         key.put("scheme", request.scheme());
         key.put("perturbation", request.perturbation());
+        if (request.start() != null) {
+            key.put("start", request.start());
+        }
         return Json.line(key);
     }
 

@@ -1,5 +1,6 @@
 package io.natator.checkpoint;
 
+import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.encoding.Gait;
 import io.natator.evolution.Individual;
@@ -7,26 +8,53 @@ import io.natator.simulator.SimulationResult;
 import java.util.List;
 
 /**
- * The best gait of a run; {@code best.json}.
+ * The best gait of a run; {@code best.json}. What is to be reported of it is {@code fresh}; {@code result} is one run,
+ * to be watched.
  *
  * @param scene    the scene that it swam in
  * @param genes    gene values in the order of the encoding
  * @param gait     what they stand for
- * @param distance signed distance swum in scene units
- * @param speed    distance over simulated time, in scene units per second
- * @param result   the whole result of its evaluation
+ * @param distance signed distance swum in {@code result}, in scene units
+ * @param speed    distance over simulated time in {@code result}, in scene units per second
+ * @param result   the whole result of a run from the scene's own start; while a run of several starts goes on, of one of
+ *                 these
  * @param bodyLength of its creature, head to tail at rest, in scene units; null while the run goes on, and in old folders
  * @param vacuum   result of the same gait without water for as long as it swam, where a gait that still advances is no swimming (thesis 2.7);
  *                 null while the run goes on, and for scenes that have no such variant
+ * @param selected what it was worth when it was chosen; null in old folders
+ * @param runs     by so many runs; null likewise
+ * @param fresh    what it does from starts that had no part in choosing it; null while the run goes on, and in old folders
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record BestGait(String scene, List<Double> genes, Gait gait, double distance, double speed,
-        SimulationResult result, Double bodyLength, SimulationResult vacuum) {
+        SimulationResult result, Double bodyLength, SimulationResult vacuum, Double selected, Integer runs,
+        FreshRuns fresh) {
+
+    /** As old folders have it. */
+    public BestGait(String scene, List<Double> genes, Gait gait, double distance, double speed,
+            SimulationResult result, Double bodyLength, SimulationResult vacuum) {
+        this(scene, genes, gait, distance, speed, result, bodyLength, vacuum, null, null, null);
+    }
 
     /** The best gait as far as evolution tells. */
-    public static BestGait of(String scene, Individual best, Gait gait, Double bodyLength,
-            SimulationResult vacuum) {
+    public static BestGait of(String scene, Individual best, Gait gait) {
         return new BestGait(scene, best.genes(), gait, best.result().distance(), best.result().speed(), best.result(),
-                bodyLength, vacuum);
+                null, null, best.score(), best.runs(), null);
+    }
+
+    /**
+     * With what is found out at the end of a run.
+     *
+     * @param own from the scene's own start
+     */
+    public BestGait examined(SimulationResult own, Double length, SimulationResult withoutWater, FreshRuns again) {
+        return new BestGait(scene, genes, gait, own.distanceOrZero(), own.speed(), own, length, withoutWater, selected, runs,
+                again);
+    }
+
+    /** Whether {@code result} is a run from the scene's own start, so that whoever runs the gait again gets the same. */
+    @JsonIgnore
+    public boolean isFromOwnStart() {
+        return runs == null || runs == 1 || vacuum != null;
     }
 }

@@ -33,6 +33,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     static final String BEST = "best.json";
     static final String SAVINGS = "savings.json";
     static final String VACUUM = "vacuum.jsonl";
+    static final String CONTROLS = "check.json";
     static final String ENVIRONMENT = "environment.json";
     static final String EVALUATIONS = "evaluations.jsonl";
     private static final String GENERATIONS = "generations.csv";
@@ -40,7 +41,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
     private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
-            ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CONFIG, ".");
+            CONTROLS, ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CONFIG, ".");
 
     private final Path directory;
     private EvolutionSettings settings;
@@ -208,26 +209,28 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     public void generationFinished(EvolutionState state) {
         log.force();
         AtomicFile.write(directory.resolve(CHECKPOINT), Json.document(state));
-        writeResults(state, null, null);
+        writeResults(state);
         timings.append(state);
     }
 
     /**
      * Writes what follows from a state.
      *
-     * @param bodyLength of the creature in scene units, or null
-     * @param vacuum     result of the best gait in vacuum, or null
      * @return the best gait, or null if there is none
      */
-    public BestGait writeResults(EvolutionState state, Double bodyLength, SimulationResult vacuum) {
+    public BestGait writeResults(EvolutionState state) {
         AtomicFile.write(directory.resolve(GENERATIONS), GenerationTable.csv(state.history()));
         if (state.best() == null) {
             return null;
         }
-        BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()), bodyLength,
-                vacuum);
-        AtomicFile.write(directory.resolve(BEST), Json.document(best));
+        BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()));
+        write(best);
         return best;
+    }
+
+    /** Writes the best gait. */
+    public void write(BestGait best) {
+        AtomicFile.write(directory.resolve(BEST), Json.document(best));
     }
 
     /** The folder for pictures, made if it is not there. */

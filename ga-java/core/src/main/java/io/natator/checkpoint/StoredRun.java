@@ -4,13 +4,19 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.OptimizerKind;
+import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.Individual;
+import io.natator.evolution.ParetoRanking;
 import io.natator.file.JsonLines;
 import io.natator.simulator.SimulationResult;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.SortedMap;
+import java.util.TreeMap;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -116,7 +122,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
             LOG.warn("{}; taken from {} instead", e.getMessage(), RunFolder.CHECKPOINT);
         }
         return state == null || state.best() == null ? null : BestGait.of(settings.scene(), state.best(),
-                settings.encoding().forActuators(settings.actuators()).decode(state.best().genes()), null, null);
+                settings.encoding().forActuators(settings.actuators()).decode(state.best().genes()));
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */
@@ -134,28 +140,58 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return optional(directory, name, JsonNode.class);
     }
 
-    /** The best evaluation of all generations up to this one, the earliest of equals; null if none is recorded. */
-    public EvaluationRecord bestUntil(int generation) {
-        EvaluationRecord found = null;
-        for (EvaluationRecord one : evaluations) {
-            if (one.generation() <= generation && one.result().status() == SimulationResult.Status.OK
-                    && (found == null || one.result().score() > found.result().score())) {
-                found = one;
+    /** The best gait of all generations up to this one, the earliest of equals; null if none is recorded. */
+    public JudgedGait bestUntil(int generation) {
+        JudgedGaits gaits = new JudgedGaits(settings);
+        evaluations.stream().filter(one -> one.generation() <= generation).forEach(gaits::add);
+        return gaits.best();
+    }
+
+    /**
+     * Of a run with several objectives, the individuals that no other is better than in all of them, the best by the first
+     * objective first; else none.
+     */
+    public List<Individual> front() {
+        boolean several = settings.optimizer() == OptimizerKind.NSGA2 && state != null;
+        return several ? ParetoRanking.front(state.population(),
+                settings.encoding().forActuators(settings.actuators()).genes()) : List.of();
+    }
+
+    /** The best gait of each kind that MAP-Elites found; null of another optimizer. */
+    public EliteMap elites() {
+        return settings.optimizer() == OptimizerKind.MAP_ELITES && state != null
+                ? new EliteMap(settings, state.population()) : null;
+    }
+
+    /** The best gait up to each generation that any is recorded of, the earliest generation first. */
+    public SortedMap<Integer, JudgedGait> bestsByGeneration() {
+        JudgedGaits gaits = new JudgedGaits(settings);
+        SortedMap<Integer, JudgedGait> bests = new TreeMap<>();
+        for (int i = 0; i < evaluations.size(); i++) {
+            int generation = evaluations.get(i).generation();
+            gaits.add(evaluations.get(i));
+            boolean isLast = i + 1 == evaluations.size() || evaluations.get(i + 1).generation() != generation;
+            if (isLast && gaits.best() != null) {
+                bests.put(generation, gaits.best());
             }
         }
-        return found;
+        return bests;
+    }
+
+    /** All gaits that are recorded, the best first. */
+    public List<JudgedGait> gaits() {
+        JudgedGaits gaits = new JudgedGaits(settings);
+        evaluations.forEach(gaits::add);
+        return gaits.ranked();
     }
 
     /** Best fitness after each evaluation. */
     public double[] bestFitness() {
-        return bestFitness(evaluations);
-    }
-
-    /** Best fitness after each of these evaluations. */
-    public static double[] bestFitness(List<EvaluationRecord> evaluations) {
-        double[] best = evaluations.stream().mapToDouble(one -> one.result().fitness()).toArray();
-        for (int i = 1; i < best.length; i++) {
-            best[i] = Math.max(best[i], best[i - 1]);
+        JudgedGaits gaits = new JudgedGaits(settings);
+        double[] best = new double[evaluations.size()];
+        for (int i = 0; i < best.length; i++) {
+            gaits.add(evaluations.get(i));
+            best[i] = gaits.best() == null ? 0 : Math.max(gaits.best().score(), 0);
         }
         return best;
     }

@@ -2,6 +2,9 @@ package io.natator.config;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.Collectors;
 
 /**
  * All that determines the outcome of an evolution: the same settings and simulator give the same run. Written to
@@ -26,12 +29,17 @@ import com.fasterxml.jackson.databind.JsonNode;
  * @param scheme            scheme to ask the simulator for, or null for the scene's own
  * @param duration          simulated time in seconds, above 0, or null for the scene's own
  * @param overrides         JSON Merge Patch on the scene, or null
+ * @param starts            runs of each new gait, each from a start of its own, from 1 to {@link Limits#STARTS}; 1 is one
+ *                          run from the scene's own start, as in the thesis
+ * @param judge             what several runs are worth
+ * @param objectives        what is to be great instead of the fitness: one, several with weights, or for {@code nsga2}
+ *                          several without; null for the fitness
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record EvolutionSettings(String scene, EncodingKind encoding, int actuators, OptimizerKind optimizer,
         int population, int generations, Long evaluations, long seed, OperatorSet operators, double gaussianDeviation,
         FitnessKind fitness, Boolean vacuumCheck, Backend backend, Scheme scheme, Double duration,
-        JsonNode overrides) {
+        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives) {
 
     /** Generations of a run that ends by its number of evaluations alone. */
     public static final int NO_LIMIT = Integer.MAX_VALUE;
@@ -57,6 +65,41 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
         fitness = fitness == null ? FitnessKind.DISTANCE : fitness;
         vacuumCheck = vacuumCheck != null && vacuumCheck;
         backend = backend == null ? Backend.CPU : backend;
+        starts = starts == null ? 1 : starts;
+        judge = judge == null ? Judge.MEAN : judge;
+        require(starts >= 1 && starts <= Limits.STARTS, "starts", starts, "a whole number from 1 to " + Limits.STARTS);
+        require(starts >= judge.leastRuns(), "starts", starts,
+                "at least " + judge.leastRuns() + " with --judge " + judge.name().toLowerCase(Locale.ROOT).replace('_', '-'));
+        objectives = objectives == null || objectives.isEmpty() ? null : List.copyOf(objectives);
+        checkObjectives(optimizer, fitness, judge, objectives == null ? List.of() : objectives);
+        require(evaluations == null || evaluations >= starts, "evaluations", evaluations,
+                "at least the " + starts + " starts of one gait");
+    }
+
+    private static void checkObjectives(OptimizerKind optimizer, FitnessKind fitness, Judge judge,
+            List<WeightedObjective> objectives) {
+        long weighted = objectives.stream().filter(one -> one.weight() != null).count();
+        String names = objectives.stream().map(one -> one.objective().name().toLowerCase(Locale.ROOT))
+                .collect(Collectors.joining(" and "));
+        String name = optimizer.name().toLowerCase(Locale.ROOT).replace('_', '-');
+        if (fitness != FitnessKind.DISTANCE && !objectives.isEmpty()) {
+            throw new InvalidInputException("--fitness and --objectives exclude each other; expected the objective net");
+        }
+        if (weighted > 0 && weighted < objectives.size()) {
+            throw new InvalidInputException("objectives are " + names + ", of which " + weighted + " have weights; expected all "
+                    + "or none of them");
+        }
+        if (optimizer == OptimizerKind.NSGA2 && (objectives.size() < 2 || weighted > 0)) {
+            throw new InvalidInputException("optimizer nsga2 is for several objectives without weights, not "
+                    + (objectives.isEmpty() ? "none" : names) + "; expected --objectives distance,work for example");
+        }
+        if (optimizer == OptimizerKind.NSGA2 && judge != Judge.MEAN) {
+            throw new InvalidInputException("optimizer nsga2 judges by means; expected --judge mean");
+        }
+        if (optimizer != OptimizerKind.NSGA2 && objectives.size() > 1 && weighted == 0) {
+            throw new InvalidInputException("optimizer " + name + " has one objective, not " + names
+                    + "; expected a weight for each, as in distance=1,work=0.1, or --optimizer nsga2");
+        }
     }
 
     private static void require(boolean valid, String name, Object value, String expected) {
@@ -69,52 +112,71 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
     public static EvolutionSettings of(String scene, EncodingKind encoding, int actuators) {
         return new EvolutionSettings(scene, encoding, actuators, OptimizerKind.JGAP, Preset.THESIS.population(),
                 Preset.THESIS.generations(), null, 1, OperatorSet.CORRECTED, 0.05, FitnessKind.DISTANCE, false,
-                Backend.CPU, null, null, null);
+                Backend.CPU, null, null, null, 1, Judge.MEAN, null);
     }
 
     /** These settings with another size. */
     public EvolutionSettings withSize(int newPopulation, int newGenerations) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, newPopulation, newGenerations,
                 evaluations, seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration,
-                overrides);
+                overrides, starts, judge, objectives);
     }
 
     /** These settings with a number of simulations, or null, after which the run ends. */
     public EvolutionSettings withEvaluations(Long newEvaluations) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, newEvaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides);
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge, objectives);
     }
 
     /** These settings with another seed. */
     public EvolutionSettings withSeed(long newSeed) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                newSeed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides);
+                newSeed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge, objectives);
     }
 
     /** These settings with another optimizer and, for JGAP, its operators. */
     public EvolutionSettings withOptimizer(OptimizerKind newOptimizer, OperatorSet newOperators,
             double newGaussianDeviation) {
         return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
-                seed, newOperators, newGaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides);
+                seed, newOperators, newGaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge, objectives);
     }
 
     /** These settings with another reward, and with or without the check of new bests in vacuum. */
     public EvolutionSettings withFitness(FitnessKind newFitness, boolean newVacuumCheck) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, newFitness, newVacuumCheck, backend, scheme, duration, overrides);
+                seed, operators, gaussianDeviation, newFitness, newVacuumCheck, backend, scheme, duration, overrides, starts, judge, objectives);
     }
 
     /** These settings on another backend. */
     public EvolutionSettings withBackend(Backend newBackend) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, newBackend, scheme, duration, overrides);
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, newBackend, scheme, duration, overrides, starts, judge, objectives);
     }
 
     /** These settings with the scene changed; null leaves what the scene has. */
     public EvolutionSettings withScene(Scheme newScheme, Double newDuration, JsonNode newOverrides) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, newScheme, newDuration,
-                newOverrides);
+                newOverrides, starts, judge, objectives);
+    }
+
+    /** These settings with another number of starts of each gait. */
+    public EvolutionSettings withStarts(int newStarts, Judge newJudge) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides,
+                newStarts, newJudge, objectives);
+    }
+
+    /** These settings with objectives instead of the fitness, or null; and for these, an optimizer. */
+    public EvolutionSettings withObjectives(OptimizerKind newOptimizer, List<WeightedObjective> newObjectives) {
+        return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides,
+                starts, judge, newObjectives);
+    }
+
+    /** Runs of a generation that go to the best gaits so far, to know them better; none with a single start. */
+    public int repeats() {
+        return starts == 1 ? 0 : Math.max(elites(), 1) * starts;
     }
 
     /** How many of the selected are the best; 30 of 150 as in the thesis, the same share of other populations. */

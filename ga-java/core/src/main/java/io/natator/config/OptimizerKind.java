@@ -12,5 +12,11 @@ public enum OptimizerKind {
     CMA_ES,
     /** Uniformly random genes: what the others are to be better than. */
     @JsonProperty("random")
-    RANDOM
+    RANDOM,
+    /** NSGA-II (Deb, Pratap, Agarwal, Meyarivan 2002) on jMetal, for several objectives at once. */
+    @JsonProperty("nsga2")
+    NSGA2,
+    /** MAP-Elites (Mouret and Clune 2015): the best gait of every kind. */
+    @JsonProperty("map-elites")
+    MAP_ELITES
 }

@@ -1,6 +1,7 @@
 package io.natator.encoding;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
+import java.util.Collections;
 import java.util.List;
 import java.util.Objects;
 
@@ -35,6 +36,16 @@ public record Gait(double frequency, List<Double> amplitude, List<Double> phase,
     /** A gait that follows the plain sine. */
     public Gait(double frequency, List<Double> amplitude, List<Double> phase) {
         this(frequency, amplitude, phase, null);
+    }
+
+    /** Muscles that do nothing. */
+    public Gait resting() {
+        return new Gait(frequency, Collections.nCopies(actuators(), 0.0), phase, power);
+    }
+
+    /** Left and right exchanged: all muscles half a period later, which is the mirror image of a plain sine. */
+    public Gait mirrored() {
+        return new Gait(frequency, amplitude, phase.stream().map(one -> one < 0.5 ? one + 0.5 : one - 0.5).toList(), power);
     }
 
     /** Number of actuators that this gait drives. */

@@ -2,7 +2,6 @@ package io.natator.evolution;
 
 import io.natator.config.EvolutionSettings;
 import io.natator.encoding.GeneRange;
-import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
@@ -34,8 +33,8 @@ final class CmaEs implements Optimizer {
     private final EvolutionSettings settings;
     private final List<GeneRange> ranges;
     private final GenerationEvaluator evaluator;
-    /** Results of all finished generations of the present search. */
-    private final List<SimulationResult> known = new ArrayList<>();
+    /** All finished generations of the present search. */
+    private final List<Individual> known = new ArrayList<>();
     /** Searches that have converged. */
     private int searches;
 
@@ -46,23 +45,19 @@ final class CmaEs implements Optimizer {
     }
 
     @Override
-    public void recall(List<EvaluationRecord> earlier) {
+    public void recall(List<Individual> earlier) {
         int size = settings.population();
         for (int first = 0; first + size <= earlier.size(); first += size) {
             points();
-            earlier.subList(first, first + size).forEach(evaluation -> known.add(evaluation.result()));
+            known.addAll(earlier.subList(first, first + size));
         }
     }
 
     @Override
     public List<Individual> next(int generation, List<Individual> before) {
         List<List<Double>> genomes = points().stream().map(this::genes).toList();
-        List<SimulationResult> results = evaluator.evaluate(genomes);
-        known.addAll(results);
-        List<Individual> individuals = new ArrayList<>();
-        for (int i = 0; i < results.size(); i++) {
-            individuals.add(new Individual(genomes.get(i), 0, results.get(i)));
-        }
+        List<Individual> individuals = evaluator.evaluate(genomes);
+        known.addAll(individuals);
         return individuals;
     }
 
@@ -107,13 +102,12 @@ final class CmaEs implements Optimizer {
     private double[] values() {
         double[] values = new double[known.size()];
         for (int first = 0; first < values.length; first += settings.population()) {
-            List<SimulationResult> generation =
+            List<Individual> generation =
                     known.subList(first, Math.min(first + settings.population(), known.size()));
-            double worst = generation.stream().filter(result -> result.status() == SimulationResult.Status.OK)
-                    .mapToDouble(SimulationResult::score).min().orElse(0.0);
+            double worst = generation.stream().filter(Individual::isMeasured).mapToDouble(Individual::score).min()
+                    .orElse(0.0);
             for (int i = 0; i < generation.size(); i++) {
-                SimulationResult result = generation.get(i);
-                values[first + i] = result.status() == SimulationResult.Status.OK ? result.score() : worst;
+                values[first + i] = generation.get(i).isMeasured() ? generation.get(i).score() : worst;
             }
         }
         return values;

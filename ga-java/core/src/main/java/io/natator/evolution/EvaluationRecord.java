@@ -1,5 +1,6 @@
 package io.natator.evolution;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
 import java.util.List;
@@ -11,11 +12,18 @@ import java.util.List;
  * @param genes      gene values in the order of the encoding
  * @param gait       what they stand for
  * @param result     what came of it; its id is the number of the simulation in the evolution, from 0
+ * @param start      from which of many starts; null for the scene's own
  */
-public record EvaluationRecord(int generation, List<Double> genes, Gait gait, SimulationResult result) {
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record EvaluationRecord(int generation, List<Double> genes, Gait gait, SimulationResult result, Integer start) {
 
     /** Copies the genes. */
     public EvaluationRecord {
         genes = List.copyOf(genes);
+    }
+
+    /** From the scene's own start. */
+    public EvaluationRecord(int generation, List<Double> genes, Gait gait, SimulationResult result) {
+        this(generation, genes, gait, result, null);
     }
 }

@@ -7,6 +7,8 @@ import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Objects;
+import java.util.stream.IntStream;
 
 /**
  * Evolves the gait of one creature. The course depends on the settings and the simulator's answers only: not on the
@@ -24,6 +26,10 @@ public final class Evolution {
     private long evaluations;
     /** Results of the current generation's simulations, in the order of their ids. */
     private final List<SimulationResult> simulated = new ArrayList<>();
+
+    /** A simulation to be made: of these genes, from this start. */
+    private record Run(List<Double> genes, Integer start) {
+    }
 
     /**
      * An evolution that has not begun.
@@ -56,11 +62,12 @@ public final class Evolution {
             throw new IllegalArgumentException(recorded.size() + " simulations recorded; expected the " + evaluations
                     + " up to where the evolution is to continue");
         }
-        try (Optimizer optimizer = Optimizer.of(settings, encoding.genes(), this::simulate)) {
-            optimizer.recall(recorded.subList(0, (int) evaluations));
+        try (Optimizer optimizer = Optimizer.of(settings, encoding.genes(), this::evaluate)) {
+            optimizer.recall(newborns(recorded.subList(0, (int) evaluations)));
             EvolutionState state = from;
             while (state == null || !state.isLastOf(settings)) {
                 generation = state == null ? 0 : state.generation() + 1;
+                simulated.clear();
                 state = finish(state, optimizer.next(generation, state == null ? List.of() : state.population()));
             }
             return state;
@@ -72,55 +79,128 @@ public final class Evolution {
     }
 
     /** The state after a generation, announced to the listeners. */
-    private EvolutionState finish(EvolutionState before, List<Individual> population) {
+    private EvolutionState finish(EvolutionState before, List<Individual> bred) {
+        List<Individual> population = bred;
+        List<Individual> champions = null;
         Individual best = before == null ? null : before.best();
-        for (Individual individual : population) {
-            SimulationResult result = individual.result();
-            if (result.status() == SimulationResult.Status.OK
-                    && (best == null || result.score() > best.result().score())) {
-                best = individual;
+        if (settings.starts() > 1) {
+            Race race = new Race(settings, this::repeat, bred, before == null ? List.of() : before.champions());
+            champions = race.run();
+            if (budgetLeft() > 0 && budgetLeft() < settings.starts()) {
+                champions = race.useUp((int) budgetLeft());
+            }
+            population = bred.stream().map(race::known).toList();
+            best = race.winner();
+        } else {
+            for (Individual individual : population) {
+                if (individual.isMeasured() && (best == null || individual.score() > best.score())) {
+                    best = individual;
+                }
             }
         }
-        double[] scores = population.stream().mapToDouble(one -> one.result().score()).toArray();
+        double[] scores = population.stream().mapToDouble(Individual::score).toArray();
         List<GenerationSummary> history = new ArrayList<>(before == null ? List.of() : before.history());
         history.add(GenerationSummary.of(generation, scores, simulated.size(),
                 count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED)));
-        EvolutionState state = new EvolutionState(generation, evaluations, population, best, history);
+        EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions);
         listeners.forEach(listener -> listener.generationFinished(state));
         return state;
     }
 
-    /** Simulates the new genomes of the current generation, save those that the interrupted run had finished. */
-    private List<SimulationResult> simulate(List<List<Double>> proposed) {
-        simulated.clear();
-        List<List<Double>> genomes = proposed.subList(0, (int) Math.min(proposed.size(), budgetLeft()));
-        listeners.forEach(listener -> listener.generationStarted(generation, genomes.size()));
-        while (simulated.size() < genomes.size() && evaluations < recorded.size()) {
-            accept(replayed(genomes.get(simulated.size())));
+    /** New genomes as individuals: each run from all starts of the generation. */
+    private List<Individual> evaluate(List<List<Double>> proposed) {
+        int starts = settings.starts();
+        List<List<Double>> genomes = proposed.subList(0, (int) Math.min(proposed.size(), budgetLeft() / starts));
+        int planned = (int) Math.min((long) genomes.size() * starts + settings.repeats(), budgetLeft());
+        listeners.forEach(listener -> listener.generationStarted(generation, planned));
+        List<Run> runs = new ArrayList<>();
+        for (List<Double> genes : genomes) {
+            for (int k = 0; k < starts; k++) {
+                runs.add(new Run(genes, starts == 1 ? null : Starts.of(settings.seed(), generation, k)));
+            }
+        }
+        return newborns(genomes, simulate(runs));
+    }
+
+    /** Individuals of several runs each, which stand one after another. */
+    private List<Individual> newborns(List<List<Double>> genomes, List<SimulationResult> results) {
+        int starts = settings.starts();
+        List<Individual> newborns = new ArrayList<>();
+        for (int i = 0; i < genomes.size(); i++) {
+            List<SimulationResult> own = results.subList(i * starts, (i + 1) * starts);
+            SimulationResult shown = own.stream().filter(one -> one.status() == SimulationResult.Status.OK).findFirst()
+                    .orElse(own.get(0));
+            newborns.add(new Individual(genomes.get(i), 0, shown,
+                    starts == 1 ? null : Estimate.of(own, settings.judge())));
+        }
+        return newborns;
+    }
+
+    /** The newborns of all generations that these simulations are of. */
+    private List<Individual> newborns(List<EvaluationRecord> earlier) {
+        int starts = settings.starts();
+        List<List<Double>> genomes = new ArrayList<>();
+        List<SimulationResult> results = new ArrayList<>();
+        for (EvaluationRecord one : earlier) {
+            if (starts > 1 && one.start() != null && IntStream.range(0, starts)
+                    .noneMatch(k -> one.start() == Starts.of(settings.seed(), one.generation(), k))) {
+                continue;
+            }
+            if (results.size() % starts == 0) {
+                genomes.add(one.genes());
+            }
+            results.add(one.result());
+        }
+        return newborns(genomes, results);
+    }
+
+    private List<Individual> repeat(List<Individual> individuals, int first, int starts) {
+        List<Run> runs = new ArrayList<>();
+        for (Individual one : individuals) {
+            for (int k = first; k < first + starts; k++) {
+                runs.add(new Run(one.genes(), Starts.of(settings.seed(), generation, k)));
+            }
+        }
+        List<SimulationResult> results = simulate(runs.subList(0, (int) Math.min(runs.size(), budgetLeft())));
+        List<Individual> repeated = new ArrayList<>();
+        for (int i = 0; i * starts < results.size(); i++) {
+            List<SimulationResult> own = results.subList(i * starts, Math.min((i + 1) * starts, results.size()));
+            Individual one = individuals.get(i);
+            repeated.add(one.withEstimate(one.estimate().with(own, settings.judge())));
+        }
+        return repeated;
+    }
+
+    /** Simulates, save what the interrupted run had finished. */
+    private List<SimulationResult> simulate(List<Run> runs) {
+        int before = simulated.size();
+        while (simulated.size() - before < runs.size() && evaluations < recorded.size()) {
+            accept(replayed(runs.get(simulated.size() - before)));
         }
         List<SimulationRequest> requests = new ArrayList<>();
-        for (List<Double> genes : genomes.subList(simulated.size(), genomes.size())) {
+        for (Run run : runs.subList(simulated.size() - before, runs.size())) {
             requests.add(new SimulationRequest(evaluations + requests.size(), settings.scene(),
-                    encoding.decode(genes), settings.duration(), settings.scheme(), settings.overrides()));
+                    encoding.decode(run.genes()), settings.duration(), settings.scheme(), settings.overrides())
+                    .withStart(run.start()));
         }
         try {
             evaluator.evaluateInOrder(requests, result -> {
-                List<Double> genes = genomes.get(simulated.size());
-                accept(new EvaluationRecord(generation, genes, encoding.decode(genes), result));
+                Run run = runs.get(simulated.size() - before);
+                accept(new EvaluationRecord(generation, run.genes(), encoding.decode(run.genes()), result, run.start()));
             });
         } catch (InterruptedException e) {
             throw new EvolutionStoppedException("stopped in generation " + generation + " after " + evaluations
                     + " evaluations");
         }
         failIfMostFailed();
-        return List.copyOf(simulated);
+        return List.copyOf(simulated.subList(before, simulated.size()));
     }
 
-    private EvaluationRecord replayed(List<Double> genes) {
+    private EvaluationRecord replayed(Run run) {
         EvaluationRecord found = recorded.get((int) evaluations);
-        if (!found.genes().equals(genes)) {
+        if (!found.genes().equals(run.genes()) || !Objects.equals(found.start(), run.start())) {
             throw new EvolutionFailedException("recorded evaluation " + evaluations
-                    + " is of other genes than this evolution's: the run folder was changed, or made by another version");
+                    + " is of other genes, or from another start, than this evolution's: the run folder was changed, or made by another version");
         }
         return found;
     }

@@ -1,5 +1,6 @@
 package io.natator.evolution;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.config.EvolutionSettings;
 import java.util.List;
 
@@ -10,21 +11,30 @@ import java.util.List;
  * @param generation  number of the last finished generation; 0 is the random one
  * @param evaluations simulations up to now; the next one gets this number as its id
  * @param population  the evaluated chromosomes of that generation
- * @param best        greatest distance of all generations, the earliest of equals; null if none was measured
+ * @param best        greatest distance of all generations, the earliest of equals; with several starts
+ *                    the surest of the champions; null if none was measured
  * @param history     one summary per finished generation
+ * @param champions   the best gaits of all generations, which are run again in each; null with a single start
  */
 public record EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
-        List<GenerationSummary> history) {
+        List<GenerationSummary> history, @JsonInclude(JsonInclude.Include.NON_NULL) List<Individual> champions) {
 
     /** Copies the lists. */
     public EvolutionState {
         population = List.copyOf(population);
         history = List.copyOf(history);
+        champions = champions == null ? null : List.copyOf(champions);
     }
 
-    /** Whether an evolution with these settings goes no further than this state. */
+    /** Of an evolution in which every gait is run once. */
+    public EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
+            List<GenerationSummary> history) {
+        this(generation, evaluations, population, best, history, null);
+    }
+
+    /** Whether an evolution with these settings goes no further than this state: no more whole gait can be evaluated. */
     public boolean isLastOf(EvolutionSettings settings) {
         return generation >= settings.generations()
-                || settings.evaluations() != null && evaluations >= settings.evaluations();
+                || settings.evaluations() != null && evaluations + settings.starts() > settings.evaluations();
     }
 }

@@ -90,7 +90,7 @@ final class GeneticAlgorithm implements Optimizer {
         for (Individual parent : parents) {
             IChromosome chromosome = chromosome(parent.genes());
             chromosome.setAge(parent.age());
-            chromosome.setFitnessValueDirectly(parent.result().fitness());
+            chromosome.setFitnessValueDirectly(parent.fitness());
             population.addChromosome(chromosome);
         }
         return breeder.evolve(population, configuration);
@@ -108,8 +108,7 @@ final class GeneticAlgorithm implements Optimizer {
     private List<Individual> individuals(Population population) {
         List<Individual> individuals = new ArrayList<>();
         for (IChromosome chromosome : population.toChromosomes()) {
-            individuals.add(new Individual(ThesisBreeder.genesOf(chromosome), chromosome.getAge(),
-                    breeder.resultOf(chromosome)));
+            individuals.add(breeder.evaluated(chromosome).withAge(chromosome.getAge()));
         }
         return individuals;
     }
@@ -131,7 +130,7 @@ final class GeneticAlgorithm implements Optimizer {
 
         @Override
         protected double evaluate(IChromosome chromosome) {
-            return breeder.resultOf(chromosome).fitness();
+            return breeder.evaluated(chromosome).fitness();
         }
     }
 }

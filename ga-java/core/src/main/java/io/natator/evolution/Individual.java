@@ -1,19 +1,60 @@
 package io.natator.evolution;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.simulator.SimulationResult;
 import java.util.List;
 
 /**
  * An evaluated chromosome.
  *
- * @param genes  gene values in the order of the encoding
- * @param age    generations survived since birth; random first ones start at 1, since JGAP does not cross newborns
- * @param result what came of its evaluation
+ * @param genes    gene values in the order of the encoding
+ * @param age      generations survived since birth; random first ones start at 1, since JGAP does not cross newborns
+ * @param result   what came of its evaluation; of several runs, of the first that was measured
+ * @param estimate what it is worth by several runs; null where there is one
  */
-public record Individual(List<Double> genes, int age, SimulationResult result) {
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record Individual(List<Double> genes, int age, SimulationResult result, Estimate estimate) {
 
     /** Copies the genes. */
     public Individual {
         genes = List.copyOf(genes);
+    }
+
+    /** Of a single run. */
+    public Individual(List<Double> genes, int age, SimulationResult result) {
+        this(genes, age, result, null);
+    }
+
+    /** What is to be great; negative for what goes backwards. */
+    public double score() {
+        return estimate == null ? result.score() : estimate.score();
+    }
+
+    /** The score that selection works with: never negative. */
+    public double fitness() {
+        return Math.max(score(), 0.0);
+    }
+
+    /** What it is worth by each of the run's objectives; null where it has none. */
+    public List<Double> objectives() {
+        return estimate == null ? result.objectives() : estimate.objectives();
+    }
+
+    /** How many runs the score rests on. */
+    public int runs() {
+        return estimate == null ? 1 : estimate.runs().size();
+    }
+
+    /** Whether any run came to a distance. */
+    boolean isMeasured() {
+        return result.status() == SimulationResult.Status.OK;
+    }
+
+    Individual withAge(int newAge) {
+        return new Individual(genes, newAge, result, estimate);
+    }
+
+    Individual withEstimate(Estimate newEstimate) {
+        return new Individual(genes, age, result, newEstimate);
     }
 }

@@ -11,11 +11,11 @@ import java.util.List;
 interface Optimizer extends AutoCloseable {
 
     /**
-     * Takes note of the simulations of earlier generations, when a run continues.
+     * Takes note of what was evaluated in earlier generations, when a run continues.
      *
-     * @param earlier all of them, in the order of their ids
+     * @param earlier all newborns in their order, each as it was before any was run again
      */
-    default void recall(List<EvaluationRecord> earlier) {
+    default void recall(List<Individual> earlier) {
     }
 
     /**
@@ -42,6 +42,8 @@ interface Optimizer extends AutoCloseable {
             case JGAP -> new GeneticAlgorithm(settings, ranges, evaluator);
             case CMA_ES -> new CmaEs(settings, ranges, evaluator);
             case RANDOM -> new RandomSearch(settings, ranges, evaluator);
+            case NSGA2 -> new Nsga2(settings, ranges, evaluator);
+            case MAP_ELITES -> new MapElites(settings, ranges, evaluator);
         };
     }
 }

@@ -2,7 +2,6 @@ package io.natator.evolution;
 
 import io.natator.config.EvolutionSettings;
 import io.natator.encoding.GeneRange;
-import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.SplittableRandom;
@@ -27,11 +26,6 @@ final class RandomSearch implements Optimizer {
         for (int i = 0; i < settings.population(); i++) {
             genomes.add(ranges.stream().map(range -> random.nextDouble(range.lower(), range.upper())).toList());
         }
-        List<SimulationResult> results = evaluator.evaluate(genomes);
-        List<Individual> individuals = new ArrayList<>();
-        for (int i = 0; i < results.size(); i++) {
-            individuals.add(new Individual(genomes.get(i), 0, results.get(i)));
-        }
-        return individuals;
+        return evaluator.evaluate(genomes);
     }
 }

@@ -1,7 +1,6 @@
 package io.natator.evolution;
 
 import io.natator.config.EvolutionSettings;
-import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.LinkedHashSet;
@@ -25,8 +24,8 @@ final class ThesisBreeder extends GABreeder {
 
     private final transient EvolutionSettings settings;
     private final transient GenerationEvaluator evaluator;
-    /** Results of the chromosomes of the current population, by their genes. */
-    private final transient Map<List<Double>, SimulationResult> known = new HashMap<>();
+    /** The chromosomes of the current population, by their genes. */
+    private final transient Map<List<Double>, Individual> known = new HashMap<>();
 
     ThesisBreeder(EvolutionSettings settings, GenerationEvaluator evaluator) {
         this.settings = settings;
@@ -96,16 +95,13 @@ final class ThesisBreeder extends GABreeder {
         }
         List<List<Double>> unknown = new ArrayList<>(present);
         unknown.removeIf(known::containsKey);
-        List<SimulationResult> results = evaluator.evaluate(unknown);
-        for (int i = 0; i < results.size(); i++) {
-            known.put(unknown.get(i), results.get(i));
-        }
+        know(evaluator.evaluate(unknown));
         known.keySet().retainAll(present);
         try {
             Population evaluated = new Population(configuration, population.size());
             for (IChromosome chromosome : population.toChromosomes()) {
                 if (known.containsKey(genesOf(chromosome))) {
-                    chromosome.setFitnessValueDirectly(resultOf(chromosome).fitness());
+                    chromosome.setFitnessValueDirectly(evaluated(chromosome).fitness());
                     evaluated.addChromosome(chromosome);
                 }
             }
@@ -115,9 +111,9 @@ final class ThesisBreeder extends GABreeder {
         }
     }
 
-    /** Declares the results of chromosomes that were evaluated before. */
+    /** Declares chromosomes that are evaluated. */
     void know(List<Individual> individuals) {
-        individuals.forEach(individual -> known.put(individual.genes(), individual.result()));
+        individuals.forEach(individual -> known.put(individual.genes(), individual));
     }
 
     /**
@@ -125,12 +121,12 @@ final class ThesisBreeder extends GABreeder {
      *
      * @throws IllegalStateException if it was not evaluated
      */
-    SimulationResult resultOf(IChromosome chromosome) {
-        SimulationResult result = known.get(genesOf(chromosome));
-        if (result == null) {
+    Individual evaluated(IChromosome chromosome) {
+        Individual found = known.get(genesOf(chromosome));
+        if (found == null) {
             throw new IllegalStateException("chromosome has not been evaluated: " + chromosome);
         }
-        return result;
+        return found;
     }
 
     static List<Double> genesOf(IChromosome chromosome) {

@@ -7,7 +7,11 @@ import io.natator.config.InvalidInputException;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
 import java.util.function.LongSupplier;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -24,6 +28,8 @@ final class EvaluationCounter implements EvolutionListener {
     private long evaluations;
     private long stoppedEarly;
     private double simulated;
+    /** Of runs with several starts, whose evaluations are not one of each new chromosome. */
+    private final Set<List<Double>> newborns = new HashSet<>();
 
     /**
      * Counts on from the folder's checkpoint.
@@ -56,6 +62,9 @@ final class EvaluationCounter implements EvolutionListener {
     public void evaluated(EvaluationRecord evaluation) {
         SimulationResult result = evaluation.result();
         evaluations++;
+        if (evaluation.start() != null) {
+            newborns.add(evaluation.genes());
+        }
         if (result.status() == SimulationResult.Status.OK && !"completed".equals(result.stopped())) {
             stoppedEarly++;
             simulated += result.simulated();
@@ -66,7 +75,8 @@ final class EvaluationCounter implements EvolutionListener {
 
     @Override
     public void generationFinished(EvolutionState state) {
-        long unchanged = state.history().stream().mapToLong(one -> one.population() - one.evaluations()).sum();
+        long population = state.history().stream().mapToLong(GenerationSummary::population).sum();
+        long unchanged = population - (newborns.isEmpty() ? evaluations : newborns.size());
         folder.write(new EvaluationStatistics(evaluations, unchanged, foundBefore + found.getAsLong(), stoppedEarly,
                 simulated, evaluations * duration));
     }

@@ -15,6 +15,7 @@ import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.NetEvaluator;
+import io.natator.simulator.ObjectiveEvaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.TimeLimit;
@@ -117,14 +118,23 @@ public final class EvolutionRun {
             all.add(new VacuumCheck(folder, evaluator));
         }
         all.addAll(listeners);
-        Evaluator rewarding = settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
+        Evaluator rewarding = settings.objectives() != null ? new ObjectiveEvaluator(evaluator, settings.objectives())
+                : settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
         EvolutionState state = new Evolution(settings, rewarding, all, folder.recorded()).run(folder.checkpoint());
-        BestGait best = folder.writeResults(state, scene.bodyLength(), inVacuum(state.best(), evaluator));
+        BestGait best = folder.writeResults(state);
+        if (best != null) {
+            best = examined(best, state.best(), new FreshStarts(settings, rewarding, execution.simulator()), evaluator,
+                    scene.bodyLength());
+            folder.write(best);
+        }
         return new Outcome(state, best);
     }
 
-    /** What the best gait does without water in the time that it swam: a gait that advances there is no swimming. */
-    private SimulationResult inVacuum(Individual best, Evaluator evaluator) throws InterruptedException {
-        return best == null ? null : VacuumCheck.drift(best, settings, best.result().simulated(), evaluator);
+    /** The winner with what it does from fresh starts, and in vacuum for as long as it swam. */
+    private BestGait examined(BestGait best, Individual winner, FreshStarts starts, Evaluator evaluator,
+            Double bodyLength) throws InterruptedException {
+        SimulationResult own = winner.runs() == 1 ? winner.result() : starts.fromOwnStart(winner);
+        SimulationResult vacuum = VacuumCheck.drift(winner, settings, own.simulated(), evaluator);
+        return best.examined(own, bodyLength, vacuum, starts.of(winner));
     }
 }

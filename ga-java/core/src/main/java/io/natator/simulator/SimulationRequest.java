@@ -15,18 +15,30 @@ import io.natator.encoding.Gait;
  * @param scheme       or null for the scene's own
  * @param overrides    JSON Merge Patch on the scene, or null
  * @param perturbation shift of the starting positions, or null for none
+ * @param start        which of many starts, at least 0, or null for the scene's own; not together with a perturbation
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme,
-        JsonNode overrides, Perturbation perturbation) {
+        JsonNode overrides, Perturbation perturbation, Integer start) {
 
     /** A request that leaves the starting positions as they are. */
     public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides) {
-        this(id, scene, gait, duration, scheme, overrides, null);
+        this(id, scene, gait, duration, scheme, overrides, null, null);
+    }
+
+    /** A request from the scene's own start, with its positions shifted. */
+    public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides,
+            Perturbation perturbation) {
+        this(id, scene, gait, duration, scheme, overrides, perturbation, null);
     }
 
     /** This request with another id. */
     public SimulationRequest withId(long newId) {
-        return new SimulationRequest(newId, scene, gait, duration, scheme, overrides, perturbation);
+        return new SimulationRequest(newId, scene, gait, duration, scheme, overrides, perturbation, start);
+    }
+
+    /** This request from another start, or null for the scene's own. */
+    public SimulationRequest withStart(Integer newStart) {
+        return new SimulationRequest(id, scene, gait, duration, scheme, overrides, perturbation, newStart);
     }
 }

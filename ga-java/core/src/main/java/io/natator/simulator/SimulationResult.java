@@ -3,6 +3,7 @@ package io.natator.simulator;
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
+import java.util.List;
 
 /**
  * What came of an evaluation; the JSON form is {@code sim-native/protocol/result.schema.json}, of which unknown fields
@@ -22,14 +23,30 @@ import com.fasterxml.jackson.annotation.JsonProperty;
  * @param error     with {@code error} and {@code failed}: why, in one line; else null
  * @param swimming  dimensionless numbers of the swim, or null: not of every scene, nor of every program
  * @param work      mechanical work of the muscles, in mass times length squared by seconds squared, or null likewise
+ * @param course    where it went by its own heading, or null: not of every program
  * @param vacuumDrift with fitness net: signed distance of the same gait in vacuum in the same time; else null. Never
  *                  said by the simulator itself
+ * @param objectives what it is worth by each of the run's objectives, or null where it has none
+ * @param worth      by all of them together, or null likewise
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
         Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
-        SwimmingNumbers swimming, Double work, Double vacuumDrift) {
+        SwimmingNumbers swimming, Double work, Course course, Double vacuumDrift, List<Double> objectives, Double worth) {
+
+    /** Copies the list. */
+    public SimulationResult {
+        objectives = objectives == null ? null : List.copyOf(objectives);
+    }
+
+    /** A result whose course is not known. */
+    public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
+            String scheme, String precision, String hash, Instability unstable, String error, SwimmingNumbers swimming,
+            Double work, Double vacuumDrift) {
+        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, swimming, work, null,
+                vacuumDrift, null, null);
+    }
 
     /** A result as the simulator gives it where nothing of the swim's mechanics is known. */
     public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
@@ -72,13 +89,19 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** This result under another id. */
     public SimulationResult withId(long newId) {
         return new SimulationResult(newId, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, vacuumDrift);
+                unstable, error, swimming, work, course, vacuumDrift, objectives, worth);
     }
 
     /** This result with what the same gait drifts in vacuum. */
     public SimulationResult withVacuumDrift(double drift) {
         return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, drift);
+                unstable, error, swimming, work, course, drift, objectives, worth);
+    }
+
+    /** This result with what it is worth. */
+    public SimulationResult withWorth(List<Double> byObjective, double together) {
+        return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
+                unstable, error, swimming, work, course, vacuumDrift, byObjective, together);
     }
 
     /** The signed distance swum, or 0 where there is none because the evaluation was unstable or failed. */
@@ -87,10 +110,17 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     }
 
     /**
-     * What is to be great: the signed distance swum, or 0 where there is none; less the drift in vacuum if that is known
-     * and forwards. A drift backwards is no merit and adds nothing.
+     * What is to be great: the worth by the run's objectives if it has any, else {@link #netDistance()}.
      */
     public double score() {
+        return worth != null ? worth : netDistance();
+    }
+
+    /**
+     * The signed distance swum, or 0 where there is none; less the drift in vacuum if that is known and forwards. A drift
+     * backwards is no merit and adds nothing.
+     */
+    public double netDistance() {
         return distanceOrZero() - (vacuumDrift == null ? 0.0 : Math.max(vacuumDrift, 0.0));
     }
 

@@ -21,7 +21,7 @@ public final class VacuumRequests {
      */
     public static SimulationRequest of(SimulationRequest request, Double duration) {
         return new SimulationRequest(request.id(), request.scene(), request.gait(), duration, request.scheme(),
-                patch(request.overrides()), request.perturbation());
+                patch(request.overrides()), request.perturbation(), request.start());
     }
 
     /** The merge patch that does first what the given one does, or nothing for null, and then removes the water. */

@@ -1,5 +1,7 @@
 package io.natator.verdict;
 
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.SwimSample;
 import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SwimmingNumbers;
@@ -24,6 +26,20 @@ public final class Mechanics {
             add(parts, "swimming number", numbers.swimmingNumber());
         }
         add(parts, "work", result.work());
+        return parts.isEmpty() ? null : String.join(", ", parts);
+    }
+
+    /** Of a run's best gait: means over its fresh runs, else of its one run. */
+    public static String of(BestGait best) {
+        if (best.fresh() == null) {
+            return of(best.result());
+        }
+        SwimSample base = best.fresh().base();
+        List<String> parts = new ArrayList<>();
+        add(parts, "Re", base.reynolds());
+        add(parts, "St", base.strouhal());
+        add(parts, "work", base.work());
+        add(parts, "cost of transport", base.costOfTransport());
         return parts.isEmpty() ? null : String.join(", ", parts);
     }
 

@@ -39,7 +39,8 @@ public final class Reproduction {
     /** The frame at which the stored run ended: where a longer one is to be compared; -1 if it had no end to compare. */
     public long lastFrame() {
         SimulationResult result = stored.result();
-        return result.status() == SimulationResult.Status.OK && result.frames() != null ? result.frames() : -1;
+        return stored.isFromOwnStart() && result.status() == SimulationResult.Status.OK && result.frames() != null
+                ? result.frames() : -1;
     }
 
     /**
@@ -48,7 +49,7 @@ public final class Reproduction {
      * @return one line, or null if today's program repeats the stored result
      */
     public String difference(SimulationResult today) throws InterruptedException {
-        if (today.status() != SimulationResult.Status.OK || today.hash().equals(stored.result().hash())) {
+        if (!stored.isFromOwnStart() || today.status() != SimulationResult.Status.OK || today.hash().equals(stored.result().hash())) {
             return null;
         }
         return line(today.distance());

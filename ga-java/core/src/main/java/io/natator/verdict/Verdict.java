@@ -3,13 +3,17 @@ package io.natator.verdict;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.FreshRuns;
+import io.natator.checkpoint.Spread;
+import io.natator.checkpoint.SwimSample;
 import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
 import java.util.Locale;
 
 /**
- * Whether a gait swims, judged by one run in water and one of the same length without water. The signs of both distances
- * count: what goes backwards does not swim forwards, and drift in vacuum speaks against a gait in either direction.
+ * Whether a gait swims, judged by its runs from fresh starts (in old folders, by one run in water) and one without water.
+ * The signs of distances count: what goes backwards does not swim forwards, and drift in vacuum speaks against a gait in
+ * either direction.
  *
  * @param kind   the verdict
  * @param text   the same in words, on one line, with the numbers that it rests on
@@ -27,12 +31,18 @@ public record Verdict(Kind kind, String text, String advice) {
     /** What touches a wall sooner than this many body lengths (or units) from its start has not shown how it swims. */
     static final double WAY_TO_WALL = 0.5;
 
+    /** A mean is known to so many standard errors. */
+    private static final double SURE = 2;
+    /** What less than this share is left of at half the time step, is the time step's. */
+    private static final double LEAST_LEFT = 0.5;
+
     private static final String CONSERVING = "conserving";
     private static final String NEUTRAL = "try --scene pool/creature-N or, finer and slower, "
             + "open-water/creature-N, whose scheme keeps momentum";
     private static final String HONEST = NEUTRAL + "; or --fitness net, which takes off the drift in vacuum";
     private static final String SINKS = "bodies are heavier than the thesis' incompressible water and sink; try --scene "
             + "pool/creature-N or, finer and slower, open-water/creature-N";
+    private static final String FINER = "try more --starts, or the finer open-water/creature-N";
     private static final String LONGER = "try more --generations, a larger --population or another --seed";
 
     /** Kinds of verdicts. */
@@ -50,7 +60,8 @@ public record Verdict(Kind kind, String text, String advice) {
 
     /** The verdict on a run's best gait. */
     public static Verdict of(BestGait best) {
-        Verdict verdict = of(best.result(), best.vacuum(), best.bodyLength());
+        Swim swim = best.fresh() == null ? Swim.of(best.result()) : Swim.of(best.fresh(), best.result());
+        Verdict verdict = of(swim, best.vacuum(), best.bodyLength());
         boolean sinks = best.scene().startsWith("thesis/") && CONSERVING.equals(best.result().scheme());
         return sinks && verdict.advice != null ? new Verdict(verdict.kind, verdict.text, SINKS) : verdict;
     }
@@ -63,17 +74,21 @@ public record Verdict(Kind kind, String text, String advice) {
      * @param bodyLength in scene units, or null if that is unknown
      */
     public static Verdict of(SimulationResult water, SimulationResult vacuum, Double bodyLength) {
-        if (water.status() != SimulationResult.Status.OK) {
-            return unproven("not judged: " + why(water), LONGER);
+        return of(Swim.of(water), vacuum, bodyLength);
+    }
+
+    private static Verdict of(Swim water, SimulationResult vacuum, Double bodyLength) {
+        if (water.failure() != null) {
+            return unproven("not judged: " + water.failure(), LONGER);
         }
         Length length = bodyLength != null && bodyLength > 0 ? new Length(bodyLength, "body lengths")
                 : new Length(1, "units");
         double way = water.distance() / length.unit();
         if (Math.abs(way) < LEAST_DISTANCE) {
-            return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(way, 2) + " " + length.name()
-                    + " in " + seconds(water) + ", less than " + LEAST_DISTANCE, LONGER);
+            return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: moves " + length.distance(water)
+                    + " in " + seconds(water.simulated()) + ", less than " + LEAST_DISTANCE, LONGER);
         }
-        String moves = length.speed(water.speed());
+        String moves = length.speed(water);
         if (vacuum == null) {
             return unproven("not judged: moves at " + moves + "; not run in vacuum yet", null);
         }
@@ -84,7 +99,7 @@ public record Verdict(Kind kind, String text, String advice) {
     }
 
     /** By the drift first, since that is no swimming wherever it leads. */
-    private static Verdict judged(SimulationResult water, SimulationResult vacuum, Length length, String speeds) {
+    private static Verdict judged(Swim water, SimulationResult vacuum, Length length, String speeds) {
         boolean keepsMomentum = CONSERVING.equals(water.scheme());
         double drift = vacuum.speed() / water.speed();
         if (Math.abs(drift) >= DRIFT_ONLY) {
@@ -95,14 +110,20 @@ public record Verdict(Kind kind, String text, String advice) {
             return new Verdict(Kind.DOES_NOT_SWIM, "does not swim forwards: " + speeds, LONGER);
         }
         if (water.stopped().equals("no-progress")) {
-            return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: comes to rest, no progress at " + seconds(water), LONGER);
+            return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: comes to rest, no progress at "
+                    + seconds(water.simulated()), LONGER);
         }
         String end = "";
         if (water.stopped().equals("touched-plane")) {
-            end = ", until it touches a wall at " + seconds(water);
+            end = water.fresh() == null ? ", until it touches a wall at " + seconds(water.simulated())
+                    : ", until it touches a wall";
             if (water.distance() / length.unit() < WAY_TO_WALL) {
                 return unproven("not judged: " + speeds + end, LONGER);
             }
+        }
+        String doubt = water.fresh() == null ? null : doubt(water.fresh(), length);
+        if (doubt != null) {
+            return unproven("may swim: " + speeds + end + "; " + doubt, FINER);
         }
         if (Math.abs(drift) > NO_DRIFT) {
             return unproven("may swim: " + speeds + end + "; moves " + times(drift, water, vacuum),
@@ -112,12 +133,27 @@ public record Verdict(Kind kind, String text, String advice) {
                 : unproven("may swim: " + speeds + end + "; no proof, since scheme flex does not keep momentum", NEUTRAL);
     }
 
+    /** Why fresh runs do not show that it swims; null if they do. */
+    private static String doubt(FreshRuns fresh, Length length) {
+        SwimSample base = fresh.base();
+        double error = base.distance().sd() / Math.sqrt(base.runs());
+        if ((base.distance().mean() - SURE * error) / length.unit() < LEAST_DISTANCE) {
+            return "the runs differ too much to tell";
+        }
+        int unmeasured = base.stopped().getOrDefault("unstable", 0) + base.stopped().getOrDefault("failed", 0);
+        if (2 * unmeasured > base.runs()) {
+            return unmeasured + " of " + base.runs() + " runs were unstable or failed";
+        }
+        return fresh.halfStep() != null && fresh.halfStep().distance().mean() < LEAST_LEFT * base.distance().mean()
+                ? "it loses more than half at half the time step" : null;
+    }
+
     private static Verdict unproven(String text, String advice) {
         return new Verdict(Kind.UNPROVEN, text, advice);
     }
 
     /** Runs of other lengths, as old folders have them, are compared by their mean speeds. */
-    private static String times(double drift, SimulationResult water, SimulationResult vacuum) {
+    private static String times(double drift, Swim water, SimulationResult vacuum) {
         double size = Math.abs(drift);
         boolean sameTime = Math.abs(water.simulated() - vacuum.simulated()) < 1e-6;
         return Numbers.fixed(size, size < 9.95 ? 1 : 0) + " times as " + (sameTime ? "far" : "fast") + " in vacuum"
@@ -126,18 +162,58 @@ public record Verdict(Kind kind, String text, String advice) {
 
     private static String why(SimulationResult result) {
         return result.error() != null ? result.error() : result.status() == SimulationResult.Status.UNSTABLE
-                ? "unstable at " + seconds(result) : result.status().name().toLowerCase(Locale.ROOT);
+                ? "unstable at " + seconds(result.simulated()) : result.status().name().toLowerCase(Locale.ROOT);
     }
 
-    private static String seconds(SimulationResult result) {
-        return Numbers.fixed(result.simulated(), 2) + " s";
+    private static String seconds(double simulated) {
+        return Numbers.fixed(simulated, 2) + " s";
+    }
+
+    /**
+     * What a gait did in water.
+     *
+     * @param distance  in scene units
+     * @param speed     in scene units per second
+     * @param simulated seconds
+     * @param stopped   how it, or most of its runs, ended
+     * @param scheme    how it was solved
+     * @param fresh     the runs that the others are means of; null of one run
+     * @param failure   why nothing is known, or null
+     */
+    private record Swim(double distance, double speed, double simulated, String stopped, String scheme, FreshRuns fresh,
+            String failure) {
+
+        static Swim of(SimulationResult one) {
+            return one.status() != SimulationResult.Status.OK ? new Swim(0, 0, 0, null, null, null, why(one))
+                    : new Swim(one.distance(), one.speed(), one.simulated(), one.stopped(), one.scheme(), null, null);
+        }
+
+        static Swim of(FreshRuns fresh, SimulationResult one) {
+            SwimSample base = fresh.base();
+            return new Swim(base.distance().mean(), base.speed().mean(), fresh.duration(), base.mostlyStopped(), one.scheme(),
+                    fresh, null);
+        }
     }
 
     /** What lengths are told in. */
     private record Length(double unit, String name) {
 
-        String speed(double unitsPerSecond) {
-            return Numbers.fixed(unitsPerSecond / unit, 2) + " " + name + "/s";
+        String distance(Swim swim) {
+            return with(swim.distance(), swim.fresh() == null ? null : swim.fresh().base().distance()) + " " + name;
+        }
+
+        /** Mean and standard deviation, and the mean at half the time step. */
+        String speed(Swim swim) {
+            if (swim.fresh() == null) {
+                return with(swim.speed(), null) + " " + name + "/s";
+            }
+            SwimSample half = swim.fresh().halfStep();
+            return with(swim.speed(), swim.fresh().base().speed()) + " " + name + "/s"
+                    + (half == null ? "" : ", " + Numbers.fixed(half.speed().mean() / unit, 2) + " at half the time step");
+        }
+
+        private String with(double value, Spread spread) {
+            return Numbers.fixed(value / unit, 2) + (spread == null ? "" : " ± " + Numbers.fixed(spread.sd() / unit, 2));
         }
     }
 }

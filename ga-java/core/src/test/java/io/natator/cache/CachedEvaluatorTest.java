@@ -66,15 +66,17 @@ class CachedEvaluatorTest {
                 new SimulationRequest(5, "thesis/creature-1", GAIT, null, Scheme.CONSERVING, null),
                 new SimulationRequest(6, "thesis/creature-1", GAIT, null, null, patch),
                 new SimulationRequest(7, "thesis/creature-1", GAIT, null, null, null, new Perturbation(1e-6, 1)),
-                new SimulationRequest(8, "thesis/creature-1", GAIT, null, null, null, new Perturbation(1e-6, 2)));
+                new SimulationRequest(8, "thesis/creature-1", GAIT, null, null, null, new Perturbation(1e-6, 2)),
+                new SimulationRequest(9, "thesis/creature-1", GAIT, null, null, null).withStart(1),
+                new SimulationRequest(10, "thesis/creature-1", GAIT, null, null, null).withStart(2));
 
         SimulationRequest[] all = different.toArray(SimulationRequest[]::new);
-        assertThat(simulated(execution, all)).isEqualTo(8);
+        assertThat(simulated(execution, all)).isEqualTo(10);
         assertThat(simulated(execution, all)).isZero();
         assertThat(simulated(execution, all[0].withId(99))).isZero();
-        assertThat(simulated(execution.withBackend(Backend.AUTO), all)).isEqualTo(8);
+        assertThat(simulated(execution.withBackend(Backend.AUTO), all)).isEqualTo(10);
         Files.writeString(execution.simulator(), "# another build\n", StandardOpenOption.APPEND);
-        assertThat(simulated(execution, all)).isEqualTo(8);
+        assertThat(simulated(execution, all)).isEqualTo(10);
     }
 
     @Test

@@ -59,7 +59,7 @@ class RunFolderTest {
         try (folder; WorkerPool pool = new WorkerPool(simulator, 3)) {
             EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded())
                     .run(folder.checkpoint());
-            folder.writeResults(end, null, null);
+            folder.writeResults(end);
         }
         return simulator;
     }

@@ -6,6 +6,9 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
+import io.natator.config.WeightedObjective;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.ObjectiveEvaluator;
 import io.natator.simulator.WorkerPool;
 import java.util.ArrayList;
 import java.util.List;
@@ -16,15 +19,18 @@ import org.junit.jupiter.params.provider.EnumSource;
 class OptimizerTest {
 
     private static EvolutionSettings settings(OptimizerKind optimizer, long evaluations, long seed) {
-        return EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
-                .withSize(20, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations).withSeed(seed)
-                .withOptimizer(optimizer, OperatorSet.CORRECTED, 0.05);
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
+                .withSize(20, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations).withSeed(seed);
+        return optimizer == OptimizerKind.NSGA2 ? settings.withObjectives(optimizer, WeightedObjective.parse("distance,work"))
+                : settings.withObjectives(optimizer, null);
     }
 
     private static EvolutionState run(EvolutionSettings settings, EvolutionState from, List<EvaluationRecord> recorded,
             EvolutionListener... listeners) {
         try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            return new Evolution(settings, pool, List.of(listeners), recorded).run(from);
+            Evaluator evaluator =
+                    settings.objectives() == null ? pool : new ObjectiveEvaluator(pool, settings.objectives());
+            return new Evolution(settings, evaluator, List.of(listeners), recorded).run(from);
         }
     }
 

@@ -1,13 +1,17 @@
 package io.natator.evolution;
 
 import io.natator.encoding.Gait;
+import io.natator.simulator.Course;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.Simulator;
+import java.util.SplittableRandom;
 import java.util.concurrent.atomic.AtomicInteger;
 
 /** Swims by a formula, in this process; takes an uneven time so that workers finish out of order. */
 public final class ToySimulator implements Simulator {
+
+    static final double LUCK = 0.1;
 
     private final AtomicInteger calls = new AtomicInteger();
 
@@ -17,9 +21,11 @@ public final class ToySimulator implements Simulator {
         if (request.id() % 5 == 0) {
             Thread.sleep(1);
         }
-        double distance = isVacuum(request) ? drift(request.gait()) : distance(request.gait());
+        double distance = isVacuum(request) ? drift(request.gait())
+                : distance(request.gait()) + luck(request.gait(), request.start());
         return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex",
-                "float", "0123456789abcdef", null, null);
+                "float", "0123456789abcdef", null, null, null, work(request.gait()), new Course(distance, 0.1, -0.2), null, null,
+                null);
     }
 
     /** Best at f = 1.2, a = 0.6, φ = 0.3; negative far from there. */
@@ -31,9 +37,19 @@ public final class ToySimulator implements Simulator {
         return distance;
     }
 
+    /** What a start adds, of standard deviation {@value #LUCK}, otherwise for each gait; nothing from the scene's own. */
+    static double luck(Gait gait, Integer start) {
+        return start == null ? 0 : LUCK * new SplittableRandom(31L * start + gait.hashCode()).nextGaussian();
+    }
+
     private static boolean isVacuum(SimulationRequest request) {
         return request.overrides() != null && request.overrides().has("fluid")
                 && request.overrides().get("fluid").isNull();
+    }
+
+    /** What grows with all amplitudes and the frequency. */
+    static double work(Gait gait) {
+        return gait.frequency() * (0.1 + gait.amplitude().stream().mapToDouble(a -> a * a).sum());
     }
 
     /** In vacuum: forwards above f = 1, backwards below. */

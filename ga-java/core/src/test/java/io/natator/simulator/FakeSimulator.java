@@ -30,6 +30,11 @@ public final class FakeSimulator {
         return script;
     }
 
+    /** What a simulator's refusal of a request is on this side. */
+    public static RequestRejectedException rejection(String reason) {
+        return new RequestRejectedException(reason, true);
+    }
+
     static ExecutionSettings execution(Path folder, double timeoutSeconds) {
         return new ExecutionSettings(in(folder), 2, Duration.ofMillis(Math.round(timeoutSeconds * 1000)));
     }

@@ -47,6 +47,7 @@ class ProtocolTest {
         List<SimulationRequest> requests = List.of(
                 FakeSimulator.request(0, "thesis/creature-1"),
                 new SimulationRequest(1, "scene.json", null, null, null, null),
+                new SimulationRequest(5, "scene.json", null, null, null, null).withStart(7),
                 new SimulationRequest(2, "a", dense.decode(List.of(2.0, 1.0, 0.0, 1.0, 1.0, 0.0)), 4.0, Scheme.FLEX,
                         patch),
                 new SimulationRequest(3, "a", sparse.decode(List.of(0.5, 1.0, 0.0, 1.0)), 0.1, Scheme.CONSERVING, null),

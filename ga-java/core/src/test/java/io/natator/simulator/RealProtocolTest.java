@@ -1,13 +1,17 @@
 package io.natator.simulator;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import io.natator.simulator.SimulationResult.Status;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
+import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
@@ -38,5 +42,24 @@ class RealProtocolTest {
         assertThat(result.status()).as(answer).isEqualTo(status);
         assertThat(result.id()).isEqualTo(9);
         assertThat(answer.lines()).hasSize(1);
+    }
+
+    /** The simulator knows the numbers of starts, and tells where the body went. */
+    @Test
+    void anotherStartIsAnotherSwim() throws Exception {
+        SimulationRequest request = new SimulationRequest(9, "pool/creature-1",
+                FakeSimulator.request(9, "pool/creature-1").gait(), 0.1, null, null);
+        List<SimulationResult> results = new ArrayList<>();
+        for (Integer start : Arrays.asList(3, 4, 3, null)) {
+            try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
+                results.add(ResultReader.read(
+                        program.call(List.of("evaluate"), Json.line(request.withStart(start)) + "\n").text()));
+            }
+        }
+
+        assertThat(results.get(2)).isEqualTo(results.get(0));
+        assertThat(results.stream().map(SimulationResult::hash).distinct()).hasSize(3);
+        assertThat(results.get(0).course().forward()).isCloseTo(results.get(0).distance(), within(0.01));
+        assertThat(results.get(0).work()).isNotNull();
     }
 }

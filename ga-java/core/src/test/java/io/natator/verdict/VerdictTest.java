@@ -3,9 +3,13 @@ package io.natator.verdict;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.FreshRuns;
+import io.natator.checkpoint.SwimSample;
+import io.natator.config.Judge;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SimulationResult.Status;
+import java.util.Arrays;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -46,6 +50,32 @@ class VerdictTest {
         assertThat(verdict.text()).isEqualTo(text);
         assertThat(verdict.kind()).isEqualTo(kind);
         assertThat(verdict.advice() == null).isEqualTo(kind == Verdict.Kind.SWIMS);
+    }
+
+    /** By four fresh runs of 4 s each; distances of all at the time step, their mean at half of it. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "0.7 0.8 0.7 0.8|completed|0.7|SWIMS|swims: 0.15 ± 0.01 body lengths/s, 0.14 at half the time step, 0.00 in vacuum",
+        "0.7 0.8 0.7 0.8|completed|0.3|UNPROVEN|may swim: 0.15 ± 0.01 body lengths/s, 0.06 at half the time step, 0.00 in vacuum; "
+            + "it loses more than half at half the time step",
+        "1.9 -0.4 -0.2 0.1|completed|0.4|UNPROVEN|may swim: 0.07 ± 0.21 body lengths/s, 0.08 at half the time step, 0.00 in "
+            + "vacuum; the runs differ too much to tell",
+        "0.1 0.0 0.0 0.0|completed|0.1|DOES_NOT_SWIM|does not swim: moves 0.02 ± 0.04 body lengths in 4.00 s, less than 0.05",
+        "2.5 2.5 2.5 2.5|touched-plane|2.5|SWIMS|swims: 0.50 ± 0.00 body lengths/s, 0.50 at half the time step, 0.00 in "
+            + "vacuum, until it touches a wall"})
+    void freshRunsJudge(String distances, String stopped, double half, Verdict.Kind kind, String text) {
+        Gait gait = new Gait(1, List.of(0.1), List.of(0.0));
+        List<SimulationResult> runs = Arrays.stream(distances.split(" "))
+                .map(one -> result(Double.parseDouble(one), stopped, 1, "conserving")).toList();
+        FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(runs, 4, gait, 4.0, LENGTH),
+                SwimSample.of(List.of(result(half, stopped, 1, "conserving")), 8, gait, 4.0, LENGTH), Judge.MEAN, 9, 1, 1);
+        BestGait best = new BestGait("pool/creature-1", List.of(1.0), gait, 9, 9, result(9, "completed", 4, "conserving"),
+                LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
+
+        assertThat(Verdict.of(best).text()).isEqualTo(text);
+        assertThat(Verdict.of(best).kind()).isEqualTo(kind);
+        assertThat(Verdict.of(best).advice() == null).isEqualTo(kind == Verdict.Kind.SWIMS);
+        assertThat(FreshText.of(best).get("selected")).isEqualTo("9.0000 by one run, 1.0000 again: selection loss 88.9 %");
     }
 
     @Test

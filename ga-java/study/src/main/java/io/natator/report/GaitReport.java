@@ -4,6 +4,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -11,6 +12,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
+import io.natator.evolution.Individual;
 import io.natator.flow.FlowField;
 import io.natator.kinematics.Attitude;
 import io.natator.kinematics.FishMode;
@@ -18,6 +20,8 @@ import io.natator.kinematics.ModeFit;
 import io.natator.kinematics.Swimming;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
+import io.natator.verdict.ControlVerdict;
+import io.natator.verdict.FreshText;
 import io.natator.verdict.Mechanics;
 import io.natator.verdict.Reproduction;
 import io.natator.verdict.Verdict;
@@ -71,8 +75,11 @@ public final class GaitReport {
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         progress(page);
         Verdict verdict = Verdict.of(run.best());
-        page.text("**" + verdict.text() + "** (one run, not a mean)."
+        page.text("**" + verdict.text() + "**" + (run.best().fresh() == null ? " (one run, not a mean)." : ".")
                 + (verdict.advice() == null ? "" : " To go on: " + verdict.advice() + "."));
+        Controls controls = Controls.of(run.directory(), run.best().gait());
+        page.text(controls == null ? "Its controls were not run; `natator check " + run.directory() + "` runs them."
+                : "By its controls (`natator check`): **" + ControlVerdict.of(controls).text() + "**.");
         difference = difference(recording, execution);
         if (difference != null) {
             page.text(difference + ".");
@@ -118,6 +125,16 @@ public final class GaitReport {
         Files.createDirectories(folder);
         FitnessPlot.draw(run.settings().scene() + ", seed " + run.settings().seed(), run.state().history(), folder);
         page.picture(folder.resolve("fitness.png"), "fitness over generations");
+        List<Individual> front = run.front();
+        for (int other = 1; !front.isEmpty() && other < run.settings().objectives().size(); other++) {
+            page.picture(FrontPlot.draw("gaits that no other is better than in all objectives", run.settings().objectives(),
+                    run.state().population(), front, 0, other, folder.resolve("front-" + other)),
+                    "all gaits and those that no other is better than, in two objectives");
+        }
+        if (run.elites() != null && !run.elites().elites().isEmpty()) {
+            page.picture(EliteMapPlot.draw(run.elites(), run.settings().actuators(), folder.resolve("elites")),
+                    "worth of the best gait of each kind, by waves on the body and beats per second");
+        }
         MotionPlots plots = new MotionPlots(run.settings().scene(), recording, folder);
         page.picture(plots.position("position"), "position over time");
         page.picture(plots.rotation("rotation"), "rotation over time");
@@ -149,9 +166,12 @@ public final class GaitReport {
         rows.add(List.of("frequency (1/s)", number(gait.frequency())));
         rows.add(List.of("amplitudes", numbers(gait.amplitude())));
         rows.add(List.of("phases", numbers(gait.phase())));
-        rows.add(List.of("speed in fluid (units/s)", number(best.speed())));
-        rows.add(List.of("speed in fluid (body lengths/s)", number(best.speed() / length)));
-        String mechanics = Mechanics.of(best.result());
+        FreshText.of(best).forEach((name, text) -> rows.add(List.of(name + " in fluid", text)));
+        if (best.fresh() == null) {
+            rows.add(List.of("speed in fluid (units/s), one run", number(best.speed())));
+            rows.add(List.of("speed in fluid (body lengths/s), one run", number(best.speed() / length)));
+        }
+        String mechanics = Mechanics.of(best);
         if (mechanics != null) {
             rows.add(List.of("mechanics", mechanics));
         }

@@ -1,6 +1,7 @@
 package io.natator.view;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
@@ -58,7 +59,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         List<Generation> generations = generations(run);
         return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
                 settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()),
-                run.best() == null ? null : Mechanics.of(run.best().result()));
+                run.best() == null ? null : Mechanics.of(run.best()));
     }
 
     /** What the page calls a run: its folder, without where that is. */
@@ -81,11 +82,23 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         return generations;
     }
 
+    /** Of several starts, the gait that was the best so far at a generation's end. */
+    private static List<Best> champions(StoredRun run, List<Generation> generations) {
+        Map<Integer, JudgedGait> bests = run.bestsByGeneration();
+        return generations.stream().filter(one -> bests.containsKey(one.generation())).map(one -> {
+            JudgedGait best = bests.get(one.generation());
+            return new Best(one.generation(), best.score(), best.gait());
+        }).toList();
+    }
+
     /**
      * The best of a generation may be older than it; it is found by its distance, which has all its digits. A folder that
      * was made compact knows only the best of all.
      */
     private static List<Best> bests(StoredRun run, List<Generation> generations) {
+        if (run.settings().starts() > 1) {
+            return champions(run, generations);
+        }
         Map<Double, Gait> gaits = new HashMap<>();
         if (run.best() != null) {
             gaits.put(run.best().result().score(), run.best().gait());

@@ -23,7 +23,7 @@ class ViewRunsTest extends ViewBrowserTest {
         page.keyboard().press("Home");
 
         assertThat(get("run-chosen")).containsText("Generation 0");
-        assertThat(get("run-mechanics")).hasText("Re 131, St 0.313, swimming number 410, work 0.75.");
+        assertThat(get("run-mechanics")).containsText("Re 131, St 0.313, work 0.75, cost of transport ");
         JsonNode first = best(0);
         await("Math.abs(natator.scene().gait.frequency - " + first.get("frequency") + ") < 1e-9");
         assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");

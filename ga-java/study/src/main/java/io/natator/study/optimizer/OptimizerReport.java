@@ -3,6 +3,7 @@ package io.natator.study.optimizer;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
+import io.natator.config.Numbers;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
@@ -11,6 +12,7 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Locale;
+import java.util.Objects;
 import java.util.stream.Collectors;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -34,8 +36,10 @@ final class OptimizerReport {
 
             Best fitness so far, the distance swum in scene units, after a tenth, a quarter, half and all of the
             evaluations: median [lower quartile, upper quartile] over the seeds; mean ± standard deviation at the end.
-            All optimizers take exactly the same number of evaluations. The last column is the median of what the best
-            gaits do in vacuum for the whole duration: what advances there is no swimming.
+            All optimizers take exactly the same number of evaluations. *In vacuum* is the median of what the best
+            gaits do in vacuum for the whole duration: what advances there is no swimming. *Again* is what the best gaits do from
+            fresh starts, which had no part in choosing them: median of their means; *loss* the median share of what they were
+            chosen for that they lack then.
             """;
     private static final List<Double> SHARES = List.of(0.1, 0.25, 0.5, 1.0);
 
@@ -90,8 +94,8 @@ final class OptimizerReport {
     private static String columns(long evaluations) {
         String places = SHARES.stream().map(share -> "after " + Math.max(1, Math.round(share * evaluations)))
                 .collect(Collectors.joining(" | "));
-        return "| optimizer | population | runs | " + places + " | mean ± sd | in vacuum |\n| --- | ---: | ---: |"
-                + " ---: |".repeat(SHARES.size() + 2) + "\n";
+        return "| optimizer | population | runs | " + places + " | mean ± sd | in vacuum | again | loss |\n| --- | ---: | ---: |"
+                + " ---: |".repeat(SHARES.size() + 4) + "\n";
     }
 
     private static String row(CurveBand band, int population, List<OptimizerRun> runs) {
@@ -102,13 +106,26 @@ final class OptimizerReport {
         int last = band.evaluations();
         String deviation = band.curves().size() > 1 ? " ± " + shown(band.standardDeviation(last)) : "";
         return "| " + band.label() + " | " + population + " | " + band.curves().size() + " | " + cells + " | "
-                + shown(band.mean(last)) + deviation + " | " + inVacuum(runs) + " |\n";
+                + shown(band.mean(last)) + deviation + " | " + inVacuum(runs) + " | " + again(runs) + " | " + loss(runs) + " |\n";
     }
 
     private static String inVacuum(List<OptimizerRun> runs) {
         List<double[]> known = runs.stream().map(run -> run.summary().vacuumDistance()).filter(Double::isFinite)
                 .map(distance -> new double[] {distance}).toList();
         return known.isEmpty() ? "–" : shown(new CurveBand("", known).quantile(1, 0.5));
+    }
+
+    private static String again(List<OptimizerRun> runs) {
+        List<double[]> known = runs.stream().map(run -> run.summary().fresh()).filter(Objects::nonNull)
+                .map(fresh -> new double[] {fresh.base().distance().mean()}).toList();
+        return known.isEmpty() ? "–" : shown(new CurveBand("", known).quantile(1, 0.5));
+    }
+
+    private static String loss(List<OptimizerRun> runs) {
+        List<double[]> known = runs.stream().map(run -> run.summary().fresh())
+                .filter(fresh -> fresh != null && fresh.selectionLoss() != null)
+                .map(fresh -> new double[] {100 * fresh.selectionLoss()}).toList();
+        return known.isEmpty() ? "–" : Numbers.fixed(new CurveBand("", known).quantile(1, 0.5), 1) + " %";
     }
 
     private static String line(String scene, CurveBand band, int population, int place) {
@@ -124,6 +141,8 @@ final class OptimizerReport {
     private static String settings(EvolutionSettings settings) {
         return "Scene `" + settings.scene() + "`, encoding " + Json.line(settings.encoding()).replace("\"", "")
                 + ", backend " + settings.backend().argument()
+                + (settings.starts() == 1 ? "" : ", " + settings.starts() + " starts, judged by "
+                        + Json.line(settings.judge()).replace("\"", ""))
                 + (settings.fitness() == FitnessKind.NET ? ", net fitness" : "")
                 + (settings.scheme() == null ? "" : ", scheme " + Json.line(settings.scheme()).replace("\"", ""))
                 + (settings.duration() == null ? "" : ", " + settings.duration() + " s")

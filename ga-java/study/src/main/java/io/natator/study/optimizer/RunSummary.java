@@ -3,6 +3,7 @@ package io.natator.study.optimizer;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.GenerationSummary;
@@ -28,7 +29,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         List<Improvement> improvements) {
 
     /**
-     * An evaluation that was better than all before it.
+     * An evaluation that changed how good the best gait is; for the worse, where it was that gait's own, from another start.
      *
      * @param evaluation its number, from 0
      * @param fitness    what it was judged by
@@ -42,7 +43,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         List<Improvement> improvements = new ArrayList<>();
         double[] best = run.bestFitness();
         for (int i = 0; i < best.length; i++) {
-            if (i == 0 || best[i] > best[i - 1]) {
+            if (i == 0 || best[i] != best[i - 1]) {
                 improvements.add(new Improvement(i, best[i]));
             }
         }
@@ -63,6 +64,11 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
             Arrays.fill(curve, improvements.get(i).evaluation(), end, improvements.get(i).fitness());
         }
         return curve;
+    }
+
+    /** What the best gait does from fresh starts; null in old studies. */
+    FreshRuns fresh() {
+        return best == null ? null : best.fresh();
     }
 
     /** What the best gait does in vacuum, in scene units; NaN if that is not known. */

@@ -111,7 +111,8 @@ class OptimizerStudyTest {
         double[] drifts = IntStream.rangeClosed(1, 3).mapToDouble(seed -> StoredRun.in(folder.resolve(
                 "whole/creature-3/random/seed-" + seed)).best().gait().frequency() - 1.0).sorted().toArray();
         assertThat(Files.readString(folder.resolve("whole/README.md"))).containsPattern(
-                "\\| random \\| 8 \\| 3 \\|.*\\| " + String.format("%.4f", drifts[1]) + " \\|\n");
+                "\\| random \\| 8 \\| 3 \\|.*\\| " + String.format("%.4f", drifts[1])
+                        + " \\| -?\\d\\.\\d{4} \\| (-?\\d+\\.\\d %|–) \\|\n");
         assertThat(folder.resolve("whole/creature-3.png")).isNotEmptyFile();
     }
 

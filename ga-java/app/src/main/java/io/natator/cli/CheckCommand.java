@@ -1,0 +1,85 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
+import io.natator.config.MergePatch;
+import io.natator.encoding.Gait;
+import io.natator.report.WaterCheck;
+import io.natator.run.ControlRuns;
+import io.natator.run.EvolutionRun;
+import io.natator.simulator.SimulationRequest;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.Callable;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator check}: whether a run's winner swims, by what should not. */
+@Command(name = "check", mixinStandardHelpOptions = true,
+        description = {"Runs a run's best gait from fresh starts beside its controls: resting muscles, vacuum, no "
+            + "acceleration clamp (flex), half the time step, mirrored, on the other backend; and looks how much of the body "
+            + "is in the water.",
+            "Prints one verdict, and keeps all in RUN/check.json."},
+        footer = {"", "Example:", "  natator check runs/creature-1-seed-1"})
+final class CheckCommand implements Callable<Integer> {
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private ExecutionOptions executionOptions;
+
+    @Mixin
+    private CacheOptions cacheOptions;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--starts", paramLabel = "K", defaultValue = "4",
+            description = "Runs under each condition, from 2. Default: ${DEFAULT-VALUE}.")
+    private int starts;
+
+    @Parameters(paramLabel = "RUN", description = "Run folder.")
+    private Path folder;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        if (starts < 2 || starts > Limits.STARTS) {
+            throw new InvalidInputException("--starts is " + starts + "; expected a whole number from 2 to " + Limits.STARTS);
+        }
+        StoredRun run = StoredRun.in(folder);
+        if (run.best() == null) {
+            throw new InvalidInputException(folder + " has no best gait yet; finish it by natator resume");
+        }
+        EvolutionSettings settings = run.settings();
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(
+                cacheOptions.in(executionOptions.execution(settings.backend())), settings);
+        Gait gait = run.best().gait();
+        Controls controls = new ControlRuns(settings, execution, starts).of(gait);
+        Double underWater = WaterCheck.shareUnderWater(runningOn(settings, gait),
+                List.of(controls.duration() / 2, controls.duration()), execution);
+        Controls all = controls.withUnderWater(underWater);
+        all.write(folder);
+        new ControlReport(spec.commandLine().getOut()).print(all);
+        return ExitCode.OK;
+    }
+
+    /** The swim from the scene's own start, without early stops. */
+    private static SimulationRequest runningOn(EvolutionSettings settings, Gait gait) {
+        ObjectNode patch = JsonNodeFactory.instance.objectNode();
+        patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
+        JsonNode overrides = MergePatch.both(settings.overrides(), patch);
+        return new SimulationRequest(0, settings.scene(), gait, settings.duration(), settings.scheme(), overrides);
+    }
+}

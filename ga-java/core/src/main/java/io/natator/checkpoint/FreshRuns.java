@@ -1,0 +1,28 @@
+package io.natator.checkpoint;
+
+import com.fasterxml.jackson.annotation.JsonInclude;
+import io.natator.config.Judge;
+
+/**
+ * A winner as a reader gets it again: by runs from starts that had no part in choosing it.
+ *
+ * @param duration      of a run that nothing ends early, in seconds
+ * @param base          as the run simulates
+ * @param halfStep      the same starts at half the time step; null if that was not tried
+ * @param judge         what several runs are worth in this run
+ * @param selected      what the winner was worth when it was chosen
+ * @param selectedRuns  by so many runs
+ * @param again         what it is worth by the fresh runs of {@code base}
+ * @param selectionLoss share of the selected worth that it does not have again; null where it had none
+ */
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
+        int selectedRuns, double again, Double selectionLoss) {
+
+    /** With the loss that follows. */
+    public static FreshRuns of(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
+            int selectedRuns, double again) {
+        return new FreshRuns(duration, base, halfStep, judge, selected, selectedRuns, again,
+                selected > 0 ? 1 - again / selected : null);
+    }
+}

@@ -1,0 +1,25 @@
+package io.natator.config;
+
+import com.fasterxml.jackson.annotation.JsonProperty;
+
+/** What a gait can be good at; more is better in each. */
+public enum Objective {
+    /** The distance swum along x (thesis 2.6), in scene units. */
+    @JsonProperty("distance")
+    DISTANCE,
+    /** The same less what the gait drifts forwards in vacuum. */
+    @JsonProperty("net")
+    NET,
+    /** The way along the body's own heading, in scene units: one that swims on an arc loses nothing by it. */
+    @JsonProperty("forward")
+    FORWARD,
+    /** How little it turned and rolled: less the sum of yaw and roll at the end, in radians. */
+    @JsonProperty("straight")
+    STRAIGHT,
+    /** How little its muscles worked: less their work, in mass times length squared by seconds squared. */
+    @JsonProperty("work")
+    WORK,
+    /** Distance by work: one by the cost of transport, so that what stays where it is has none. */
+    @JsonProperty("efficiency")
+    EFFICIENCY
+}

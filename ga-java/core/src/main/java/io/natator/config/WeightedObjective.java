@@ -1,0 +1,56 @@
+package io.natator.config;
+
+import com.fasterxml.jackson.annotation.JsonInclude;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+
+/**
+ * An objective, and its weight in a sum.
+ *
+ * @param objective what is to be great
+ * @param weight    in the sum; null for an objective of its own
+ */
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record WeightedObjective(Objective objective, Double weight) {
+
+    /**
+     * As the user writes them: {@code distance,work}, or with weights {@code forward=1,straight=0.2}.
+     *
+     * @throws InvalidInputException if that is no such list
+     */
+    public static List<WeightedObjective> parse(String text) {
+        List<WeightedObjective> all = new ArrayList<>();
+        for (String part : text.split(",", -1)) {
+            String[] sides = part.split("=", -1);
+            Objective objective = objective(sides[0], part);
+            if (all.stream().anyMatch(one -> one.objective == objective)) {
+                throw new InvalidInputException("--objectives has " + sides[0] + " twice");
+            }
+            all.add(new WeightedObjective(objective, sides.length == 1 ? null : weight(sides, part)));
+        }
+        return all;
+    }
+
+    private static Objective objective(String name, String part) {
+        for (Objective one : Objective.values()) {
+            if (one.name().toLowerCase(Locale.ROOT).equals(name)) {
+                return one;
+            }
+        }
+        throw new InvalidInputException("--objectives has '" + part + "'; expected some of distance, net, forward, straight, "
+                + "work, efficiency, each with a weight or none: forward=1,straight=0.2");
+    }
+
+    private static double weight(String[] sides, String part) {
+        try {
+            double weight = Double.parseDouble(sides.length == 2 ? sides[1] : "");
+            if (Double.isFinite(weight) && weight > 0) {
+                return weight;
+            }
+        } catch (NumberFormatException e) {
+            // Told below.
+        }
+        throw new InvalidInputException("--objectives has '" + part + "'; expected a weight above 0, as in forward=1");
+    }
+}

@@ -1,0 +1,142 @@
+package io.natator.evolution;
+
+import io.natator.config.EvolutionSettings;
+import io.natator.config.Judge;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+
+/**
+ * Runs the best gaits so far again from new starts, in each generation. Half of the runs go to the best, so that no gait
+ * stays among them by luck; the other half where a choice is close, by standard errors: around the border of the best,
+ * and around the first place.
+ */
+final class Race {
+
+    private final EvolutionSettings settings;
+    private final Repeater repeater;
+    private final int places;
+    /** All that may be among the best, by their genes, in the order in which they came. */
+    private final Map<List<Double>, Individual> field = new LinkedHashMap<>();
+
+    /** Runs gaits again. */
+    @FunctionalInterface
+    interface Repeater {
+
+        /**
+         * Runs each from the same new starts, as far as the run's number of evaluations goes.
+         *
+         * @param first  number of the first start in this generation
+         * @param starts how many
+         * @return them with what they are worth by all their runs
+         */
+        List<Individual> repeat(List<Individual> individuals, int first, int starts);
+    }
+
+    /**
+     * A race in a generation.
+     *
+     * @param population its individuals
+     * @param champions  of the generation before
+     */
+    Race(EvolutionSettings settings, Repeater repeater, List<Individual> population, List<Individual> champions) {
+        this.settings = settings;
+        this.repeater = repeater;
+        this.places = Math.max(settings.elites(), 1);
+        population.forEach(this::enter);
+        champions.forEach(this::enter);
+    }
+
+    private void enter(Individual one) {
+        if (one.isMeasured()) {
+            field.merge(one.genes(), one, (known, other) -> other.runs() >= known.runs() ? other : known);
+        }
+    }
+
+    /**
+     * Carries it out.
+     *
+     * @return the champions, the best first
+     */
+    List<Individual> run() {
+        int starts = settings.starts();
+        int forBest = (starts + 1) / 2;
+        repeater.repeat(first(ranked()), starts, forBest).forEach(this::enter);
+        repeater.repeat(first(closest()), starts + forBest, starts - forBest).forEach(this::enter);
+        return first(ranked());
+    }
+
+    /**
+     * Gives the best what is left where no other gait could have all its starts.
+     *
+     * @param runs fewer than the starts of a gait
+     * @return the champions
+     */
+    List<Individual> useUp(int runs) {
+        List<Individual> ranked = ranked();
+        repeater.repeat(ranked.subList(0, Math.min(1, ranked.size())), 2 * settings.starts(), runs).forEach(this::enter);
+        return first(ranked());
+    }
+
+    /**
+     * Whom to take for the best: of the champions the one that is worth most less a standard error, since the greatest of
+     * many means of few runs is mostly luck. Null without champions.
+     */
+    Individual winner() {
+        List<Individual> champions = first(ranked());
+        double deviation = deviation(champions);
+        return champions.stream()
+                .max(Comparator.comparingDouble(one -> one.score() - deviation / Math.sqrt(one.runs()))).orElse(null);
+    }
+
+    /** How far the runs of a gait scatter, by all runs of all these together. */
+    private static double deviation(List<Individual> individuals) {
+        double squares = 0;
+        int freedom = 0;
+        for (Individual one : individuals) {
+            double mean = Judge.MEAN.of(one.estimate().runs());
+            squares += one.estimate().runs().stream().mapToDouble(run -> (run - mean) * (run - mean)).sum();
+            freedom += one.runs() - 1;
+        }
+        return freedom == 0 ? 0 : Math.sqrt(squares / freedom);
+    }
+
+    /** An individual as it is known now. */
+    Individual known(Individual one) {
+        Individual known = field.get(one.genes());
+        return known == null ? one : one.withEstimate(known.estimate());
+    }
+
+    private List<Individual> first(List<Individual> individuals) {
+        return List.copyOf(individuals.subList(0, Math.min(places, individuals.size())));
+    }
+
+    private List<Individual> ranked() {
+        List<Individual> ranked = new ArrayList<>(field.values());
+        ranked.sort(Comparator.comparingDouble(Individual::score).reversed());
+        return ranked;
+    }
+
+    /** Those first whose place is least certain. */
+    private List<Individual> closest() {
+        List<Individual> ranked = ranked();
+        if (ranked.size() < 2) {
+            return ranked;
+        }
+        double border = ranked.size() <= places ? Double.NEGATIVE_INFINITY
+                : (ranked.get(places - 1).score() + ranked.get(places).score()) / 2;
+        double lead = ranked.get(0).score();
+        Map<List<Double>, Double> closeness = new LinkedHashMap<>();
+        for (int i = 0; i < ranked.size(); i++) {
+            Individual one = ranked.get(i);
+            double toLead = i == 0 ? lead - ranked.get(1).score() : lead - one.score();
+            // All gaits are taken to scatter alike: a few runs do not tell by how much each does.
+            closeness.put(one.genes(),
+                    Math.min(Math.abs(one.score() - border), toLead) * Math.sqrt(one.runs()));
+        }
+        ranked.sort(Comparator.comparingDouble(one -> closeness.get(one.genes())));
+        return ranked;
+    }
+}

@@ -1,0 +1,73 @@
+package io.natator.simulator;
+
+import io.natator.config.InvalidInputException;
+import io.natator.config.Objective;
+import io.natator.config.WeightedObjective;
+import java.util.List;
+import java.util.Locale;
+import java.util.function.Consumer;
+
+/** Tells what each result is worth by a run's objectives. */
+public final class ObjectiveEvaluator implements Evaluator {
+
+    /** A run that did not come to its end turned and worked more than any that did. */
+    private static final double FAILED = -1e6;
+
+    private final Evaluator evaluator;
+    private final List<WeightedObjective> objectives;
+
+    /**
+     * Wraps an evaluator, which stays the caller's to close.
+     *
+     * @param objectives at least one
+     */
+    public ObjectiveEvaluator(Evaluator evaluator, List<WeightedObjective> objectives) {
+        this.evaluator = objectives.stream().anyMatch(one -> one.objective() == Objective.NET) ? new NetEvaluator(evaluator)
+                : evaluator;
+        this.objectives = objectives;
+    }
+
+    @Override
+    public void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
+            throws InterruptedException {
+        evaluator.evaluateAll(requests, result -> whenDone.accept(worth(result)));
+    }
+
+    private SimulationResult worth(SimulationResult result) {
+        List<Double> values = objectives.stream().map(one -> value(one.objective(), result)).toList();
+        double together = 0;
+        for (int i = 0; i < values.size(); i++) {
+            Double weight = objectives.get(i).weight();
+            together += weight == null ? 0 : weight * values.get(i);
+        }
+        // Without weights the first is what generations are told by.
+        return result.withWorth(values, objectives.get(0).weight() == null ? values.get(0) : together);
+    }
+
+    private static double value(Objective objective, SimulationResult result) {
+        if (result.status() != SimulationResult.Status.OK) {
+            return objective == Objective.STRAIGHT || objective == Objective.WORK ? FAILED : 0;
+        }
+        return switch (objective) {
+            case DISTANCE -> result.distance();
+            case NET -> result.netDistance();
+            case FORWARD -> known(result.course(), objective, result).forward();
+            case STRAIGHT -> -Math.abs(known(result.course(), objective, result).yaw()) - Math.abs(result.course().roll());
+            case WORK -> -known(result.work(), objective, result);
+            case EFFICIENCY -> known(result.work(), objective, result) > 0 ? result.distance() / result.work() : 0;
+        };
+    }
+
+    private static <T> T known(T figure, Objective objective, SimulationResult result) {
+        if (figure == null) {
+            throw new InvalidInputException("objective " + objective.name().toLowerCase(Locale.ROOT)
+                    + ": this simulator does not measure it in scheme " + result.scheme());
+        }
+        return figure;
+    }
+
+    @Override
+    public void close() {
+        evaluator.close();
+    }
+}

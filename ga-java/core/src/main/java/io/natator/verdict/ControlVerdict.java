@@ -1,0 +1,90 @@
+package io.natator.verdict;
+
+import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.SwimSample;
+import io.natator.config.Numbers;
+import java.util.ArrayList;
+import java.util.List;
+
+/**
+ * One verdict from all controls of a winner: it swims if it gets further than a dead body does, by more than chance, in the
+ * water, and not by the vacuum's drift, the clamp, the time step, one side of its body, or one backend.
+ *
+ * @param kind the verdict
+ * @param text the same in words, on one line, with what it rests on
+ */
+public record ControlVerdict(Verdict.Kind kind, String text) {
+
+    /** A mean is known to so many standard errors. */
+    private static final double SURE = 2;
+    /** What keeps less than this share of its way under another condition is no swimmer under that. */
+    private static final double LEAST_LEFT = 0.5;
+
+    /** The verdict on a winner. */
+    public static ControlVerdict of(Controls controls) {
+        double unit = controls.bodyLength() != null && controls.bodyLength() > 0 ? controls.bodyLength() : 1;
+        String name = unit == 1 ? "units" : "body lengths";
+        double net = controls.net();
+        String speed = Numbers.fixed(net / controls.duration() / unit, 2) + " ± "
+                + Numbers.fixed(controls.water().speed().sd() / unit, 2) + " " + name + "/s more than a resting body";
+        if (net / unit < Verdict.LEAST_DISTANCE) {
+            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: " + speed + ", less than "
+                    + Verdict.LEAST_DISTANCE + " " + name + " in " + Numbers.fixed(controls.duration(), 2) + " s");
+        }
+        double vacuum = controls.vacuum().distance().mean();
+        if (Math.abs(vacuum) >= LEAST_LEFT * net) {
+            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(Math.abs(vacuum) / net, 1)
+                    + " times as far in vacuum" + (vacuum < 0 ? ", the other way" : ""));
+        }
+        if (controls.clampOff() != null && left(controls.clampOff(), controls) < LEAST_LEFT) {
+            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: the acceleration clamp moves it; without, "
+                    + percent(left(controls.clampOff(), controls)) + " of its way is left");
+        }
+        List<String> doubts = doubts(controls, net, unit);
+        return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + reasons(controls))
+                : new ControlVerdict(Verdict.Kind.UNPROVEN, "may swim: " + speed + "; but " + String.join("; ", doubts));
+    }
+
+    private static List<String> doubts(Controls controls, double net, double unit) {
+        List<String> doubts = new ArrayList<>();
+        if ((net - SURE * controls.error()) / unit < Verdict.LEAST_DISTANCE) {
+            doubts.add("its runs differ too much to tell");
+        }
+        if (controls.underWater() != null && controls.underWater() < LEAST_LEFT) {
+            doubts.add("it skims: " + percent(controls.underWater()) + " of its body are under water");
+        }
+        doubt(doubts, "at half the time step", controls.halfStep(), controls);
+        doubt(doubts, "mirrored", controls.mirrored(), controls);
+        doubt(doubts, "on " + controls.backend(), controls.otherBackend(), controls);
+        return doubts;
+    }
+
+    private static void doubt(List<String> doubts, String where, SwimSample sample, Controls controls) {
+        if (sample != null && left(sample, controls) < LEAST_LEFT) {
+            doubts.add(where + " " + percent(left(sample, controls)) + " of its way is left");
+        }
+    }
+
+    private static String reasons(Controls controls) {
+        List<String> where = new ArrayList<>(List.of("not in vacuum"));
+        if (controls.clampOff() != null) {
+            where.add("without the acceleration clamp (" + percent(left(controls.clampOff(), controls)) + ")");
+        }
+        where.add("at half the time step (" + percent(left(controls.halfStep(), controls)) + " of its way)");
+        where.add("mirrored (" + percent(left(controls.mirrored(), controls)) + ")");
+        if (controls.otherBackend() != null) {
+            where.add("on " + controls.backend() + " (" + percent(left(controls.otherBackend(), controls)) + ")");
+        }
+        return ", " + String.join(", ", where)
+                + (controls.underWater() == null ? "" : "; " + percent(controls.underWater()) + " under water");
+    }
+
+    /** Share of its way in water, less the dead body's drift in both. */
+    private static double left(SwimSample sample, Controls controls) {
+        return (sample.distance().mean() - controls.resting().distance().mean()) / controls.net();
+    }
+
+    private static String percent(double share) {
+        return Numbers.fixed(100 * share, 0) + " %";
+    }
+}

@@ -1,0 +1,62 @@
+package io.natator.verdict;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.SwimSample;
+import io.natator.encoding.Gait;
+import io.natator.simulator.SimulationResult;
+import java.util.List;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+class ControlVerdictTest {
+
+    private static final Gait GAIT = new Gait(1, List.of(0.1), List.of(0.0));
+
+    /** Of two runs, so far from their mean. */
+    private static SwimSample sample(double mean, double from) {
+        return SwimSample.of(List.of(result(mean - from), result(mean + from)), 4, GAIT, 4.0, 1.25);
+    }
+
+    private static SimulationResult result(double distance) {
+        return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex", "float", null,
+                null, null);
+    }
+
+    /** Distances in 4 s of a body 1.25 long; a dead body drifts by -0.01. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "0.74|0.01|0.0|0.70|0.70|0.74|0.9|SWIMS|swims: 0.15 ± 0.00 body lengths/s more than a resting body, not in vacuum, without "
+            + "the acceleration clamp (95 %), at half the time step (95 % of its way), mirrored (100 %); 90 % under water",
+        "0.05|0.01|0.0|0.05|0.05|0.05|0.9|DOES_NOT_SWIM|does not swim: 0.01 ± 0.00 body lengths/s more than a resting body, less "
+            + "than 0.05 body lengths in 4.00 s",
+        "0.74|0.01|-0.4|0.70|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: moves 0.5 times as far in vacuum, the other way",
+        "0.74|0.01|0.0|-0.01|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 0 % of its way "
+            + "is left",
+        "0.74|0.01|0.0|0.70|0.20|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but at half the "
+            + "time step 28 % of its way is left",
+        "0.74|0.01|0.0|0.70|0.70|-0.2|0.2|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but it skims: "
+            + "20 % of its body are under water; mirrored -25 % of its way is left",
+        "0.74|0.70|0.0|0.70|0.70|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.20 body lengths/s more than a resting body; but its runs "
+            + "differ too much to tell"})
+    void allControlsHaveTheirSay(double water, double from, double vacuum, double clampOff, double half, double mirrored,
+            double underWater, Verdict.Kind kind, String text) {
+        Controls controls = new Controls(GAIT, "flex", 4.0, 1.25, sample(water, from), sample(-0.01, 0), sample(vacuum, 0),
+                sample(clampOff, 0), sample(half, 0), sample(mirrored, 0), null, null, underWater);
+
+        assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
+        assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
+    }
+
+    /** Where there is a GPU it must swim on that too; a program without clamp or water is not asked for them. */
+    @ParameterizedTest
+    @CsvSource({"0.7, SWIMS, on cuda (95 %)", "0.1, UNPROVEN, on cuda 15 % of its way is left"})
+    void theOtherBackendCounts(double distance, Verdict.Kind kind, String text) {
+        Controls controls = new Controls(GAIT, "conserving", 4.0, null, sample(0.74, 0.01), sample(-0.01, 0), sample(0, 0), null,
+                sample(0.7, 0), sample(0.7, 0), sample(distance, 0), "cuda", null);
+
+        assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
+        assertThat(ControlVerdict.of(controls).text()).contains(text).contains("0.19 ± 0.00 units/s").doesNotContain("clamp");
+    }
+}

@@ -1,0 +1,51 @@
+package io.natator.report;
+
+import io.natator.config.ExecutionSettings;
+import io.natator.flow.Snapshot;
+import io.natator.flow.WaterLevel;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.TrajectoryRecorder;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+
+/** Looks whether a swimmer is in the water. */
+public final class WaterCheck {
+
+    private WaterCheck() {
+    }
+
+    /**
+     * Mean share of the body's particles under water at these moments.
+     *
+     * @param request   that does not end early; run once for each moment, on the processor
+     * @param moments   in seconds
+     * @param execution with a time limit
+     * @return null without water
+     */
+    public static Double shareUnderWater(SimulationRequest request, List<Double> moments, ExecutionSettings execution)
+            throws InterruptedException {
+        List<Double> shares = new ArrayList<>();
+        try {
+            Path file = Files.createTempFile("natator-", ".csv");
+            try {
+                for (double moment : moments) {
+                    Files.deleteIfExists(file);
+                    new TrajectoryRecorder(execution).record(request, null, file, moment);
+                    Double share = Files.exists(file) ? WaterLevel.shareBelow(Snapshot.read(file)) : null;
+                    if (share != null) {
+                        shares.add(share);
+                    }
+                }
+            } finally {
+                Files.deleteIfExists(file);
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot record a run: " + e.getMessage(), e);
+        }
+        return shares.isEmpty() ? null : shares.stream().mapToDouble(Double::doubleValue).average().orElseThrow();
+    }
+}
