@@ -133,7 +133,7 @@ class ViewServerTest {
         assertThat(answer.get("generations")).hasSize(4);
         assertThat(answer.get("bests")).hasSize(4);
         assertThat(answer.get("verdict").get("text").textValue()).matches("(swims|does not swim|not judged|may swim).*");
-        assertThat(answer.get("mechanics").textValue()).isEqualTo("Re 131, St 0.313, swimming number 410, work 0.75");
+        assertThat(answer.get("mechanics").textValue()).isEqualTo("Re 131, St 0.313, work 0.75, cost of transport 5.41");
         double bestEver = Double.NEGATIVE_INFINITY;
         for (int i = 0; i < 4; i++) {
             JsonNode generation = answer.get("generations").get(i);
