@@ -38,6 +38,11 @@ public final class Json {
         }
     }
 
+    /** What JSON calls a constant, without quotes. */
+    public static String name(Enum<?> constant) {
+        return line(constant).replace("\"", "");
+    }
+
     /** The value as indented JSON that ends with a line feed. */
     public static String document(Object value) {
         try {

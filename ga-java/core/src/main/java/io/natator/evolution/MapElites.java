@@ -32,21 +32,22 @@ final class MapElites implements Optimizer {
     public List<Individual> next(int generation, List<Individual> before) {
         SplittableRandom random = new SplittableRandom(Seeds.of(settings.seed(), generation));
         List<Individual> elites = new EliteMap(settings, before).individuals();
-        List<List<Double>> genomes = new ArrayList<>();
-        for (int i = 0; i < settings.population(); i++) {
-            genomes.add(elites.isEmpty() ? random(random) : child(elites.get(random.nextInt(elites.size())).genes(),
-                    elites.get(random.nextInt(elites.size())).genes(), random));
-        }
         List<Individual> all = new ArrayList<>();
         elites.forEach(elite -> all.add(elite.withAge(elite.age() + 1)));
-        List<Individual> newborns = evaluator.evaluate(genomes);
+        List<Individual> newborns = evaluator.evaluate(elites.isEmpty()
+                ? RandomSearch.genomes(settings.population(), ranges, random) : children(elites, random));
         all.addAll(newborns);
         List<Individual> next = new EliteMap(settings, all).individuals();
         return next.isEmpty() ? newborns : next;
     }
 
-    private List<Double> random(SplittableRandom random) {
-        return ranges.stream().map(range -> random.nextDouble(range.lower(), range.upper())).toList();
+    private List<List<Double>> children(List<Individual> elites, SplittableRandom random) {
+        List<List<Double>> genomes = new ArrayList<>();
+        for (int i = 0; i < settings.population(); i++) {
+            genomes.add(child(elites.get(random.nextInt(elites.size())).genes(),
+                    elites.get(random.nextInt(elites.size())).genes(), random));
+        }
+        return genomes;
     }
 
     private List<Double> child(List<Double> one, List<Double> other, SplittableRandom random) {

@@ -41,23 +41,16 @@ final class Nsga2 implements Optimizer {
     public List<Individual> next(int generation, List<Individual> before) {
         SplittableRandom random = new SplittableRandom(Seeds.of(settings.seed(), generation));
         if (generation == 0) {
-            return evaluator.evaluate(random(random));
+            return evaluator.evaluate(RandomSearch.genomes(settings.population(), ranges, random));
         }
         List<DoubleSolution> candidates = ranking.solutions(before);
         List<DoubleSolution> parents = candidates.size() <= settings.population() ? candidates
                 : new RankingAndCrowdingSelection<DoubleSolution>(settings.population()).execute(candidates);
         List<Individual> population = new ArrayList<>();
         parents.forEach(parent -> population.add(ranking.individual(parent).withAge(ranking.individual(parent).age() + 1)));
-        population.addAll(evaluator.evaluate(parents.isEmpty() ? random(random) : children(parents, random)));
+        population.addAll(evaluator.evaluate(parents.isEmpty()
+                ? RandomSearch.genomes(settings.population(), ranges, random) : children(parents, random)));
         return population;
-    }
-
-    private List<List<Double>> random(SplittableRandom random) {
-        List<List<Double>> genomes = new ArrayList<>();
-        for (int i = 0; i < settings.population(); i++) {
-            genomes.add(ranges.stream().map(range -> random.nextDouble(range.lower(), range.upper())).toList());
-        }
-        return genomes;
     }
 
     private List<List<Double>> children(List<DoubleSolution> parents, SplittableRandom random) {

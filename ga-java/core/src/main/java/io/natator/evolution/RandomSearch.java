@@ -22,10 +22,15 @@ final class RandomSearch implements Optimizer {
     @Override
     public List<Individual> next(int generation, List<Individual> before) {
         SplittableRandom random = new SplittableRandom(Seeds.of(settings.seed(), generation));
+        return evaluator.evaluate(genomes(settings.population(), ranges, random));
+    }
+
+    /** So many. */
+    static List<List<Double>> genomes(int count, List<GeneRange> ranges, SplittableRandom random) {
         List<List<Double>> genomes = new ArrayList<>();
-        for (int i = 0; i < settings.population(); i++) {
+        for (int i = 0; i < count; i++) {
             genomes.add(ranges.stream().map(range -> random.nextDouble(range.lower(), range.upper())).toList());
         }
-        return evaluator.evaluate(genomes);
+        return genomes;
     }
 }

@@ -1,6 +1,5 @@
 package io.natator.run;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.Controls;
@@ -8,20 +7,15 @@ import io.natator.checkpoint.SwimSample;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Json;
-import io.natator.config.MergePatch;
 import io.natator.config.SimulatorMode;
 import io.natator.encoding.Gait;
-import io.natator.evolution.Starts;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.ProgramInfo;
-import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.VacuumRequests;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.stream.IntStream;
 
 /** Runs a gait under the conditions of {@link Controls}, all but the share under water. */
 public final class ControlRuns {
@@ -33,8 +27,7 @@ public final class ControlRuns {
     private final EvolutionSettings settings;
     private final ExecutionSettings execution;
     private final int starts;
-    private final SceneInfo scene;
-    private final double duration;
+    private final WinnerRuns again;
 
     /**
      * For the winner of a run.
@@ -46,31 +39,25 @@ public final class ControlRuns {
         this.settings = settings;
         this.execution = execution;
         this.starts = starts;
-        this.scene = SceneInfo.of(settings.scene(), MergePatch.both(settings.overrides(), scheme()), execution.simulator());
-        this.duration = settings.duration() != null ? settings.duration() : scene.duration();
-    }
-
-    private JsonNode scheme() {
-        ObjectNode patch = JsonNodeFactory.instance.objectNode();
-        return settings.scheme() == null ? patch : patch.put("scheme", Json.line(settings.scheme()).replace("\"", ""));
+        this.again = new WinnerRuns(settings, execution.simulator());
     }
 
     /** The controls of a gait. */
     public Controls of(Gait gait) throws InterruptedException {
         try (Evaluator evaluator = EvolutionRun.open(execution)) {
-            List<SimulationResult> inWater = runs(requests(gait, null), evaluator);
+            List<SimulationResult> inWater = runs(again.requests(gait, starts, null), evaluator);
             String scheme = inWater.stream().map(SimulationResult::scheme).filter(one -> one != null).findFirst().orElse("");
-            SwimSample water = sample(inWater, gait, 1);
+            SwimSample water = again.sample(inWater, gait, 1);
             // A body at rest makes no progress, which is to end no run of it.
-            SwimSample resting = sample(runs(requests(gait.resting(), stopping()), evaluator), gait, 1);
-            SwimSample vacuum = sample(runs(requests(gait, null).stream()
+            SwimSample resting = again.sample(runs(again.requests(gait.resting(), starts, stopping()), evaluator), gait, 1);
+            SwimSample vacuum = again.sample(runs(again.requests(gait, starts, null).stream()
                     .map(request -> VacuumRequests.of(request, settings.duration())).toList(), evaluator), gait, 1);
             SwimSample clampOff = scheme.equals(FLEX)
-                    ? sample(runs(requests(gait, solver("maxAcceleration", NO_CLAMP)), evaluator), gait, 1) : null;
-            SwimSample half = sample(runs(requests(gait, solver("substeps", 2 * scene.substeps())), evaluator), gait, 2);
-            SwimSample mirrored = sample(runs(requests(gait.mirrored(), null), evaluator), gait, 1);
+                    ? again.sample(runs(again.requests(gait, starts, withoutClamp()), evaluator), gait, 1) : null;
+            SwimSample half = again.sample(runs(again.requests(gait, starts, again.halfStep()), evaluator), gait, 2);
+            SwimSample mirrored = again.sample(runs(again.requests(gait.mirrored(), starts, null), evaluator), gait, 1);
             Backend other = otherBackend();
-            return new Controls(gait, scheme, duration, scene.bodyLength(), water, resting, vacuum, clampOff, half, mirrored,
+            return new Controls(gait, scheme, again.duration(), again.bodyLength(), water, resting, vacuum, clampOff, half, mirrored,
                     other == null ? null : onOther(gait, other), other == null ? null : other.argument(), null);
         }
     }
@@ -80,7 +67,7 @@ public final class ControlRuns {
         ExecutionSettings elsewhere = execution.withBackend(backend)
                 .withMode(backend == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.RESIDENT);
         try (Evaluator evaluator = EvolutionRun.open(elsewhere)) {
-            return sample(runs(requests(gait, null), evaluator), gait, 1);
+            return again.sample(runs(again.requests(gait, starts, null), evaluator), gait, 1);
         }
     }
 
@@ -92,14 +79,9 @@ public final class ControlRuns {
         return execution.backend() == Backend.CPU ? Backend.CUDA : Backend.CPU;
     }
 
-    private static ObjectNode solver(String name, double value) {
+    private static ObjectNode withoutClamp() {
         ObjectNode patch = JsonNodeFactory.instance.objectNode();
-        ObjectNode solver = patch.putObject("solver");
-        if (value == Math.rint(value) && value < Integer.MAX_VALUE) {
-            solver.put(name, (int) value);
-        } else {
-            solver.put(name, value);
-        }
+        patch.putObject("solver").put("maxAcceleration", NO_CLAMP);
         return patch;
     }
 
@@ -109,20 +91,10 @@ public final class ControlRuns {
         return patch;
     }
 
-    private List<SimulationRequest> requests(Gait gait, ObjectNode change) {
-        return IntStream.range(0, starts).mapToObj(k -> new SimulationRequest(k, settings.scene(), gait,
-                settings.duration(), settings.scheme(), MergePatch.both(settings.overrides(), change))
-                .withStart(Starts.fresh(settings.seed(), k))).toList();
-    }
-
     private static List<SimulationResult> runs(List<SimulationRequest> requests, Evaluator evaluator)
             throws InterruptedException {
         List<SimulationResult> results = new ArrayList<>();
         evaluator.evaluateInOrder(requests, results::add);
         return results;
-    }
-
-    private SwimSample sample(List<SimulationResult> results, Gait gait, int finer) {
-        return SwimSample.of(results, finer * scene.substeps(), gait, duration, scene.bodyLength());
     }
 }

@@ -1,25 +1,17 @@
 package io.natator.run;
 
-import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.FreshRuns;
-import io.natator.checkpoint.SwimSample;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Json;
-import io.natator.config.MergePatch;
 import io.natator.encoding.Gait;
 import io.natator.evolution.Individual;
-import io.natator.evolution.Starts;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.RequestRejectedException;
-import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.stream.IntStream;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -32,8 +24,7 @@ final class FreshStarts {
 
     private final EvolutionSettings settings;
     private final Evaluator evaluator;
-    private final SceneInfo scene;
-    private final double duration;
+    private final WinnerRuns again;
 
     /**
      * For the winner of one run.
@@ -44,48 +35,33 @@ final class FreshStarts {
     FreshStarts(EvolutionSettings settings, Evaluator evaluator, Path simulator) throws InterruptedException {
         this.settings = settings;
         this.evaluator = evaluator;
-        this.scene = SceneInfo.of(settings.scene(), MergePatch.both(settings.overrides(), scheme(settings)), simulator);
-        this.duration = settings.duration() != null ? settings.duration() : scene.duration();
-    }
-
-    private static JsonNode scheme(EvolutionSettings settings) {
-        ObjectNode patch = JsonNodeFactory.instance.objectNode();
-        return settings.scheme() == null ? patch : patch.put("scheme", Json.line(settings.scheme()).replace("\"", ""));
+        this.again = new WinnerRuns(settings, simulator);
     }
 
     /** The winner again, or null if the simulator refuses that. */
     FreshRuns of(Individual winner) throws InterruptedException {
         Gait gait = gait(winner);
-        List<SimulationResult> base = runs(gait, settings.overrides());
+        List<SimulationResult> base = runs(gait, null);
         if (base == null) {
             return null;
         }
-        ObjectNode finer = JsonNodeFactory.instance.objectNode();
-        finer.putObject("solver").put("substeps", 2 * scene.substeps());
-        List<SimulationResult> half = runs(gait, MergePatch.both(settings.overrides(), finer));
-        return FreshRuns.of(duration, sample(base, scene.substeps(), gait),
-                half == null ? null : sample(half, 2 * scene.substeps(), gait), settings.judge(), winner.score(),
+        List<SimulationResult> half = runs(gait, again.halfStep());
+        return FreshRuns.of(again.duration(), again.sample(base, gait, 1),
+                half == null ? null : again.sample(half, gait, 2), settings.judge(), winner.score(),
                 winner.runs(), settings.judge().of(base.stream().map(SimulationResult::score).toList()));
     }
 
     /** From the fresh starts; null, and a word of it, if the simulator refuses them. What the run found is not lost by that. */
-    private List<SimulationResult> runs(Gait gait, JsonNode overrides) throws InterruptedException {
+    private List<SimulationResult> runs(Gait gait, ObjectNode change) throws InterruptedException {
         int starts = Math.max(LEAST, 2 * settings.starts());
-        List<SimulationRequest> requests = IntStream.range(0, starts).mapToObj(k -> new SimulationRequest(k,
-                settings.scene(), gait, settings.duration(), settings.scheme(), overrides)
-                .withStart(Starts.fresh(settings.seed(), k))).toList();
         List<SimulationResult> results = new ArrayList<>();
         try {
-            evaluator.evaluateInOrder(requests, results::add);
+            evaluator.evaluateInOrder(again.requests(gait, starts, change), results::add);
         } catch (RequestRejectedException e) {
             LOG.warn("the winner is not run from fresh starts: {}", e.getMessage());
             return null;
         }
         return results;
-    }
-
-    private SwimSample sample(List<SimulationResult> results, int substeps, Gait gait) {
-        return SwimSample.of(results, substeps, gait, duration, scene.bodyLength());
     }
 
     /** The winner from the scene's own start, as whoever watches it sees it. */

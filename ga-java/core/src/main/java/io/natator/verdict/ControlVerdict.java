@@ -15,11 +15,6 @@ import java.util.List;
  */
 public record ControlVerdict(Verdict.Kind kind, String text) {
 
-    /** A mean is known to so many standard errors. */
-    private static final double SURE = 2;
-    /** What keeps less than this share of its way under another condition is no swimmer under that. */
-    private static final double LEAST_LEFT = 0.5;
-
     /** The verdict on a winner. */
     public static ControlVerdict of(Controls controls) {
         double unit = controls.bodyLength() != null && controls.bodyLength() > 0 ? controls.bodyLength() : 1;
@@ -32,11 +27,11 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
                     + Verdict.LEAST_DISTANCE + " " + name + " in " + Numbers.fixed(controls.duration(), 2) + " s");
         }
         double vacuum = controls.vacuum().distance().mean();
-        if (Math.abs(vacuum) >= LEAST_LEFT * net) {
+        if (Math.abs(vacuum) >= Verdict.LEAST_LEFT * net) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(Math.abs(vacuum) / net, 1)
                     + " times as far in vacuum" + (vacuum < 0 ? ", the other way" : ""));
         }
-        if (controls.clampOff() != null && left(controls.clampOff(), controls) < LEAST_LEFT) {
+        if (controls.clampOff() != null && left(controls.clampOff(), controls) < Verdict.LEAST_LEFT) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: the acceleration clamp moves it; without, "
                     + percent(left(controls.clampOff(), controls)) + " of its way is left");
         }
@@ -47,10 +42,10 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
 
     private static List<String> doubts(Controls controls, double net, double unit) {
         List<String> doubts = new ArrayList<>();
-        if ((net - SURE * controls.error()) / unit < Verdict.LEAST_DISTANCE) {
+        if ((net - Verdict.SURE * controls.error()) / unit < Verdict.LEAST_DISTANCE) {
             doubts.add("its runs differ too much to tell");
         }
-        if (controls.underWater() != null && controls.underWater() < LEAST_LEFT) {
+        if (controls.underWater() != null && controls.underWater() < Verdict.LEAST_LEFT) {
             doubts.add("it skims: " + percent(controls.underWater()) + " of its body are under water");
         }
         doubt(doubts, "at half the time step", controls.halfStep(), controls);
@@ -60,7 +55,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
     }
 
     private static void doubt(List<String> doubts, String where, SwimSample sample, Controls controls) {
-        if (sample != null && left(sample, controls) < LEAST_LEFT) {
+        if (sample != null && left(sample, controls) < Verdict.LEAST_LEFT) {
             doubts.add(where + " " + percent(left(sample, controls)) + " of its way is left");
         }
     }

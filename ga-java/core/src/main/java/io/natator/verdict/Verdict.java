@@ -32,9 +32,9 @@ public record Verdict(Kind kind, String text, String advice) {
     static final double WAY_TO_WALL = 0.5;
 
     /** A mean is known to so many standard errors. */
-    private static final double SURE = 2;
-    /** What less than this share is left of at half the time step, is the time step's. */
-    private static final double LEAST_LEFT = 0.5;
+    static final double SURE = 2;
+    /** What keeps less than this share of its way under another condition, half the time step say, is no swimmer under that. */
+    static final double LEAST_LEFT = 0.5;
 
     private static final String CONSERVING = "conserving";
     private static final String NEUTRAL = "try --scene pool/creature-N or, finer and slower, "

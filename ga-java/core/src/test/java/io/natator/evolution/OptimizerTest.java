@@ -6,11 +6,6 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
-import io.natator.config.WeightedObjective;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.ObjectiveEvaluator;
-import io.natator.simulator.WorkerPool;
-import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -19,43 +14,16 @@ import org.junit.jupiter.params.provider.EnumSource;
 class OptimizerTest {
 
     private static EvolutionSettings settings(OptimizerKind optimizer, long evaluations, long seed) {
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
-                .withSize(20, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations).withSeed(seed);
-        return optimizer == OptimizerKind.NSGA2 ? settings.withObjectives(optimizer, WeightedObjective.parse("distance,work"))
-                : settings.withObjectives(optimizer, null);
-    }
-
-    private static EvolutionState run(EvolutionSettings settings, EvolutionState from, List<EvaluationRecord> recorded,
-            EvolutionListener... listeners) {
-        try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            Evaluator evaluator =
-                    settings.objectives() == null ? pool : new ObjectiveEvaluator(pool, settings.objectives());
-            return new Evolution(settings, evaluator, List.of(listeners), recorded).run(from);
-        }
-    }
-
-    /** Keeps all that a run folder keeps. */
-    private static final class Recorder implements EvolutionListener {
-        private final List<EvolutionState> states = new ArrayList<>();
-        private final List<EvaluationRecord> evaluations = new ArrayList<>();
-
-        @Override
-        public void evaluated(EvaluationRecord evaluation) {
-            evaluations.add(evaluation);
-        }
-
-        @Override
-        public void generationFinished(EvolutionState state) {
-            states.add(state);
-        }
+        return ToyEvolution.by(optimizer, EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
+                .withSize(20, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations).withSeed(seed));
     }
 
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void takesExactlyTheEvaluationsThatItMay(OptimizerKind optimizer) {
-        Recorder recorder = new Recorder();
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
 
-        EvolutionState end = run(settings(optimizer, 333, 4), null, List.of(), recorder);
+        EvolutionState end = ToyEvolution.run(settings(optimizer, 333, 4), 2, null, List.of(), recorder);
 
         assertThat(end.evaluations()).isEqualTo(333);
         assertThat(recorder.evaluations).hasSize(333);
@@ -66,24 +34,24 @@ class OptimizerTest {
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void continuesFromAnyGenerationAsIfNeverInterrupted(OptimizerKind optimizer) {
-        Recorder recorder = new Recorder();
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         EvolutionSettings settings = settings(optimizer, 250, 8);
-        EvolutionState whole = run(settings, null, List.of(), recorder);
+        EvolutionState whole = ToyEvolution.run(settings, 2, null, List.of(), recorder);
 
         for (EvolutionState state : recorder.states) {
             for (long more : List.of(0L, 7L)) {
                 int kept = (int) Math.min(state.evaluations() + more, recorder.evaluations.size());
-                assertThat(run(settings, state, recorder.evaluations.subList(0, kept))).isEqualTo(whole);
+                assertThat(ToyEvolution.run(settings, 2, state, recorder.evaluations.subList(0, kept))).isEqualTo(whole);
             }
         }
-        assertThat(run(settings(optimizer, 250, 9), null, List.of()).population()).isNotEqualTo(whole.population());
+        assertThat(ToyEvolution.run(settings(optimizer, 250, 9), 2, null, List.of()).population()).isNotEqualTo(whole.population());
     }
 
     /** The toy's optimum, 0.5, lies inside the ranges of all ten genes; a hundredth off in each gives 0.499. */
     @Test
     void cmaEsFindsTheOptimumOfASmoothFunction() {
-        EvolutionState cmaEs = run(settings(OptimizerKind.CMA_ES, 3000, 1), null, List.of());
-        EvolutionState random = run(settings(OptimizerKind.RANDOM, 3000, 1), null, List.of());
+        EvolutionState cmaEs = ToyEvolution.run(settings(OptimizerKind.CMA_ES, 3000, 1), 2, null, List.of());
+        EvolutionState random = ToyEvolution.run(settings(OptimizerKind.RANDOM, 3000, 1), 2, null, List.of());
 
         assertThat(cmaEs.best().result().distance()).isBetween(0.4999, 0.5);
         assertThat(random.best().result().distance()).isBetween(-0.3, 0.45);
@@ -92,10 +60,10 @@ class OptimizerTest {
     /** Once one search has converged to the last bit, the budget goes to another. */
     @Test
     void cmaEsBeginsAnewWhenItHasConverged() {
-        Recorder recorder = new Recorder();
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
 
-        run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, EvolutionSettings.NO_LIMIT)
-                .withEvaluations(3000L).withOptimizer(OptimizerKind.CMA_ES, OperatorSet.CORRECTED, 0.05), null,
+        ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(10, EvolutionSettings.NO_LIMIT)
+                .withEvaluations(3000L).withOptimizer(OptimizerKind.CMA_ES, OperatorSet.CORRECTED, 0.05), 2, null,
                 List.of(), recorder);
 
         boolean converged = false;
@@ -112,8 +80,8 @@ class OptimizerTest {
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void genesStayWithinTheirRanges(OptimizerKind optimizer) {
-        Recorder recorder = new Recorder();
-        run(settings(optimizer, 400, 2), null, List.of(), recorder);
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        ToyEvolution.run(settings(optimizer, 400, 2), 2, null, List.of(), recorder);
 
         var ranges = EncodingKind.DENSE.forActuators(5).genes();
         assertThat(recorder.evaluations).allSatisfy(evaluation -> {

@@ -7,12 +7,7 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Judge;
 import io.natator.config.OptimizerKind;
-import io.natator.config.WeightedObjective;
 import io.natator.encoding.Gait;
-import io.natator.simulator.Evaluator;
-import io.natator.simulator.ObjectiveEvaluator;
-import io.natator.simulator.WorkerPool;
-import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
@@ -28,45 +23,8 @@ class RepeatsTest {
     private static final int STARTS = 4;
 
     private static EvolutionSettings settings(OptimizerKind optimizer, int generations) {
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
-                .withSize(20, generations).withSeed(6).withStarts(STARTS, Judge.MEAN);
-        return optimizer == OptimizerKind.NSGA2 ? settings.withObjectives(optimizer, WeightedObjective.parse("distance,work"))
-                : settings.withObjectives(optimizer, null);
-    }
-
-    private static EvolutionState run(EvolutionSettings settings, int workers, EvolutionState from,
-            List<EvaluationRecord> recorded, EvolutionListener... listeners) {
-        try (WorkerPool pool = new WorkerPool(new ToySimulator(), workers)) {
-            Evaluator evaluator =
-                    settings.objectives() == null ? pool : new ObjectiveEvaluator(pool, settings.objectives());
-            return new Evolution(settings, evaluator, List.of(listeners), recorded).run(from);
-        }
-    }
-
-    /** Keeps all that a run folder keeps. */
-    private static final class Recorder implements EvolutionListener {
-        private final List<EvolutionState> states = new ArrayList<>();
-        private final List<EvaluationRecord> evaluations = new ArrayList<>();
-        private final List<Integer> announced = new ArrayList<>();
-
-        @Override
-        public void generationStarted(int generation, int simulations) {
-            announced.add(simulations);
-        }
-
-        @Override
-        public void evaluated(EvaluationRecord evaluation) {
-            evaluations.add(evaluation);
-        }
-
-        @Override
-        public void generationFinished(EvolutionState state) {
-            states.add(state);
-        }
-
-        private List<EvaluationRecord> of(int generation) {
-            return evaluations.stream().filter(one -> one.generation() == generation).toList();
-        }
+        return ToyEvolution.by(optimizer, EvolutionSettings.of("thesis/creature-3", EncodingKind.DENSE, 5)
+                .withSize(20, generations).withSeed(6).withStarts(STARTS, Judge.MEAN));
     }
 
     private static double truth(Individual one) {
@@ -77,27 +35,27 @@ class RepeatsTest {
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void continuesFromAnyEvaluationAsIfNeverInterrupted(OptimizerKind optimizer) {
-        Recorder recorder = new Recorder();
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         EvolutionSettings settings = settings(optimizer, 4);
-        EvolutionState whole = run(settings, 2, null, List.of(), recorder);
-        assertThat(run(settings, 1, null, List.of())).isEqualTo(whole);
+        EvolutionState whole = ToyEvolution.run(settings, 2, null, List.of(), recorder);
+        assertThat(ToyEvolution.run(settings, 1, null, List.of())).isEqualTo(whole);
 
         for (int kept = 0; kept <= recorder.evaluations.size(); kept += 17) {
             EvolutionState from = null;
             for (EvolutionState state : recorder.states) {
                 from = state.evaluations() <= kept ? state : from;
             }
-            assertThat(run(settings, 2, from, recorder.evaluations.subList(0, kept))).as("after %d", kept)
+            assertThat(ToyEvolution.run(settings, 2, from, recorder.evaluations.subList(0, kept))).as("after %d", kept)
                     .isEqualTo(whole);
         }
-        assertThat(run(settings.withSeed(7), 2, null, List.of()).champions()).isNotEqualTo(whole.champions());
+        assertThat(ToyEvolution.run(settings.withSeed(7), 2, null, List.of()).champions()).isNotEqualTo(whole.champions());
     }
 
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void newbornsOfAGenerationShareTheirStarts(OptimizerKind optimizer) {
-        Recorder recorder = new Recorder();
-        run(settings(optimizer, 3), 2, null, List.of(), recorder);
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        ToyEvolution.run(settings(optimizer, 3), 2, null, List.of(), recorder);
 
         Set<Integer> earlier = new HashSet<>();
         for (int generation = 0; generation <= 3; generation++) {
@@ -119,8 +77,8 @@ class RepeatsTest {
     @ParameterizedTest
     @EnumSource(OptimizerKind.class)
     void theBestAreRunAgainInEveryGeneration(OptimizerKind optimizer) {
-        Recorder recorder = new Recorder();
-        EvolutionState end = run(settings(optimizer, 5), 2, null, List.of(), recorder);
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        EvolutionState end = ToyEvolution.run(settings(optimizer, 5), 2, null, List.of(), recorder);
 
         for (EvolutionState state : recorder.states) {
             assertThat(state.champions()).hasSize(4).isSortedAccordingTo((a, b) -> Double.compare(b.score(), a.score()));
@@ -143,8 +101,8 @@ class RepeatsTest {
         double lost = 0;
         double luckiest = 0;
         for (long seed = 1; seed <= 8; seed++) {
-            Recorder recorder = new Recorder();
-            EvolutionState end = run(settings(OptimizerKind.JGAP, 6).withSeed(seed), 2, null, List.of(), recorder);
+            ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+            EvolutionState end = ToyEvolution.run(settings(OptimizerKind.JGAP, 6).withSeed(seed), 2, null, List.of(), recorder);
             lost += (end.best().score() - truth(end.best())) / 8;
             EvaluationRecord single = recorder.evaluations.stream().reduce(
                     (a, b) -> b.result().score() > a.result().score() ? b : a).orElseThrow();
@@ -157,8 +115,8 @@ class RepeatsTest {
     /** Survivors bring their runs along; the next parents are chosen by all of them. */
     @Test
     void parentsAreChosenByTheirMeans() {
-        Recorder recorder = new Recorder();
-        run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 1)
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        ToyEvolution.run(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 1)
                 .withStarts(STARTS, Judge.MEAN), 2, null, List.of(), recorder);
 
         List<List<Double>> best = recorder.states.get(0).population().stream()
@@ -172,8 +130,8 @@ class RepeatsTest {
     @EnumSource(OptimizerKind.class)
     void takesExactlyTheEvaluationsThatItMay(OptimizerKind optimizer) {
         for (long most : List.of(4L, 7L, 81L, 90L, 97L, 98L, 203L)) {
-            Recorder recorder = new Recorder();
-            EvolutionState end = run(settings(optimizer, EvolutionSettings.NO_LIMIT).withEvaluations(most), 2, null,
+            ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+            EvolutionState end = ToyEvolution.run(settings(optimizer, EvolutionSettings.NO_LIMIT).withEvaluations(most), 2, null,
                     List.of(), recorder);
             assertThat(end.evaluations()).isEqualTo(most).isEqualTo(recorder.evaluations.size());
             assertThat(end.best()).isNotNull();
@@ -186,8 +144,8 @@ class RepeatsTest {
     @Test
     void theJudgeHasItsSay() {
         EvolutionSettings mean = settings(OptimizerKind.RANDOM, 2);
-        EvolutionState byMean = run(mean, 2, null, List.of());
-        EvolutionState byQuartile = run(mean.withStarts(STARTS, Judge.LOWER_QUARTILE), 2, null, List.of());
+        EvolutionState byMean = ToyEvolution.run(mean, 2, null, List.of());
+        EvolutionState byQuartile = ToyEvolution.run(mean.withStarts(STARTS, Judge.LOWER_QUARTILE), 2, null, List.of());
 
         assertThat(byQuartile.champions()).allSatisfy(
                 one -> assertThat(one.score()).isEqualTo(Judge.LOWER_QUARTILE.of(one.estimate().runs())));

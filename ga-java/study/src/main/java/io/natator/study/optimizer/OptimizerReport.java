@@ -139,12 +139,12 @@ final class OptimizerReport {
 
     /** What all runs of a scene have in common. */
     private static String settings(EvolutionSettings settings) {
-        return "Scene `" + settings.scene() + "`, encoding " + Json.line(settings.encoding()).replace("\"", "")
+        return "Scene `" + settings.scene() + "`, encoding " + Json.name(settings.encoding())
                 + ", backend " + settings.backend().argument()
                 + (settings.starts() == 1 ? "" : ", " + settings.starts() + " starts, judged by "
-                        + Json.line(settings.judge()).replace("\"", ""))
+                        + Json.name(settings.judge()))
                 + (settings.fitness() == FitnessKind.NET ? ", net fitness" : "")
-                + (settings.scheme() == null ? "" : ", scheme " + Json.line(settings.scheme()).replace("\"", ""))
+                + (settings.scheme() == null ? "" : ", scheme " + Json.name(settings.scheme()))
                 + (settings.duration() == null ? "" : ", " + settings.duration() + " s")
                 + (settings.overrides() == null ? "" : ", overrides `" + settings.overrides() + "`") + ".\n";
     }

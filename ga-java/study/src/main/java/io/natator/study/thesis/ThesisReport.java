@@ -73,7 +73,7 @@ final class ThesisReport {
         items.add(results.evolved().size() + " of " + asked + " evolutions are finished" + (settings.isEmpty() ? "."
                 : ": " + each(settings.stream().map(EvolutionSettings::population)) + " chromosomes, "
                 + each(settings.stream().map(EvolutionSettings::generations)) + " generations, operators "
-                + each(settings.stream().map(one -> Json.line(one.operators()).replace("\"", ""))) + ", on "
+                + each(settings.stream().map(one -> Json.name(one.operators()))) + ", on "
                 + each(settings.stream().map(one -> one.backend().argument())) + "."));
         items.add(results.measurements().size() + " evaluations measured, by the native program of SHA-256 "
                 + each(results.measurements().programs().stream()) + ".");

@@ -1,0 +1,76 @@
+package io.natator.run;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.checkpoint.SwimSample;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.Json;
+import io.natator.config.MergePatch;
+import io.natator.encoding.Gait;
+import io.natator.evolution.Starts;
+import io.natator.simulator.SceneInfo;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.stream.IntStream;
+
+/** Asks for a gait in a run's scene from starts that no generation had, and sums up what comes of it. */
+final class WinnerRuns {
+
+    private final EvolutionSettings settings;
+    private final SceneInfo scene;
+    private final double duration;
+
+    /**
+     * For the gaits of one run.
+     *
+     * @param simulator the native program
+     */
+    WinnerRuns(EvolutionSettings settings, Path simulator) throws InterruptedException {
+        this.settings = settings;
+        ObjectNode scheme = JsonNodeFactory.instance.objectNode();
+        if (settings.scheme() != null) {
+            scheme.put("scheme", Json.name(settings.scheme()));
+        }
+        this.scene = SceneInfo.of(settings.scene(), MergePatch.both(settings.overrides(), scheme), simulator);
+        this.duration = settings.duration() != null ? settings.duration() : scene.duration();
+    }
+
+    /** In seconds, of a run that nothing ends early. */
+    double duration() {
+        return duration;
+    }
+
+    /** In scene units, or null. */
+    Double bodyLength() {
+        return scene.bodyLength();
+    }
+
+    /** What half the time step changes in the scene. */
+    ObjectNode halfStep() {
+        ObjectNode change = JsonNodeFactory.instance.objectNode();
+        change.putObject("solver").put("substeps", 2 * scene.substeps());
+        return change;
+    }
+
+    /**
+     * From so many starts.
+     *
+     * @param change to the run's scene, or null
+     */
+    List<SimulationRequest> requests(Gait gait, int starts, ObjectNode change) {
+        return IntStream.range(0, starts).mapToObj(k -> new SimulationRequest(k, settings.scene(), gait,
+                settings.duration(), settings.scheme(), MergePatch.both(settings.overrides(), change))
+                .withStart(Starts.fresh(settings.seed(), k))).toList();
+    }
+
+    /**
+     * Of such runs.
+     *
+     * @param finer 2 at half the time step, else 1
+     */
+    SwimSample sample(List<SimulationResult> results, Gait gait, int finer) {
+        return SwimSample.of(results, finer * scene.substeps(), gait, duration, scene.bodyLength());
+    }
+}

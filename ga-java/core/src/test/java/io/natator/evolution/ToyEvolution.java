@@ -1,0 +1,58 @@
+package io.natator.evolution;
+
+import io.natator.config.EvolutionSettings;
+import io.natator.config.OptimizerKind;
+import io.natator.config.WeightedObjective;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.ObjectiveEvaluator;
+import io.natator.simulator.WorkerPool;
+import java.util.ArrayList;
+import java.util.List;
+
+/** Evolutions with {@link ToySimulator}. */
+final class ToyEvolution {
+
+    private ToyEvolution() {
+    }
+
+    /** By this optimizer, with objectives where it takes several. */
+    static EvolutionSettings by(OptimizerKind optimizer, EvolutionSettings settings) {
+        return settings.withObjectives(optimizer,
+                optimizer == OptimizerKind.NSGA2 ? WeightedObjective.parse("distance,work") : null);
+    }
+
+    static EvolutionState run(EvolutionSettings settings, int workers, EvolutionState from,
+            List<EvaluationRecord> recorded, EvolutionListener... listeners) {
+        try (WorkerPool pool = new WorkerPool(new ToySimulator(), workers)) {
+            Evaluator evaluator =
+                    settings.objectives() == null ? pool : new ObjectiveEvaluator(pool, settings.objectives());
+            return new Evolution(settings, evaluator, List.of(listeners), recorded).run(from);
+        }
+    }
+
+    /** Keeps all that a run folder keeps. */
+    static final class Recorder implements EvolutionListener {
+        final List<EvolutionState> states = new ArrayList<>();
+        final List<EvaluationRecord> evaluations = new ArrayList<>();
+        final List<Integer> announced = new ArrayList<>();
+
+        @Override
+        public void generationStarted(int generation, int simulations) {
+            announced.add(simulations);
+        }
+
+        @Override
+        public void evaluated(EvaluationRecord evaluation) {
+            evaluations.add(evaluation);
+        }
+
+        @Override
+        public void generationFinished(EvolutionState state) {
+            states.add(state);
+        }
+
+        List<EvaluationRecord> of(int generation) {
+            return evaluations.stream().filter(one -> one.generation() == generation).toList();
+        }
+    }
+}
