@@ -1,5 +1,8 @@
 package io.natator.cli;
 
+import java.io.PrintWriter;
+import java.nio.charset.Charset;
+import java.nio.charset.StandardCharsets;
 import java.util.concurrent.Callable;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
@@ -38,6 +41,11 @@ public final class Main implements Callable<Integer> {
     public static void main(String[] arguments) {
         System.setProperty("java.awt.headless", "true");
         CommandLine command = commandLine();
+        if (Charset.defaultCharset().equals(StandardCharsets.US_ASCII)) {
+            // A container without a locale: terminals show UTF-8 there too, and the signs in texts (±) are no question marks.
+            command.setOut(new PrintWriter(System.out, true, StandardCharsets.UTF_8));
+            command.setErr(new PrintWriter(System.err, true, StandardCharsets.UTF_8));
+        }
         int status = command.execute(arguments);
         command.getOut().flush();
         if (System.out.checkError() && status == CommandLine.ExitCode.OK) {
