@@ -30,11 +30,12 @@ struct Fluid {
         velocity.resize(slots);
         correction.resize(slots);
         for (auto* array : {&inverse_mass, &solid_density, &density, &compression, &constraint_count, &volume, &solid, &response,
-                            &target, &impulse, &impulse_sum, &fastest_square})
+                            &target, &impulse, &impulse_sum, &fastest_square, &relief})
             array->resize(slots);
         crowding.resize(slots);
+        zeroth.resize(slots);
         for (auto& array : water_correction) array.resize(slots);
-        for (auto* array : {&packed, &packed_velocity, &packed_correction, &packed_shear}) array->resize(4 * slots);
+        for (auto* array : {&packed, &packed_velocity, &packed_correction, &packed_shear, &packed_relief}) array->resize(4 * slots);
         for (int slot = 0; slot < far_slot; ++slot) {
             position.set(slot, {place(random), place(random), place(random)});
             velocity.set(slot, {place(random), place(random), place(random)});
@@ -86,7 +87,8 @@ struct Fluid {
 
     WaterView<float> water_view() {
         const auto pointers = [](auto& array) { return std::array{array.x.data(), array.y.data(), array.z.data()}; };
-        const auto x = pointers(position), v = pointers(velocity), s = pointers(crowding), g = pointers(gradient);
+        const auto x = pointers(position), v = pointers(velocity), s = pointers(crowding), g = pointers(gradient),
+                   z = pointers(zeroth);
         WaterView<float> view{.first_block = 0,
                               .end_block = blocks,
                               .row_begin = row_begin.data(),
@@ -111,18 +113,21 @@ struct Fluid {
                               .target = target.data(),
                               .impulse = impulse.data(),
                               .impulse_sum = impulse_sum.data(),
+                              .zeroth = {z[0], z[1], z[2]},
+                              .relief = relief.data(),
                               .packed = packed.data(),
                               .packed_velocity = packed_velocity.data(),
                               .packed_correction = packed_correction.data(),
                               .packed_shear = packed_shear.data(),
+                              .packed_relief = packed_relief.data(),
                               .gradient = {g[0], g[1], g[2]}};
         for (int k = 0; k < 6; ++k) view.correction[k] = water_correction[k].data();
         return view;
     }
 
-    Vector3Array<float> position, velocity, correction, crowding, gradient;
-    AlignedVector<float> volume, solid, response, target, impulse, impulse_sum, fastest_square;
-    AlignedVector<float> packed_correction, packed_shear;
+    Vector3Array<float> position, velocity, correction, crowding, gradient, zeroth;
+    AlignedVector<float> volume, solid, response, target, impulse, impulse_sum, fastest_square, relief;
+    AlignedVector<float> packed_correction, packed_shear, packed_relief;
     std::array<AlignedVector<float>, 6> water_correction;
     AlignedVector<float> inverse_mass, solid_density, density, compression, constraint_count;
     AlignedVector<float> packed, packed_velocity, distance;
@@ -192,9 +197,12 @@ TEST_P(SolverKernels, Water) {
         set.add_viscosity(water, 0.1f, 1);
         set.compute_impulse(water);
         set.apply_impulse(water);
+        set.relieve(water, 1e-4f);
+        set.lay_out_relief(water);
+        set.return_relief(water);
     });
     for (const auto member : {&Fluid::density, &Fluid::fastest_square, &Fluid::response, &Fluid::impulse,
-                              &Fluid::impulse_sum, &Fluid::packed_velocity})
+                              &Fluid::impulse_sum, &Fluid::relief, &Fluid::packed_relief, &Fluid::packed_velocity})
         expect_near(fluid.*member, expected.*member);
     for (int k = 0; k < 6; ++k) expect_near(fluid.water_correction[k], expected.water_correction[k]);
     expect_near(fluid.crowding.x, expected.crowding.x);

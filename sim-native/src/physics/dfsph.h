@@ -51,6 +51,8 @@ inline constexpr double surface_grip = 1.63;   ///< of the viscosity between wat
 inline constexpr double shift_strength = 0.5;  ///< of R h |dv| times where neighbours crowd
 inline constexpr double longest_shift = 0.05;  ///< of the rest distance, a substep
 inline constexpr double shifted_density = 0.95;     ///< below it is the surface, which is left as it is
+inline constexpr double relieved_density = 0.9, wholly_relieved_density = 0.95;
+inline constexpr double kept_pressure = 30;         ///< of a fluid's density times the square of its fastest neighbour's velocity
 inline constexpr double least_wall_distance = 0.3;  ///< of the rest distance: nearer, the kernel no longer parts a particle and its image
 
 // How far gradients are corrected: in full at this density and this determinant of the moments, not at all at half the
@@ -175,6 +177,35 @@ NATATOR_HD T pressure_impulse(T target, T rate, T response, T density) {
     using R = Scalar<T>;
     const T all = R(jacobi_relaxation) * positive_part(target - rate) * response;
     return density > R(wet_density) ? all : T{};
+}
+
+/// The pressure impulse that a particle may have before relief sets in. `strength`: kept_pressure times h and the fluid's
+/// mass density.
+template <class T>
+NATATOR_HD T kept_impulse(T fastest_square, Scalar<T> strength) {
+    return strength * fastest_square;
+}
+
+/// What is taken off of a particle's own pressure push, in units of sum_j G_ij.
+///
+/// That sum should be 0 but is not where neighbours lie unevenly, and then the pressure p that a particle has in common with
+/// its neighbours pushes it by -2 p sum_j G_ij, to where they lie less densely. This is what keeps particles apart, and also
+/// what makes them a packing of grains: it resists slow shear by a stress in proportion to p, like sand. So only as much of p
+/// is left to it as particles need that pass one another as fast as they do here. The rest, E_i = relief sum_j G_ij, is taken
+/// off after each pass and given back at the end of the substep to all neighbours by their kernels' weights, which keeps the
+/// momentum. (Without any of it, as in the form p_j - p_i of many schemes, particles crowd, and need strong shifting.)
+template <class T>
+NATATOR_HD T relief(T density, T impulse_sum, T kept) {
+    using R = Scalar<T>;
+    const T wet = unit_part((density - R(relieved_density)) * R(1 / (wholly_relieved_density - relieved_density)));
+    return 2 * wet * positive_part(impulse_sum - kept);
+}
+
+/// The part of E_j that a neighbour at distance r has back is this times V_i W_ij: those parts add up to E_j.
+template <class T, class R>
+NATATOR_HD T relief_share(T density, T volume, const WendlandKernel<R>& kernel) {
+    const T others = density - volume * kernel.scale;
+    return others > 0 ? 1 / others : T{};
 }
 
 /// Pressure impulse of a ghost beyond its owner's: the weight of the water between them, as dp/dn = rho g n at a wall, at

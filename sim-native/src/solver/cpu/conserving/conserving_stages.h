@@ -57,6 +57,8 @@ public:
     std::vector<Vector3<Real>> forces() const { return water_ ? water_->forces() : std::vector<Vector3<Real>>{}; }
 
 private:
+    template <class Push>
+    void push_solids(const Push& push);
     void put_before_planes();
     void find_plane_contacts();
     Real contact_depth(int i, int j) const;

@@ -2,21 +2,30 @@
 
 namespace natator::cpu {
 
-/// Tells the water how the solids move by now, and the solids how it has pushed them.
+/// The solids move by what `push`, a stage of the water, does to them.
 template <class Real>
-void ConservingStages<Real>::solve_density_constraint() {
+template <class Push>
+void ConservingStages<Real>::push_solids(const Push& push) {
     for (const int i : ws_.solid_ids) water_->set_velocity(i, present_velocity(i));
-    if (!ws_.solid_ids.empty()) water_->mirror_velocities();
-    water_->push_apart(*this->team_);
+    push();
     for (const int i : ws_.solid_ids) {
         if (!(inverse_mass_[i] > 0)) continue;
         move(ws_.slot_of[i], h_ * (water_->velocity(i) - present_velocity(i)));
     }
 }
 
+template <class Real>
+void ConservingStages<Real>::solve_density_constraint() {
+    push_solids([this] {
+        if (!ws_.solid_ids.empty()) water_->mirror_velocities();
+        water_->push_apart(*this->team_);
+    });
+}
+
 /// The fluid goes where its velocities take it.
 template <class Real>
 void ConservingStages<Real>::move_fluid() {
+    push_solids([this] { water_->return_relief(*this->team_); });
     water_->add_pressure_forces();
     water_->hold_at_walls(*this->team_);
     for (const int i : ws_.fluid_ids) {

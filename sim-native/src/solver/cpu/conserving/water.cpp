@@ -27,6 +27,7 @@ Water<Real>::Water(const Model& model)
     fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
+    fluid_density_ = static_cast<Real>(density);
     dynamic_viscosity_ = static_cast<Real>(model.parameters.kinematicViscosity * density);
     for (const double v : volumes) volume_of_.push_back(static_cast<Real>(v));
     for (const double w : model.inverse_mass) inverse_mass_of_.push_back(static_cast<Real>(w));
@@ -37,9 +38,10 @@ Water<Real>::Water(const Model& model)
     particle_of_.assign(image_begin_, -1);
     row_begin_.assign(image_begin_ / lanes + 1, 0);
     neighbour_count_.assign(image_begin_, 0);
-    for (auto* array : {&solid_, &density_, &fastest_square_, &response_, &target_, &impulse_sum_}) array->resize(image_begin_);
+    for (auto* array : {&solid_, &density_, &fastest_square_, &response_, &target_, &impulse_sum_, &relief_}) array->resize(image_begin_);
     for (auto& array : correction_) array.resize(image_begin_);
     crowding_.resize(image_begin_);
+    zeroth_.resize(image_begin_);
 }
 
 template <class Real>
@@ -70,7 +72,10 @@ void Water<Real>::part_overlaps(ThreadTeam& team) {
     }
     on_all_threads(team, kernels_->pack);
     mirror_velocities();
-    for (int pass = 0; pass < physics::parting_passes; ++pass) push_apart(team);
+    for (int pass = 0; pass < physics::parting_passes; ++pass) {
+        apply_impulses(team);
+        mirror_velocities();
+    }
     parting_.resize(particles_);
     for (int slot = 0; slot < particles_; ++slot) {
         parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::longest_parting) * spacing_);
@@ -114,7 +119,7 @@ void Water<Real>::lay_out(const State<Real>& state) {
         const std::size_t room = round_up_to_block(static_cast<int>(all + all / 8));
         for (auto* array : {&position_, &velocity_}) array->resize(room);
         for (auto* array : {&volume_, &inverse_mass_, &mobility_, &impulse_}) array->resize(room);
-        for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_}) array->resize(4 * room);
+        for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_, &packed_relief_}) array->resize(4 * room);
     }
     const auto put = [this](int slot, int particle, const auto& x, const auto& v) {
         position_.set(slot, vec3<Real>(x));
@@ -190,19 +195,25 @@ void Water<Real>::mirror_corrections() {
 }
 
 template <class Real>
-void Water<Real>::mirror_velocities() {
+void Water<Real>::mirror(AlignedVector<Real>& packed) {
+    using Vector = Eigen::Matrix<Real, 3, 1>;
     for (std::size_t k = 0; k < image_owner_.size(); ++k) {
-        const Eigen::Matrix<Real, 3, 1> v =
-            mirror_.matrix(image_reflection_[k]) * eigen(velocity_.at(image_owner_[k]));
-        std::copy_n(v.data(), 3, packed_velocity_.begin() + static_cast<std::ptrdiff_t>(4 * (image_begin_ + k)));
+        const Vector v = mirror_.matrix(image_reflection_[k]) *
+                         Eigen::Map<const Vector>(&packed[4 * static_cast<std::size_t>(image_owner_[k])]);
+        std::copy_n(v.data(), 3, packed.begin() + static_cast<std::ptrdiff_t>(4 * (image_begin_ + k)));
     }
+}
+
+template <class Real>
+void Water<Real>::mirror_velocities() {
+    mirror(packed_velocity_);
 }
 
 template <class Real>
 WaterView<Real> Water<Real>::view() {
     const auto pointers = [](Vector3Array<Real>& array) { return array.pointers(); };
     const auto position = pointers(position_), velocity = pointers(velocity_), crowding = pointers(crowding_),
-               gradient = pointers(gradient_);
+               gradient = pointers(gradient_), zeroth = pointers(zeroth_);
     WaterView<Real> all{.first_block = 0,
                         .end_block = image_begin_ / lanes,
                         .row_begin = row_begin_.data(),
@@ -227,21 +238,39 @@ WaterView<Real> Water<Real>::view() {
                         .target = target_.data(),
                         .impulse = impulse_.data(),
                         .impulse_sum = impulse_sum_.data(),
+                        .zeroth = {zeroth[0], zeroth[1], zeroth[2]},
+                        .relief = relief_.data(),
                         .packed = packed_.data(),
                         .packed_velocity = packed_velocity_.data(),
                         .packed_correction = packed_correction_.data(),
                         .packed_shear = packed_shear_.data(),
+                        .packed_relief = packed_relief_.data(),
                         .gradient = {gradient[0], gradient[1], gradient[2]}};
     for (int k = 0; k < 6; ++k) all.correction[k] = correction_[k].data();
     return all;
 }
 
 template <class Real>
-void Water<Real>::push_apart(ThreadTeam& team) {
+void Water<Real>::apply_impulses(ThreadTeam& team) {
     on_all_threads(team, kernels_->compute_impulse);
     for (std::size_t k = 0; k < image_owner_.size(); ++k) impulse_[image_begin_ + k] = impulse_[image_owner_[k]];
     on_all_threads(team, kernels_->apply_impulse);
+}
+
+template <class Real>
+void Water<Real>::push_apart(ThreadTeam& team) {
+    apply_impulses(team);
+    const Real strength = Real(physics::kept_pressure) * h_ * fluid_density_;
+    on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->relieve(part, strength); });
     mirror_velocities();
+}
+
+template <class Real>
+void Water<Real>::return_relief(ThreadTeam& team) {
+    on_all_threads(team, kernels_->lay_out_relief);
+    mirror(packed_relief_);
+    std::fill_n(packed_relief_.begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
+    on_all_threads(team, kernels_->return_relief);
 }
 
 template <class Real>
@@ -269,6 +298,7 @@ template <class Real>
 void Water<Real>::solve_divergence(ThreadTeam& team) {
     part_overlaps(team);
     std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
+    std::fill(relief_.begin(), relief_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
     for (int pass = 0; pass < physics::divergence_passes; ++pass) push_apart(team);
 }

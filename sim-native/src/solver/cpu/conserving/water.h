@@ -35,8 +35,10 @@ public:
     void add_forces(ThreadTeam& team);
     void add_gravity(ThreadTeam& team);
     /// One Jacobi pass: pushes apart where the velocities compress more than target_ allows, which after add_gravity() is
-    /// where they lead to more than rest density.
+    /// where they lead to more than rest density. Takes off what physics::relief says.
     void push_apart(ThreadTeam& team);
+    /// Once all passes are done: gives back what push_apart has taken off.
+    void return_relief(ThreadTeam& team);
 
     /// As the last call left it, by particle, length/s.
     Vec3<Real> velocity(int particle) const { return velocity_.at(slot_of_[particle]); }
@@ -64,7 +66,7 @@ public:
     /// From now on impulses of the water on solids are summed.
     void keep_forces() { impulse_on_.assign(particles_, {}); }
     void clear_forces();
-    /// To be called once the passes of a substep are over.
+    /// To be called after return_relief.
     void add_pressure_forces();
     /// By particle, of the substeps since clear_forces; see Solver::forces.
     std::vector<Vector3<Real>> forces() const;
@@ -74,6 +76,9 @@ private:
     void list_neighbours(ThreadTeam& team);
     void mirror_corrections();
     void part_overlaps(ThreadTeam& team);
+    void apply_impulses(ThreadTeam& team);
+    /// Turns vectors that neighbours gather into those of the images.
+    void mirror(AlignedVector<Real>& packed);
     WaterView<Real> view();
 
     void add_viscous_forces(Real strength, Real most);
@@ -127,6 +132,7 @@ private:
     const WaterKernels<Real>* kernels_;
     const NeighbourKernels<Real>* neighbour_kernels_;
     Real radius_, spacing_, kernel_scale_, at_spacing_, dynamic_viscosity_;
+    Real fluid_density_;      ///< mass/length^3
     Real fastest_expansion_;  ///< by the velocities, of what is compressed, 1/s
     Real effect_radius_;      ///< R of physics/water_effects.h
     std::vector<Real> volume_of_, inverse_mass_of_, mobility_of_;  ///< by particle
@@ -146,9 +152,11 @@ private:
     Vector3Array<Real> field_;          ///< of add_forces, also of images: normals, then vorticity
     std::vector<Real> strength_;        ///< of the vorticity, also of images
     std::vector<Vec3<Real>> parting_;   ///< displacement by part_overlaps, by slot; empty where nothing overlaps
-    AlignedVector<Real> volume_, inverse_mass_, mobility_, solid_, density_, fastest_square_, response_, target_, impulse_, impulse_sum_;
+    AlignedVector<Real> volume_, inverse_mass_, mobility_, solid_, density_, fastest_square_, response_, target_, impulse_,
+        impulse_sum_, relief_;
+    Vector3Array<Real> zeroth_;
     std::array<AlignedVector<Real>, 6> correction_;
-    AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_;
+    AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_, packed_relief_;
     std::vector<int> row_begin_, neighbour_count_;
     AlignedVector<std::int32_t> neighbour_;
     Vector3Array<Real> gradient_;

@@ -1,5 +1,6 @@
 // What the water does to solids, summed only where someone asks. Pressure impulses need no sums of their own: pairs keep
-// their gradients through a substep, so all of its passes together are one with the sums of their impulses.
+// their gradients through a substep, so all of its passes together are one with the sums of their impulses, and the relief
+// that is given back once they are over.
 #include "physics/dfsph.h"
 #include "water.h"
 
@@ -39,13 +40,19 @@ void Water<Real>::add_viscous_forces(Real strength, Real most) {
 
 template <class Real>
 void Water<Real>::add_pressure_forces() {
+    const WaterView<Real> all = view();
+    const physics::WendlandKernel<Real> kernel{all.inverse_radius, all.kernel_scale, all.slope_scale};
     for_each_solid_slot([&](int slot, int particle) {
         const auto pressure = [&](int of) {
             return impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]];
         };
         Vec3<Real> sum{};
         for_each_neighbour_of(slot, [&](int entry, int other) {
-            if (is_fluid_slot(other)) sum += (pressure(slot) + pressure(other)) * gradient_.at(entry);
+            if (!is_fluid_slot(other)) return;
+            sum += (pressure(slot) + pressure(other)) * gradient_.at(entry);
+            const Real* const relief = &packed_relief_[4 * static_cast<std::size_t>(other)];
+            sum += volume_[slot] * kernel.value(length_of(position_.at(slot) - position_.at(other))) *
+                   Vec3<Real>{relief[0], relief[1], relief[2]};
         });
         impulse_on_[particle] += Real(-1) * sum;
     });

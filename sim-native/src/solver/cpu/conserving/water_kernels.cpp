@@ -70,6 +70,7 @@ void compute_gradients(const WaterView<Real>& water) {
             put3<Group>(water.gradient, entry, gradient);
             sums.add(gradient, moves.w);
         });
+        put3<Group>(water.zeroth, first, sums.gradient);
         Group::put(water.response + first, sums.response(Group::get(water.mobility + first)));
     });
 }
@@ -93,6 +94,12 @@ void add_viscosity(const WaterView<Real>& water, Real strength, Real most) {
         const Lane scale = strength * inverse_mass;
         put3<Group>(water.velocity, first, v + scale * sums.impulse);
     });
+}
+
+template <class Group, class Real>
+void put_velocity(const WaterView<Real>& water, int first, const Vec3<typename Group::Lane>& v) {
+    put3<Group>(water.velocity, first, v);
+    Group::put_quadruples(water.packed_velocity + 4 * first, {v.x, v.y, v.z, Group::get(water.mobility + first)});
 }
 
 template <class Group, class Real>
@@ -123,16 +130,56 @@ void apply_impulse(const WaterView<Real>& water) {
             sum += (own + other) * get3<Group>(water.gradient, entry);
         });
         const Lane inverse_mass = Group::get(water.inverse_mass + first);
-        const Vec3<Lane> v = get3<Group>(water.velocity, first) - inverse_mass * sum;
-        put3<Group>(water.velocity, first, v);
-        Group::put_quadruples(water.packed_velocity + 4 * first, {v.x, v.y, v.z, Group::get(water.mobility + first)});
+        put_velocity<Group>(water, first, get3<Group>(water.velocity, first) - inverse_mass * sum);
+    });
+}
+
+template <class Group, class Real>
+void relieve(const WaterView<Real>& water, Real strength) {
+    using Lane = typename Group::Lane;
+    for_each_group<Group>(water, [&](int first) {
+        const Lane kept = kept_impulse(Group::get(water.fastest_square + first), strength);
+        const Lane all = relief(Group::get(water.density + first), Group::get(water.impulse_sum + first), kept);
+        const Lane inverse_mass = Group::get(water.inverse_mass + first);
+        const Lane now = inverse_mass > 0 ? all : Lane{}, more = now - Group::get(water.relief + first);
+        Group::put(water.relief + first, now);
+        put_velocity<Group>(water, first,
+                            get3<Group>(water.velocity, first) + inverse_mass * more * get3<Group>(water.zeroth, first));
+    });
+}
+
+template <class Group, class Real>
+void lay_out_relief(const WaterView<Real>& water) {
+    using Lane = typename Group::Lane;
+    const WendlandKernel<Real> kernel = kernel_of(water);
+    for_each_group<Group>(water, [&](int first) {
+        const Lane share =
+            relief_share(Group::get(water.density + first), Group::get(water.volume + first), kernel);
+        const Vec3<Lane> all = Group::get(water.relief + first) * share * get3<Group>(water.zeroth, first);
+        Group::put_quadruples(water.packed_relief + 4 * first, {all.x, all.y, all.z, Lane{}});
+    });
+}
+
+template <class Group, class Real>
+void return_relief(const WaterView<Real>& water) {
+    using Lane = typename Group::Lane;
+    const WendlandKernel<Real> kernel = kernel_of(water);
+    for_each_group<Group>(water, [&](int first) {
+        Vec3<Lane> sum{};
+        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>&, const Vec3<Lane>& difference) {
+            const Four<Lane> part = Group::gather(water.packed_relief, water.neighbour + entry);
+            sum += kernel.value(length_of(difference)) * Vec3<Lane>{part.x, part.y, part.z};
+        });
+        const Lane scale = Group::get(water.inverse_mass + first) * Group::get(water.volume + first);
+        put_velocity<Group>(water, first, get3<Group>(water.velocity, first) - scale * sum);
     });
 }
 
 template <class Group, class Real>
 WaterKernels<Real> kernels_by() {
     return {&pack<Group>,          &compute_moments<Group>, &compute_gradients<Group>,
-            &add_viscosity<Group>, &compute_impulse<Group>, &apply_impulse<Group>};
+            &add_viscosity<Group>, &compute_impulse<Group>, &apply_impulse<Group>,
+            &relieve<Group>,       &lay_out_relief<Group>,  &return_relief<Group>};
 }
 
 }  // namespace

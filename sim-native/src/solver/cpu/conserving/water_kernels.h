@@ -33,12 +33,15 @@ struct WaterView {
     Real* target;           ///< rate of expansion that a solve goes for, times V_i
     Real* impulse;          ///< pressure impulse of one pass
     Real* impulse_sum;      ///< of the substep so far
+    Real* zeroth[3];        ///< sum of G_ij
+    Real* relief;           ///< of the pressure, see physics::relief
 
     // By slot, four at a time, also for images: what neighbours gather.
     Real* packed;             ///< position and volume
     Real* packed_velocity;    ///< velocity and mobility
     Real* packed_correction;  ///< L: xx, yy, zz, xy
     Real* packed_shear;       ///< L: xz, yz; solid
+    Real* packed_relief;      ///< E_j times its relief_share
 
     Real* gradient[3];  ///< G_ij by entry of the rows
 };
@@ -50,7 +53,7 @@ struct WaterKernels {
     void (*pack)(const WaterView<Real>& water);
     /// Density, correction (also laid out), crowding, fastest_square.
     void (*compute_moments)(const WaterView<Real>& water);
-    /// gradient and response.
+    /// gradient, zeroth and response.
     void (*compute_gradients)(const WaterView<Real>& water);
     /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was. `most`: see
     /// physics::viscous_share.
@@ -59,6 +62,12 @@ struct WaterKernels {
     void (*compute_impulse)(const WaterView<Real>& water);
     /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, also laid out.
     void (*apply_impulse)(const WaterView<Real>& water);
+    /// Takes off what the relief has grown by, also laid out. `strength`: see physics::kept_impulse.
+    void (*relieve)(const WaterView<Real>& water, Real strength);
+    /// Lays E out for the neighbours.
+    void (*lay_out_relief)(const WaterView<Real>& water);
+    /// Gives it back.
+    void (*return_relief)(const WaterView<Real>& water);
 };
 
 NATATOR_DECLARE_KERNELS(WaterKernels, water_kernels)

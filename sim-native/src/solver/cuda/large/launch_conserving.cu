@@ -69,6 +69,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void update_velocities() const {
         if (model.plan.water) {
+            each_particle<lay_out_relief<Real>>();
+            each_pair<return_relief<Real>>();
             if (model.planes > 0 && norm(model.fluid_gravity) > 0) each_pair<hold_at_walls<Real>>();
             launch.template each_slot<move_water<Real>>(model.fluid);
         }

@@ -58,6 +58,8 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Quad<Real>, shear, water)      /* xz, yz; mobility, see physics::mobility; 1 for solids */                      \
     X(Quad<Real>, parting, water)    /* velocities that part overlaps; w: inverse mass, 0 for solids */               \
     X(Quad<Real>, crowding, water)   /* w: largest |v_j - v_i|^2 */                                                   \
+    X(Quad<Real>, zeroth, water)     /* sum of G_ij; w: physics::relief */                                            \
+    X(Quad<Real>, relief, water)     /* E_j times its relief_share */                                                 \
     X(Quad<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */      \
     X(Quad<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                     \
     X(Real, density, water)                                                                                           \

@@ -237,6 +237,7 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
     sums.square = sum_of_lanes(sums.square);
     if (own_lane() != 0) return;
     water.response[s] = sums.response(own_shear.z);
+    water.zeroth[s] = quad(sums.gradient, Real(0));
     water.impulse_sum[s] = 0;
 }
 
@@ -276,7 +277,19 @@ __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& 
     if (!parts(pass)) water.impulse_sum[s] += impulse;
 }
 
-/// v_i -= w_i sum (impulse_i + impulse_j) G_ij.
+/// Impulse that the relief of slot s has grown by, see physics::relief.
+template <class Real>
+__device__ Vec3<Real> relieve(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    const WaterArrays<Real>& water = slots.water;
+    const Quad<Real> zeroth = water.zeroth[s];
+    const Real strength = Real(physics::kept_pressure) * slots.h * model.water.density;
+    const Real now = physics::relief(water.density[s], water.impulse_sum[s],
+                                     physics::kept_impulse(water.crowding[s].w, strength));
+    water.zeroth[s].w = now;
+    return (now - zeroth.w) * xyz(zeroth);
+}
+
+/// v_i -= w_i sum (impulse_i + impulse_j) G_ij, and relief.
 template <Pass pass, class Real>
 __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (parts(pass) && !slots.shared().high) return;
@@ -296,7 +309,8 @@ __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>
         water.parting[s] = quad(before - w * sum, w);
         return;
     }
-    const Vec3<Real> push = -v.w * sum;
+    Vec3<Real> push = -v.w * sum;
+    if (v.w > 0) push += v.w * relieve(model, slots, s);
     water.velocity[s] = quad(xyz(v) + push, v.w);
     if (pass == Pass::density && number >= model.fluid && v.w > 0)
         move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
@@ -357,6 +371,34 @@ __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>
     slots.at.unsorted_velocity[s] = quad(v, number);
     slots.at.cell[s] = cell;
     atomicAdd(slots.at.table + cell, 1);
+}
+
+/// Lays E out for the neighbours.
+template <class Real>
+__device__ void lay_out_relief(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    const WaterArrays<Real>& water = slots.water;
+    const Quad<Real> zeroth = water.zeroth[s];
+    const Real share = physics::relief_share(water.density[s], water.position[s].w, model.water.kernel);
+    water.relief[s] = quad(zeroth.w * share * xyz(zeroth), Real(0));
+}
+
+/// Once all passes are done: gives it back.
+template <class Real>
+__device__ void return_relief(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    const WaterArrays<Real>& water = slots.water;
+    const Quad<Real> here = water.position[s];
+    Vec3<Real> sum{};
+    for_each_water_neighbour(slots, s, [&](std::size_t, int other, unsigned planes) {
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(water.position[other]), planes);
+        sum += model.water.kernel.value(physics::length_of(difference)) * xyz(seen(model, water.relief, other, planes));
+    });
+    sum = sum_of_lanes(sum);
+    if (own_lane() != 0) return;
+    const Quad<Real> v = water.velocity[s];
+    const Vec3<Real> push = (-v.w * here.w) * sum;
+    water.velocity[s] = quad(xyz(v) + push, v.w);
+    const int number = number_in(slots.at.state_velocity[s].w);
+    if (number >= model.fluid && v.w > 0) move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
 }
 
 /// Once all passes are done: holds up what lies at walls. Ghosts are behind planes, so only what is nearer to a plane than
