@@ -69,6 +69,8 @@ WaterRun run_neutral_sphere(const WaterSetting& setting);
 WaterRun run_added_mass(const WaterSetting& setting);
 WaterRun run_heavier_sphere(const WaterSetting& setting);
 WaterRun run_lighter_sphere(const WaterSetting& setting);
+WaterRun run_couette(const WaterSetting& setting);
+WaterRun run_poiseuille(const WaterSetting& setting);
 WaterRun run_spinning_sphere(const WaterSetting& setting);
 WaterRun run_towed_sphere(const WaterSetting& setting);
 WaterRun run_towed_cylinder(const WaterSetting& setting);

@@ -104,34 +104,71 @@ std::vector<WaterSample> WaterTank<Real>::follow(double duration, const std::fun
 }
 
 template <class Real>
-bool WaterTank<Real>::drive(const Motion& motion, Load& load) {
-    if (!solver_) throw InputError("bench water: the force on a body that is held is known on the CPU only");
+std::vector<int> WaterTank<Real>::held() const {
     std::vector<int> body;
     for (int i = 0; i < model_->particles(); ++i)
         if (model_->inverse_mass[i] == 0) body.push_back(i);
+    return body;
+}
+
+template <class Real>
+bool WaterTank<Real>::drive(const std::function<void()>& set_off,
+                            const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive) {
+    if (!solver_) throw InputError("bench water: the force on a body that is held is known on the CPU only");
     const int substeps = model_->parameters.substeps;
     const double h = model_->time_step / substeps;
-    const double angle = h * motion.spin.norm();
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, angle > 0 ? motion.spin.normalized() : Eigen::Vector3d::UnitX())
-                                     .toRotationMatrix();
-    load = {};
     for (int k = 0; k < substeps; ++k) {
-        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-        for (const int i : body) middle += state_.position[i].template cast<double>() / static_cast<double>(body.size());
-        const auto arm = [&](int i) -> Eigen::Vector3d { return state_.position[i].template cast<double>() - middle; };
-        for (const int i : body)
-            state_.velocity[i] = (motion.velocity + motion.spin.cross(arm(i))).template cast<Real>();
+        set_off();
         if (!advance(h, 1)) return false;
-        const std::vector<Vector3<Real>> forces = solver_->forces();
-        for (const int i : body) {
-            const Eigen::Vector3d force = forces[i].template cast<double>() / substeps;
-            load.force += force;
-            load.moment += arm(i).cross(force);
-        }
-        for (const int i : body)
-            state_.position[i] = (middle + h * motion.velocity + turn * arm(i)).template cast<Real>();
+        arrive(h, solver_->forces());
     }
     return true;
+}
+
+template <class Real>
+bool WaterTank<Real>::drive(const Motion& motion, Load& load) {
+    const std::vector<int> body = held();
+    const int substeps = model_->parameters.substeps;
+    Eigen::Vector3d middle;
+    const auto arm = [&](int i) -> Eigen::Vector3d { return state_.position[i].template cast<double>() - middle; };
+    load = {};
+    return drive(
+        [&] {
+            middle.setZero();
+            for (const int i : body)
+                middle += state_.position[i].template cast<double>() / static_cast<double>(body.size());
+            for (const int i : body)
+                state_.velocity[i] = (motion.velocity + motion.spin.cross(arm(i))).template cast<Real>();
+        },
+        [&](double h, const std::vector<Vector3<Real>>& forces) {
+            const double angle = h * motion.spin.norm();
+            const Eigen::Vector3d axis = angle > 0 ? motion.spin.normalized() : Eigen::Vector3d::UnitX();
+            const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+            for (const int i : body) {
+                const Eigen::Vector3d force = forces[i].template cast<double>() / substeps;
+                load.force += force;
+                load.moment += arm(i).cross(force);
+            }
+            for (const int i : body)
+                state_.position[i] = (middle + h * motion.velocity + turn * arm(i)).template cast<Real>();
+        });
+}
+
+template <class Real>
+bool WaterTank<Real>::drive(const std::function<Eigen::Vector3d(int)>& velocity, std::vector<Eigen::Vector3d>& force) {
+    const std::vector<int> body = held();
+    const int substeps = model_->parameters.substeps;
+    force.assign(model_->particles(), Eigen::Vector3d::Zero());
+    return drive(
+        [&] {
+            for (const int i : body) state_.velocity[i] = velocity(i).template cast<Real>();
+        },
+        [&](double h, const std::vector<Vector3<Real>>& forces) {
+            for (const int i : body) {
+                force[i] += forces[i].template cast<double>() / substeps;
+                state_.position[i] += (h * velocity(i)).template cast<Real>();
+            }
+        });
 }
 
 template <class Real>

@@ -49,6 +49,9 @@ public:
     /// A frame while the particles of infinite mass move as one rigid body. Throws InputError on a GPU, which tells no
     /// forces.
     bool drive(const Motion& motion, Load& load);
+    /// A frame while each particle of infinite mass moves at the velocity that `velocity` gives it; `force` becomes the
+    /// mean force of the water on each particle. Throws InputError on a GPU.
+    bool drive(const std::function<Eigen::Vector3d(int)>& velocity, std::vector<Eigen::Vector3d>& force);
     /// Moves the walls along x by so much: the water that is left behind the rear one is put before the front, at rest.
     /// All coordinates are less by `distance` afterwards, so that the walls keep theirs.
     void shift(double distance);
@@ -68,6 +71,11 @@ private:
     Step step_of(const Model& model);
     void settle();
     bool advance(double time, int substeps);
+    std::vector<int> held() const;
+    /// A frame: before each substep `set_off` gives what is held its velocities, after it `arrive` gets the substep, s, and
+    /// the forces, and moves what is held on.
+    bool drive(const std::function<void()>& set_off,
+               const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive);
 
     WaterSetting setting_;
     std::shared_ptr<Model> model_;
