@@ -10,8 +10,8 @@ namespace {
 constexpr double height = water_length / 2;      ///< H, between the walls, which stand along x and y
 constexpr double length = 4 * height;            ///< along x, to blocks that close the ends
 constexpr double counted_length = 1.5 * height;  ///< in the middle, where the ends are no longer felt
-constexpr double viscosity = 0.05;               ///< length^2/s
-constexpr double developing = 3, counted = 2;    ///< s
+constexpr double viscosity = 0.025;              ///< length^2/s
+constexpr double developing = 2, counted = 6;    ///< s
 constexpr int layers = 8;
 constexpr int wall_layers = 3;   ///< of particles that a wall is thick: further than the water feels
 constexpr int block_layers = 6;  ///< that the ends are: twice as far
@@ -62,6 +62,7 @@ WaterRun run_as(const Channel& channel, const WaterSetting& setting) {
     const auto is_block = [&](const Eigen::Vector3d& x) { return x.x() < front || x.x() > end - front; };
     std::vector<int> walls;
     WaterTank<Real> tank({along, layers, across + 2 * wall_layers}, setting, [&](Model& model) {
+        if (getenv("GRAV")) model.parameters.gravity = {0, -atof(getenv("GRAV")), 0};
         walls = hold(is_wall, model);
         hold(is_block, model);
     });

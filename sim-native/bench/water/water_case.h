@@ -69,6 +69,7 @@ WaterRun run_neutral_sphere(const WaterSetting& setting);
 WaterRun run_added_mass(const WaterSetting& setting);
 WaterRun run_heavier_sphere(const WaterSetting& setting);
 WaterRun run_lighter_sphere(const WaterSetting& setting);
+WaterRun run_column(const WaterSetting& setting);
 WaterRun run_couette(const WaterSetting& setting);
 WaterRun run_poiseuille(const WaterSetting& setting);
 WaterRun run_spinning_sphere(const WaterSetting& setting);

@@ -104,6 +104,12 @@ std::vector<WaterSample> WaterTank<Real>::follow(double duration, const std::fun
 }
 
 template <class Real>
+const Solver<Real>& WaterTank<Real>::cpu_solver() const {
+    if (!solver_) throw InputError("bench water: forces on held bodies and pressures are known on the CPU only");
+    return *solver_;
+}
+
+template <class Real>
 std::vector<int> WaterTank<Real>::held() const {
     std::vector<int> body;
     for (int i = 0; i < model_->particles(); ++i)
@@ -114,13 +120,12 @@ std::vector<int> WaterTank<Real>::held() const {
 template <class Real>
 bool WaterTank<Real>::drive(const std::function<void()>& set_off,
                             const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive) {
-    if (!solver_) throw InputError("bench water: the force on a body that is held is known on the CPU only");
     const int substeps = model_->parameters.substeps;
     const double h = model_->time_step / substeps;
     for (int k = 0; k < substeps; ++k) {
         set_off();
         if (!advance(h, 1)) return false;
-        arrive(h, solver_->forces());
+        arrive(h, cpu_solver().forces());
     }
     return true;
 }

@@ -39,6 +39,9 @@ public:
 
     const Model& model() const { return *model_; }
     State<Real>& state() { return state_; }
+    const State<Real>& state() const { return state_; }
+    /// Of each particle in the last substep, mass/(length s^2). Throws InputError on a GPU, which tells none.
+    std::vector<Real> pressures() const { return cpu_solver().pressures(); }
     /// Of the water as it is, taken as of even density: twice its mean height, length.
     double depth() const;
 
@@ -71,6 +74,7 @@ private:
     Step step_of(const Model& model);
     void settle();
     bool advance(double time, int substeps);
+    const Solver<Real>& cpu_solver() const;
     std::vector<int> held() const;
     /// A frame: before each substep `set_off` gives what is held its velocities, after it `arrive` gets the substep, s, and
     /// the forces, and moves what is held on.
