@@ -6,8 +6,8 @@ particles, on one thread each. Writes peers.csv, where rows that it holds are ke
     python3 results/water/peers.py --splishsplash ~/splish/bin/python       # and of SPlisHSPlasH
     python3 results/water/peers.py --redo natator --natator build/release/bin
 
-The Python of --splishsplash is one with `pip install pysplishsplash`. Times are wall times of a busy or idle machine as it
-is: run nothing beside it. Exit codes: 0 ok, 1 a program failed, 2 bad usage.
+The Python of --splishsplash is one with `pip install pysplishsplash`. Run times are processor times of the measured part, without
+the settling before it. Exit codes: 0 ok, 1 a program failed, 2 bad usage.
 """
 import argparse
 import csv
@@ -15,9 +15,11 @@ import json
 import os
 import pathlib
 import platform
+import resource
 import subprocess
 import sys
 import tempfile
+import time
 
 here = pathlib.Path(__file__).resolve().parent
 key = ("case", "program", "setting", "quantity")
@@ -63,13 +65,23 @@ def output_of(command):
     return done.stdout
 
 
+def processor_share(command):
+    """Of a core, that a program on one thread got on a machine as busy as this."""
+    def used():
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+    before, begin = used(), time.perf_counter()
+    output_of(command)
+    return (used() - before) / (time.perf_counter() - begin)
+
+
 def natator_run(programs, case, setting):
     scheme, steps = setting.split()
     with tempfile.TemporaryDirectory() as folder:
         output = os.path.join(folder, "out.csv")
         study = ["validation", "--part", "tank"] if case == "tank" else ["water", "--case", case, "--resolution", "20"]
-        output_of([os.path.join(programs, "natator-bench"), *study, "--scheme", scheme, "--precision", "float",
-                   "--setting", steps, "--output", output])
+        share = processor_share([os.path.join(programs, "natator-bench"), *study, "--scheme", scheme, "--precision", "float",
+                                 "--setting", steps, "--output", output])
         with open(output, newline="") as table:
             rows = [row for row in csv.DictReader(table) if row["scheme"] == scheme]
     if any(row["status"] != "ok" for row in rows):
@@ -81,7 +93,7 @@ def natator_run(programs, case, setting):
         values = {row["quantity"]: float(row["value"]) for row in rows}
     info = json.loads(output_of([os.path.join(programs, "natator-sim"), "info", "--json"]))
     return {"version": f'{info["version"]} {info["commit"]} {info["instructionSet"]}', "particles": rows[0]["particles"],
-            "run_time": float(rows[0]["run_time"]), "values": values}
+            "run_time": share * float(rows[0]["run_time"]), "values": values}
 
 
 def splishsplash_run(python, case, setting):
@@ -109,13 +121,13 @@ def write(path, rows):
     os.replace(part, path)
 
 
-def add_missing(path, program, run):
-    """Runs what the table lacks of a program; each run is kept at once."""
+def add_missing(path, program, run, redo, cases):
+    """Runs what the table lacks of a program, or all of it; each run is kept at once, in the place of an earlier one."""
     rows = read(path)
-    for case, of_case in settings[program].items():
-        for setting in of_case:
+    for case in cases:
+        for setting in settings[program][case]:
             held = {row["quantity"] for row in rows if (row["case"], row["program"], row["setting"]) == (case, program, setting)}
-            if held >= set(quantities[case]):
+            if held >= set(quantities[case]) and not redo:
                 continue
             print(f"{program} {setting}: {case}", file=sys.stderr)
             result = run(case, setting)
@@ -148,19 +160,20 @@ def main():
     parser.add_argument("--natator", metavar="FOLDER", help="with natator-bench and natator-sim")
     parser.add_argument("--splishsplash", metavar="PYTHON", help="that has pysplishsplash")
     parser.add_argument("--redo", choices=sorted(settings), action="append", default=[],
-                        help="run a program again; its rows are dropped as they are replaced")
+                        help="run a program again; its rows are replaced one by one")
+    parser.add_argument("--case", choices=list(quantities), action="append", help="default: all")
     parser.add_argument("--output", type=pathlib.Path, default=here / "peers.csv", help="default: peers.csv beside this script")
     options = parser.parse_args()
+    options.case = options.case or list(quantities)
     runs = {"natator": (options.natator, natator_run), "splishsplash": (options.splishsplash, splishsplash_run)}
     for program in options.redo:
         if not runs[program][0]:
             parser.error(f"--redo {program} needs --{program}")
-    if options.redo:
-        write(options.output, [row for row in read(options.output) if row["program"] not in options.redo])
     for program, (where, run) in runs.items():
         if where:
             try:
-                add_missing(options.output, program, lambda case, setting: run(where, case, setting))
+                add_missing(options.output, program, lambda case, setting: run(where, case, setting),
+                            program in options.redo, options.case)
             except (RuntimeError, OSError) as failure:
                 sys.exit(f"peers.py: {failure}")
     print_table(read(options.output))

@@ -62,7 +62,7 @@ WaterRun run_as(const Channel& channel, const WaterSetting& setting) {
     const auto is_block = [&](const Eigen::Vector3d& x) { return x.x() < front || x.x() > end - front; };
     std::vector<int> walls;
     WaterTank<Real> tank({along, layers, across + 2 * wall_layers}, setting, [&](Model& model) {
-        if (getenv("GRAV")) model.parameters.gravity = {0, -atof(getenv("GRAV")), 0};
+        model.parameters.gravity = {0, -1, 0};
         walls = hold(is_wall, model);
         hold(is_block, model);
     });
