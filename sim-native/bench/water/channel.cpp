@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -15,6 +14,7 @@ constexpr double developing = 2, counted = 6;    ///< s
 constexpr int layers = 8;
 constexpr int wall_layers = 3;   ///< of particles that a wall is thick: further than the water feels
 constexpr int block_layers = 6;  ///< that the ends are: twice as far
+constexpr double apart = 2;      ///< particle distances from the walls, where the water's own flow is taken
 
 /// Flow between two walls that move along themselves. No water passes in the mean, since the ends are closed.
 struct Channel {
@@ -28,28 +28,38 @@ struct Channel {
     double velocity(double across) const {
         return difference() * across - mean() / 2 * (1 - 12 * across * across);
     }
+    /// Of that flow at the right wall, 1/s.
+    double shear() const { return (difference() + 6 * mean()) / height; }
     /// Along x, which makes that flow without a slope of the surface, length/s^2.
     double gravity() const { return -12 * viscosity * mean() / (height * height); }
-    /// Integral of the shear's square over H, length/s^2.
-    double dissipation() const {
-        return (difference() * difference() + 12 * mean() * mean()) / height;
+    /// What each particle of the water dissipates, mass length^2/s^3.
+    double power() const {
+        return viscosity * (difference() * difference() + 12 * mean() * mean()) / (height * height);
     }
 };
 
-/// The middle of the channel, summed over frames.
-struct Middle {
-    std::vector<double> velocity, particles;  ///< of the water, in layers across, a spacing thick
-    double power = 0;                         ///< that moves the walls, mass length^2/s^3
-
-    double water() const {
-        double sum = 0;
-        for (const double count : particles) sum += count;
-        return sum;
+/// Least squares of the water's velocities by offset + part times the exact ones.
+class Fit {
+public:
+    void add(double exact, double velocity) {
+        ++count_;
+        exact_ += exact;
+        velocity_ += velocity;
+        square_ += exact * exact;
+        product_ += exact * velocity;
     }
+    double part() const {
+        return (count_ * product_ - exact_ * velocity_) / (count_ * square_ - exact_ * exact_);
+    }
+    double offset() const { return (velocity_ - part() * exact_) / count_; }
+
+private:
+    double count_ = 0, exact_ = 0, velocity_ = 0, square_ = 0, product_ = 0;
 };
 
 /// The walls are endless belts: what leaves the box at one end comes in again at the other, where no water feels it. What
-/// moves them in the middle is what the water there dissipates.
+/// moves them in the middle is what the water there dissipates. The viscosity is that of the water's own flow, apart from
+/// the walls; how it goes with these is in their drag and in the slip length, by which they seem to stand further apart.
 template <class Real>
 WaterRun run_as(const Channel& channel, const WaterSetting& setting) {
     const double spacing = water_length / setting.resolution;
@@ -73,18 +83,19 @@ WaterRun run_as(const Channel& channel, const WaterSetting& setting) {
     const auto x = [&](int i) { return static_cast<double>(state.position[i].x()); };
     const auto z = [&](int i) { return static_cast<double>(state.position[i].z()); };
     const auto wall_speed = [&](int i) { return z(i) < left ? channel.left : z(i) > right ? channel.right : 0; };
+    const auto place_across = [&](int i) { return (z(i) - left) / (right - left) - 0.5; };
     const auto in_middle = [&](int i) { return begin_middle <= x(i) && x(i) < end_middle; };
-
-    const auto place_across = [&](int i) { return (z(i) - left) / (right - left); };
     for (int i = 0; i < model.particles(); ++i)
-        if (model.is_fluid(i)) state.velocity[i].x() = static_cast<Real>(channel.velocity(place_across(i) - 0.5));
+        if (model.is_fluid(i)) state.velocity[i].x() = static_cast<Real>(channel.velocity(place_across(i)));
 
-    Middle middle{std::vector<double>(across), std::vector<double>(across)};
+    Fit fit;
+    double drag = 0;
     std::vector<WaterSample> curve;
     std::vector<Eigen::Vector3d> force;
-    const double full_power = viscosity * channel.dissipation() / height;  // a particle of the water's
-    for (double time = model.time_step; time < developing + counted; time += model.time_step) {
+    const auto frames = [&](double duration) { return std::lround(duration / model.time_step); };
+    for (long frame = 1; frame <= frames(developing + counted); ++frame) {
         if (!tank.drive([&](int i) -> Eigen::Vector3d { return {wall_speed(i), 0, 0}; }, force)) return tank.run();
+        const bool counts = frame > frames(developing);
         double power = 0, water = 0;
         for (const int i : walls) {
             if (in_middle(i)) power -= force[i].x() * wall_speed(i);
@@ -94,25 +105,19 @@ WaterRun run_as(const Channel& channel, const WaterSetting& setting) {
         for (int i = 0; i < model.particles(); ++i) {
             if (!model.is_fluid(i) || !in_middle(i)) continue;
             ++water;
-            if (time < developing) continue;
-            const int layer = std::clamp(static_cast<int>(place_across(i) * across), 0, across - 1);
-            middle.velocity[layer] += static_cast<double>(state.velocity[i].x());
-            ++middle.particles[layer];
+            if (counts && std::abs(place_across(i)) < 0.5 - apart / across)
+                fit.add(channel.velocity(place_across(i)), static_cast<double>(state.velocity[i].x()));
         }
-        if (time >= developing) middle.power += power;
-        curve.push_back({time, power / (water * full_power)});
+        curve.push_back({static_cast<double>(frame) * model.time_step, power / (water * channel.power())});
+        if (counts) drag += curve.back().value;
     }
     WaterRun run = tank.run();
     if (run.instability) return run;
-
-    double deviation = 0;  // the largest
-    for (int layer = 0; layer < across; ++layer) {
-        const double exact = channel.velocity((layer + 0.5) / across - 0.5);
-        deviation = std::max(deviation, std::abs(middle.velocity[layer] / middle.particles[layer] - exact));
-    }
-    const double speed = std::max(std::abs(channel.difference()), 1.5 * std::abs(channel.mean()));
-    run.figures = {figure_within(0.05, viscosity * middle.power / (middle.water() * full_power), viscosity),
-                   {.value = deviation / speed, .reference = 0, .least = 0, .greatest = 0.05}};
+    drag /= static_cast<double>(frames(counted));
+    const double slip = channel.right - fit.offset() - fit.part() * channel.velocity(0.5);
+    run.figures = {figure_within(0.05, viscosity * drag / fit.part(), viscosity),
+                   figure_within(0.05, drag, 1),
+                   {.value = slip / (fit.part() * channel.shear()) / spacing, .reference = 0}};
     run.curve = curve;
     return run;
 }
