@@ -62,9 +62,9 @@ private:
 /// the walls; how it goes with these is in their drag and in the slip length, by which they seem to stand further apart.
 template <class Real>
 WaterRun run_as(const Channel& channel, const WaterSetting& setting) {
-    const double spacing = water_length / setting.resolution;
-    const auto particles = [&](double extent) { return static_cast<int>(std::lround(extent / spacing)); };
-    const int across = particles(height), along = particles(length) + 2 * block_layers, columns = particles(counted_length);
+    const double spacing = spacing_of(setting);
+    const int across = particles_along(height, setting), along = particles_along(length, setting) + 2 * block_layers;
+    const int columns = particles_along(counted_length, setting);
     const double left = wall_layers * spacing, right = left + across * spacing;
     const double front = block_layers * spacing, end = along * spacing;
     const double begin_middle = (along - columns) / 2 * spacing, end_middle = begin_middle + columns * spacing;

@@ -34,13 +34,6 @@ Pressures pressures_in(const WaterTank<Real>& tank) {
 }
 
 template <class Real>
-double mean_square_speed(const State<Real>& state) {
-    double sum = 0;
-    for (const auto& v : state.velocity) sum += v.template cast<double>().squaredNorm();
-    return sum / static_cast<double>(state.velocity.size());
-}
-
-template <class Real>
 WaterRun run_as(const WaterSetting& setting) {
     WaterTank<Real> tank({width, setting.resolution, width}, setting);
     double measured = 0, hydrostatic = 0, depth = 0, square = 0;
@@ -51,7 +44,7 @@ WaterRun run_as(const WaterSetting& setting) {
         measured += sums.measured;
         hydrostatic += sums.hydrostatic;
         depth += tank.depth() / static_cast<double>(frames);
-        square += mean_square_speed(tank.state()) / static_cast<double>(frames);
+        square += tank.mean([](const auto&, const auto& v) { return v.squaredNorm(); }) / static_cast<double>(frames);
         curve.push_back({static_cast<double>(frame) * tank.model().time_step, sums.measured / sums.hydrostatic});
     }
     WaterRun run = tank.run();

@@ -15,7 +15,7 @@ namespace {
 constexpr double settling = 2;  ///< s
 
 Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const std::function<void(Model&)>& immerse) {
-    const double spacing = water_length / setting.resolution;
+    const double spacing = spacing_of(setting);
     Model model;
     model.scheme = setting.solver.scheme;
     SolverParameters& p = model.parameters;
@@ -95,12 +95,14 @@ bool WaterTank<Real>::frame() {
 }
 
 template <class Real>
-std::vector<WaterSample> WaterTank<Real>::follow(double duration, const std::function<double()>& value) {
+WaterRun WaterTank<Real>::follow(double duration, const std::function<double()>& value) {
     std::vector<WaterSample> curve{{0, value()}};
     const long frames = std::lround(duration / model_->time_step);
     for (long k = 1; k <= frames && frame(); ++k)
         curve.push_back({static_cast<double>(k) * model_->time_step, value()});
-    return curve;
+    WaterRun followed = run();
+    followed.curve = std::move(curve);
+    return followed;
 }
 
 template <class Real>
@@ -188,10 +190,23 @@ void WaterTank<Real>::shift(double distance) {
 }
 
 template <class Real>
-double WaterTank<Real>::depth() const {
+double WaterTank<Real>::mean(const std::function<double(const Eigen::Vector3d&, const Eigen::Vector3d&)>& value) const {
     double sum = 0;
-    for (const auto& x : state_.position) sum += static_cast<double>(x.y());
-    return 2 * sum / model_->particles();
+    for (int i = 0; i < model_->particles(); ++i)
+        sum += value(state_.position[i].template cast<double>(), state_.velocity[i].template cast<double>());
+    return sum / model_->particles();
+}
+
+template <class Real>
+double WaterTank<Real>::depth() const {
+    return 2 * mean([](const Eigen::Vector3d& x, const Eigen::Vector3d&) { return x.y(); });
+}
+
+template <class Real>
+double WaterTank<Real>::sloshing_period() const {
+    constexpr double wave_number = std::numbers::pi / water_length;
+    const double gravity = model_->parameters.gravity.norm();
+    return 2 * std::numbers::pi / std::sqrt(gravity * wave_number * std::tanh(wave_number * depth()));
 }
 
 template <class Real>
