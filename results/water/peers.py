@@ -6,8 +6,8 @@ particles, on one thread each. Writes peers.csv, where rows that it holds are ke
     python3 results/water/peers.py --splishsplash ~/splish/bin/python       # and of SPlisHSPlasH
     python3 results/water/peers.py --redo natator --natator build/release/bin
 
-The Python of --splishsplash is one with `pip install pysplishsplash`. Run times are processor times of the measured part, without
-the settling before it. Exit codes: 0 ok, 1 a program failed, 2 bad usage.
+The Python of --splishsplash is one with `pip install pysplishsplash`. Run times are wall times of the measured part, without the
+settling before it: run nothing beside them. "load" is how many programs were running, 1 if nothing else. Exit codes: 0 ok, 1 a program failed, 2 bad usage.
 """
 import argparse
 import csv
@@ -15,16 +15,13 @@ import json
 import os
 import pathlib
 import platform
-import resource
 import subprocess
 import sys
 import tempfile
-import time
 
 here = pathlib.Path(__file__).resolve().parent
-key = ("case", "program", "setting", "quantity")
 columns = ("case", "program", "setting", "quantity", "value", "reference", "run_time", "threads", "particles", "version",
-           "processor")
+           "processor", "load")
 references = {
     "amplitude after one turnover": "1",
     "numerical Reynolds number": "",
@@ -65,23 +62,13 @@ def output_of(command):
     return done.stdout
 
 
-def processor_share(command):
-    """Of a core, that a program on one thread got on a machine as busy as this."""
-    def used():
-        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return usage.ru_utime + usage.ru_stime
-    before, begin = used(), time.perf_counter()
-    output_of(command)
-    return (used() - before) / (time.perf_counter() - begin)
-
-
 def natator_run(programs, case, setting):
     scheme, steps = setting.split()
     with tempfile.TemporaryDirectory() as folder:
         output = os.path.join(folder, "out.csv")
         study = ["validation", "--part", "tank"] if case == "tank" else ["water", "--case", case, "--resolution", "20"]
-        share = processor_share([os.path.join(programs, "natator-bench"), *study, "--scheme", scheme, "--precision", "float",
-                                 "--setting", steps, "--output", output])
+        output_of([os.path.join(programs, "natator-bench"), *study, "--scheme", scheme, "--precision", "float",
+                   "--setting", steps, "--output", output])
         with open(output, newline="") as table:
             rows = [row for row in csv.DictReader(table) if row["scheme"] == scheme]
     if any(row["status"] != "ok" for row in rows):
@@ -93,7 +80,7 @@ def natator_run(programs, case, setting):
         values = {row["quantity"]: float(row["value"]) for row in rows}
     info = json.loads(output_of([os.path.join(programs, "natator-sim"), "info", "--json"]))
     return {"version": f'{info["version"]} {info["commit"]} {info["instructionSet"]}', "particles": rows[0]["particles"],
-            "run_time": share * float(rows[0]["run_time"]), "values": values}
+            "run_time": float(rows[0]["run_time"]), "values": values}
 
 
 def splishsplash_run(python, case, setting):
@@ -136,7 +123,7 @@ def add_missing(path, program, run, redo, cases):
                 rows.append({"case": case, "program": program, "setting": setting, "quantity": quantity,
                              "value": f'{result["values"][quantity]:.4g}', "reference": references[quantity],
                              "run_time": f'{result["run_time"]:.3g}', "threads": "1", "particles": str(result["particles"]),
-                             "version": result["version"], "processor": processor()})
+                             "version": result["version"], "processor": processor(), "load": f"{os.getloadavg()[0]:.1f}"})
             write(path, rows)
 
 
