@@ -12,9 +12,8 @@ constexpr double counted_from = 35;  ///< of the way with vortices, diameters
 /// A cylinder across a slab: at resolution 20 it is 10 particles across, and the slab three deep between planes that let
 /// the water slip, so that the flow is plane.
 Towing across_slab(const WaterSetting& setting, double length, double height, const std::vector<Towing::Leg>& legs) {
-    const double spacing = water_length / setting.resolution, diameter = 0.5 * water_length;
-    const auto particles = [&](double diameters) { return static_cast<int>(std::lround(diameters * diameter / spacing)); };
-    return {.count = {particles(length), particles(height), 3},
+    const double diameter = 0.5 * water_length;
+    return {.count = {particles_along(length * diameter, setting), particles_along(height * diameter, setting), 3},
             .middle = {length / 3 * diameter, height / 2 * diameter, 0},
             .diameter = diameter,
             .cylinder = true,

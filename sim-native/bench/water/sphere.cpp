@@ -23,19 +23,22 @@ void immerse_sphere(const Eigen::Vector3d& centre, Model& model) {
 
 /// Of a sphere of the volume that the body displaces.
 double diameter(const Model& model) {
-    const double volume = static_cast<double>(model.clusters[0].particles.size()) *
-                          std::pow(model.parameters.fluidRestDistance, 3);
-    return std::cbrt(6 * volume / std::numbers::pi);
-}
-
-template <class Real>
-double height(const Model& model, const State<Real>& state) {
-    double sum = 0;
-    for (const int i : model.clusters[0].particles) sum += static_cast<double>(state.position[i].y());
-    return sum / static_cast<double>(model.clusters[0].particles.size());
+    return diameter_of_sphere(static_cast<double>(model.clusters[0].particles.size()) *
+                              std::pow(model.parameters.fluidRestDistance, 3));
 }
 
 /// The curve is how far the sphere has fallen, length.
+template <class Real>
+WaterRun follow(double duration, WaterTank<Real>& tank) {
+    const auto& sphere = tank.model().clusters[0].particles;
+    const auto height = [&] {
+        double sum = 0;
+        for (const int i : sphere) sum += static_cast<double>(tank.state().position[i].y());
+        return sum / static_cast<double>(sphere.size());
+    };
+    return tank.follow(duration, [&, start = height()] { return start - height(); });
+}
+
 template <class Real>
 WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
     WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting, [&](Model& model) {
@@ -44,11 +47,7 @@ WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
     tank.change([&](Model& model) {
         for (const int i : model.clusters[0].particles) model.inverse_mass[i] = 1 / fall.density;
     });
-    const double start = height(tank.model(), tank.state());
-    const auto curve = tank.follow(fall.duration, [&] { return start - height(tank.model(), tank.state()); });
-    WaterRun run = tank.run();
-    run.curve = curve;
-    return run;
+    return follow(fall.duration, tank);
 }
 
 WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
@@ -101,15 +100,12 @@ double expected_speed(double excess, double sphere_diameter) {
 /// Its weight is set by the force that the water holds it up with, so that an error of the buoyancy, which run_neutral_sphere
 /// measures, is not in it.
 template <class Real>
-WaterRun release(const Release& release, const WaterSetting& setting) {
-    const double spacing = water_length / setting.resolution;
-    const auto particles = [&](double length) { return static_cast<int>(std::lround(length / spacing)); };
-    const Eigen::Vector3d middle(release_width / 2, release.start, release_width / 2);
-    WaterTank<Real> tank({particles(release_width), particles(release_height), particles(release_width)}, setting,
-                         [&](Model& model) {
-                             model.parameters.gravity = {0, -release_gravity, 0};
-                             immerse_sphere(middle, model);
-                         });
+WaterRun release(const Release& how, const WaterSetting& setting) {
+    const int across = particles_along(release_width, setting), up = particles_along(release_height, setting);
+    WaterTank<Real> tank({across, up, across}, setting, [&](Model& model) {
+        model.parameters.gravity = {0, -release_gravity, 0};
+        immerse_sphere({release_width / 2, how.start, release_width / 2}, model);
+    });
     const double sphere_diameter = diameter(tank.model());
     tank.set_kinematic_viscosity(release_viscosity);
     double buoyancy = 0;
@@ -121,21 +117,22 @@ WaterRun release(const Release& release, const WaterSetting& setting) {
     }
     tank.change([&](Model& model) {
         const auto& sphere = model.clusters[0].particles;
-        const double weight = (1 + release.excess) * buoyancy;
+        const double weight = (1 + how.excess) * buoyancy;
         for (const int i : sphere)
             model.inverse_mass[i] = static_cast<double>(sphere.size()) * release_gravity / weight;
     });
-    const double start = height(tank.model(), tank.state());
-    const auto curve = tank.follow(release_duration, [&] { return start - height(tank.model(), tank.state()); });
-    WaterRun run = tank.run();
+    WaterRun run = follow(release_duration, tank);
     if (run.instability) return run;
-    run.curve = curve;
     const auto frames_counted = static_cast<std::size_t>(std::lround(counted / tank.model().time_step));
-    const WaterSample& begin = curve[curve.size() - 1 - frames_counted];
-    const double expected = expected_speed(std::abs(release.excess), sphere_diameter);
-    const double speed = (curve.back().value - begin.value) / counted * (release.excess > 0 ? 1 : -1);
+    const WaterSample& begin = run.curve[run.curve.size() - 1 - frames_counted];
+    const double expected = expected_speed(std::abs(how.excess), sphere_diameter);
+    const double speed = (run.curve.back().value - begin.value) / counted * (how.excess > 0 ? 1 : -1);
     run.figures = {figure_within(0.2, speed, expected)};
     return run;
+}
+
+WaterRun release(const Release& how, const WaterSetting& setting) {
+    return in_precision(setting.solver.precision, [&](auto real) { return release<decltype(real)>(how, setting); });
 }
 
 }  // namespace
@@ -161,14 +158,12 @@ WaterRun run_added_mass(const WaterSetting& setting) {
 
 /// A hundredth heavier than its water, a sphere sinks.
 WaterRun run_heavier_sphere(const WaterSetting& setting) {
-    const Release heavier{.excess = 0.01, .start = 0.65 * release_height};
-    return in_precision(setting.solver.precision, [&](auto real) { return release<decltype(real)>(heavier, setting); });
+    return release({.excess = 0.01, .start = 0.65 * release_height}, setting);
 }
 
 /// A hundredth lighter, it rises.
 WaterRun run_lighter_sphere(const WaterSetting& setting) {
-    const Release lighter{.excess = -0.01, .start = 0.35 * release_height};
-    return in_precision(setting.solver.precision, [&](auto real) { return release<decltype(real)>(lighter, setting); });
+    return release({.excess = -0.01, .start = 0.35 * release_height}, setting);
 }
 
 }  // namespace natator::bench

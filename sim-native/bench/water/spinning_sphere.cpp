@@ -18,8 +18,8 @@ double torque(double tau) {
 /// third power of that radius, and no pressure is in it.
 template <class Real>
 WaterRun run_as(const WaterSetting& setting) {
-    const double spacing = water_length / setting.resolution, radius = 0.2 * water_length, width = 1.5 * water_length;
-    const auto particles = static_cast<int>(std::lround(width / spacing));
+    const double spacing = spacing_of(setting), radius = 0.2 * water_length;
+    const int particles = particles_along(1.5 * water_length, setting);
     const Eigen::Vector3d middle = Eigen::Vector3d::Constant(particles * spacing / 2);
     std::vector<int> held;
     WaterTank<Real> tank(Eigen::Vector3i::Constant(particles), setting, [&](Model& model) {

@@ -12,14 +12,6 @@ constexpr double amplitude = 0.1 * water_length;                 ///< two spacin
 constexpr int periods = 5;                                       ///< how long it is followed
 constexpr int width = 8;                                         ///< particles across the plane of the flow
 
-/// Mean of cos(kx) over the water, which is the elevation of the mode over twice the depth.
-template <class Real>
-double mean_cosine(const State<Real>& state) {
-    double sum = 0;
-    for (const auto& x : state.position) sum += std::cos(wave_number * static_cast<double>(x.x()));
-    return sum / static_cast<double>(state.position.size());
-}
-
 /// Sets the velocities of the linear standing wave as its surface passes through the level (Lamb, Hydrodynamics, 228):
 /// the surface is then a cos(kx) sin(omega t).
 template <class Real>
@@ -72,21 +64,19 @@ WaterRun run_as(const WaterSetting& setting) {
     const int layers = static_cast<int>(std::lround(0.6 * setting.resolution));
     WaterTank<Real> tank({setting.resolution, layers, width}, setting);
     const double depth = tank.depth();
-    const double gravity = tank.model().parameters.gravity.norm();
-    const double omega = std::sqrt(gravity * wave_number * std::tanh(wave_number * depth));
-    const double period = 2 * std::numbers::pi / omega;
-    kick(depth, omega, tank.state());
+    const double period = tank.sloshing_period();
+    kick(depth, 2 * std::numbers::pi / period, tank.state());
 
-    const double level = mean_cosine(tank.state());
-    const auto curve =
-        tank.follow(periods * period, [&] { return 2 * depth * (mean_cosine(tank.state()) - level); });
-    WaterRun run = tank.run();
+    // The mean of cos(kx) over the water is the elevation of the mode over twice the depth.
+    const auto elevation = [&] {
+        return 2 * depth * tank.mean([](const auto& x, const auto&) { return std::cos(wave_number * x.x()); });
+    };
+    WaterRun run = tank.follow(periods * period, [&, level = elevation()] { return elevation() - level; });
     if (run.instability) return run;
 
-    const Oscillation found = oscillation_of(curve);
+    const Oscillation found = oscillation_of(run.curve);
     run.figures = {figure_within(0.03, found.period, period),
                    {.value = found.decay, .reference = 0, .least = -0.01, .greatest = 0.05}};
-    run.curve = curve;
     return run;
 }
 

@@ -13,13 +13,6 @@ constexpr int periods = 6;  ///< of sloshing, with gravity tilted and again with
 constexpr int counted = 4;  ///< the last of these are averaged over, so that sloshing cancels
 
 template <class Real>
-double mean_x(const State<Real>& state) {
-    double sum = 0;
-    for (const auto& x : state.position) sum += static_cast<double>(x.x());
-    return sum / static_cast<double>(state.position.size());
-}
-
-template <class Real>
 WaterRun run_as(const WaterSetting& setting) {
     const int layers = static_cast<int>(std::lround(0.4 * setting.resolution));
     WaterTank<Real> tank({setting.resolution, layers, width}, setting);
@@ -28,14 +21,12 @@ WaterRun run_as(const WaterSetting& setting) {
     const Eigen::Vector3d tilted = Eigen::AngleAxisd(tilt * radian, Eigen::Vector3d::UnitZ()) * upright;
 
     // A plane surface of slope s moves the centre of mass by s L^2 / (12 h).
-    const double level = mean_x(tank.state());
-    const auto slope = [&] {
-        const double moved = mean_x(tank.state()) - level;
+    const auto mean_x = [&] { return tank.mean([](const auto& x, const auto&) { return x.x(); }); };
+    const auto slope = [&, level = mean_x()] {
+        const double moved = mean_x() - level;
         return std::atan(moved * 12 * depth / (water_length * water_length)) / radian;
     };
-    const double wave_number = std::numbers::pi / water_length;
-    const double period = 2 * std::numbers::pi / std::sqrt(upright.norm() * wave_number * std::tanh(wave_number * depth));
-    const long frames_per_period = std::lround(period / tank.model().time_step);
+    const long frames_per_period = std::lround(tank.sloshing_period() / tank.model().time_step);
 
     std::vector<WaterSample> curve{{0, 0}};
     const auto mean_slope_under = [&](const Eigen::Vector3d& gravity) {

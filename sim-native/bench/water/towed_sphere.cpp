@@ -9,9 +9,9 @@ namespace natator::bench {
 /// A sphere that is held and towed through resting water at one speed, ever more viscous: the water's own drag, without what
 /// a fall would depend on, its weight and buoyancy. At resolution 20 it is 8 particles across.
 WaterRun run_towed_sphere(const WaterSetting& setting) {
-    const double spacing = water_length / setting.resolution, diameter = 0.4 * water_length, width = 1.6 * water_length;
-    const auto particles = [&](double length) { return static_cast<int>(std::lround(length / spacing)); };
-    const Towing towing{.count = {particles(6 * diameter), particles(width), particles(width)},
+    const double diameter = 0.4 * water_length, width = 1.6 * water_length;
+    const int across = particles_along(width, setting);
+    const Towing towing{.count = {particles_along(6 * diameter, setting), across, across},
                         .middle = {2.5 * diameter, width / 2, width / 2},
                         .diameter = diameter,
                         .speed = 1,

@@ -27,7 +27,7 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
 
     TowResult result;
     result.diameter = towing.cylinder ? std::sqrt(4 * volume / (std::numbers::pi * width))
-                                      : std::cbrt(6 * volume / std::numbers::pi);
+                                      : diameter_of_sphere(volume);
     const double diameter = result.diameter;
     const double area = diameter * (towing.cylinder ? width : std::numbers::pi / 4 * diameter);
     const double scale = density * towing.speed * towing.speed / 2 * area;

@@ -24,22 +24,15 @@ Eigen::Vector3d flow_at(const Eigen::Vector3d& x) {
 
 /// Part of the flow that is left, by projection on it.
 template <class Real>
-double amplitude(const State<Real>& state) {
-    double product = 0, square = 0;
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-        const Eigen::Vector3d flow = flow_at(state.position[i].template cast<double>());
-        product += flow.dot(state.velocity[i].template cast<double>());
-        square += flow.squaredNorm();
-    }
-    return product / square;
+double amplitude(const WaterTank<Real>& tank) {
+    return tank.mean([](const auto& x, const auto& v) { return flow_at(x).dot(v); }) /
+           tank.mean([](const auto& x, const auto&) { return flow_at(x).squaredNorm(); });
 }
 
-/// Sum of v^2: all particles have the same mass.
+/// Mean of v^2: all particles have the same mass.
 template <class Real>
-double energy(const State<Real>& state) {
-    double sum = 0;
-    for (const auto& v : state.velocity) sum += v.template cast<double>().squaredNorm();
-    return sum;
+double energy(const WaterTank<Real>& tank) {
+    return tank.mean([](const auto&, const auto& v) { return v.squaredNorm(); });
 }
 
 /// Rate of ln(amplitude), 1/s, by least squares through the start, while there is enough of the flow left.
@@ -78,17 +71,15 @@ WaterRun run_viscous_as(const WaterSetting& setting) {
         WaterTank<Real> tank({setting.resolution, layers, setting.resolution}, setting);
         turn(tank.state());
         tank.set_kinematic_viscosity(set);
-        const auto curve = tank.follow(turnover / 2, [&] { return amplitude(tank.state()); });
-        WaterRun run = tank.run();
+        WaterRun run = tank.follow(turnover / 2, [&] { return amplitude(tank); });
         if (run.instability) return run;
-        const double found = viscosity_from(decay_rate(curve));
+        const double found = viscosity_from(decay_rate(run.curve));
         if (set == 0) {
             numerical = found;
             continue;
         }
         const double both = viscosity + numerical;
         run.figures = {figure_within(0.05, found, both)};
-        run.curve = curve;
         return run;
     }
     throw std::logic_error("no run with viscosity");
@@ -97,25 +88,22 @@ WaterRun run_viscous_as(const WaterSetting& setting) {
 template <class Real>
 WaterRun run_as(const WaterSetting& setting) {
     WaterTank<Real> tank({setting.resolution, layers, setting.resolution}, setting);
-    State<Real>& state = tank.state();
-    turn(state);
+    turn(tank.state());
     const long frames_per_turnover = std::lround(turnover / tank.model().time_step);
-    const double first_energy = energy(state);
+    const double first_energy = energy(tank);
     double most_energy = first_energy;
-    const auto curve = tank.follow(static_cast<double>(turnovers * frames_per_turnover) * tank.model().time_step, [&] {
-        most_energy = std::max(most_energy, energy(state));
-        return amplitude(state);
+    WaterRun run = tank.follow(static_cast<double>(turnovers * frames_per_turnover) * tank.model().time_step, [&] {
+        most_energy = std::max(most_energy, energy(tank));
+        return amplitude(tank);
     });
-    WaterRun run = tank.run();
     if (run.instability) return run;
 
     const bool fine = setting.resolution >= 40;
-    const double viscosity = viscosity_from(decay_rate(curve));
+    const double viscosity = viscosity_from(decay_rate(run.curve));
     const double reynolds = viscosity > 0 ? std::min(speed * water_length / viscosity, unlimited) : unlimited;
-    run.figures = {{.value = curve[frames_per_turnover].value, .reference = 1, .least = fine ? 0.98 : 0.95},
+    run.figures = {{.value = run.curve[frames_per_turnover].value, .reference = 1, .least = fine ? 0.98 : 0.95},
                    {.value = reynolds, .reference = std::numeric_limits<double>::infinity(), .least = fine ? 1100.0 : 600.0},
                    {.value = most_energy / first_energy - 1, .reference = 0, .greatest = 0.001}};
-    run.curve = curve;
     return run;
 }
 

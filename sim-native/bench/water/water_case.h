@@ -55,7 +55,8 @@ struct WaterCase {
     std::string curve;                    ///< what the curve shows
     std::vector<std::string> quantities;  ///< what the figures are
     std::function<WaterRun(const WaterSetting&)> run;
-    bool held = false;  ///< a body is held: runs only where its force is known, in scheme conserving on the CPU; takes minutes
+    bool held = false;  ///< needs the forces on held bodies or the pressures: runs only where they are known, in scheme
+                        ///< conserving on the CPU; takes minutes
 };
 
 /// All cases.
@@ -69,6 +70,9 @@ WaterRun run_neutral_sphere(const WaterSetting& setting);
 WaterRun run_added_mass(const WaterSetting& setting);
 WaterRun run_heavier_sphere(const WaterSetting& setting);
 WaterRun run_lighter_sphere(const WaterSetting& setting);
+WaterRun run_column(const WaterSetting& setting);
+WaterRun run_couette(const WaterSetting& setting);
+WaterRun run_poiseuille(const WaterSetting& setting);
 WaterRun run_spinning_sphere(const WaterSetting& setting);
 WaterRun run_towed_sphere(const WaterSetting& setting);
 WaterRun run_towed_cylinder(const WaterSetting& setting);

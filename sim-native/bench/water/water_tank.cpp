@@ -15,7 +15,7 @@ namespace {
 constexpr double settling = 2;  ///< s
 
 Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const std::function<void(Model&)>& immerse) {
-    const double spacing = water_length / setting.resolution;
+    const double spacing = spacing_of(setting);
     Model model;
     model.scheme = setting.solver.scheme;
     SolverParameters& p = model.parameters;
@@ -95,43 +95,87 @@ bool WaterTank<Real>::frame() {
 }
 
 template <class Real>
-std::vector<WaterSample> WaterTank<Real>::follow(double duration, const std::function<double()>& value) {
+WaterRun WaterTank<Real>::follow(double duration, const std::function<double()>& value) {
     std::vector<WaterSample> curve{{0, value()}};
     const long frames = std::lround(duration / model_->time_step);
     for (long k = 1; k <= frames && frame(); ++k)
         curve.push_back({static_cast<double>(k) * model_->time_step, value()});
-    return curve;
+    WaterRun followed = run();
+    followed.curve = std::move(curve);
+    return followed;
+}
+
+template <class Real>
+const Solver<Real>& WaterTank<Real>::cpu_solver() const {
+    if (!solver_) throw InputError("bench water: forces on held bodies and pressures are known on the CPU only");
+    return *solver_;
+}
+
+template <class Real>
+std::vector<int> WaterTank<Real>::held() const {
+    std::vector<int> body;
+    for (int i = 0; i < model_->particles(); ++i)
+        if (model_->inverse_mass[i] == 0) body.push_back(i);
+    return body;
+}
+
+template <class Real>
+bool WaterTank<Real>::drive(const std::function<void()>& set_off,
+                            const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive) {
+    const int substeps = model_->parameters.substeps;
+    const double h = model_->time_step / substeps;
+    for (int k = 0; k < substeps; ++k) {
+        set_off();
+        if (!advance(h, 1)) return false;
+        arrive(h, cpu_solver().forces());
+    }
+    return true;
 }
 
 template <class Real>
 bool WaterTank<Real>::drive(const Motion& motion, Load& load) {
-    if (!solver_) throw InputError("bench water: the force on a body that is held is known on the CPU only");
-    std::vector<int> body;
-    for (int i = 0; i < model_->particles(); ++i)
-        if (model_->inverse_mass[i] == 0) body.push_back(i);
+    const std::vector<int> body = held();
     const int substeps = model_->parameters.substeps;
-    const double h = model_->time_step / substeps;
-    const double angle = h * motion.spin.norm();
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, angle > 0 ? motion.spin.normalized() : Eigen::Vector3d::UnitX())
-                                     .toRotationMatrix();
+    Eigen::Vector3d middle;
+    const auto arm = [&](int i) -> Eigen::Vector3d { return state_.position[i].template cast<double>() - middle; };
     load = {};
-    for (int k = 0; k < substeps; ++k) {
-        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-        for (const int i : body) middle += state_.position[i].template cast<double>() / static_cast<double>(body.size());
-        const auto arm = [&](int i) -> Eigen::Vector3d { return state_.position[i].template cast<double>() - middle; };
-        for (const int i : body)
-            state_.velocity[i] = (motion.velocity + motion.spin.cross(arm(i))).template cast<Real>();
-        if (!advance(h, 1)) return false;
-        const std::vector<Vector3<Real>> forces = solver_->forces();
-        for (const int i : body) {
-            const Eigen::Vector3d force = forces[i].template cast<double>() / substeps;
-            load.force += force;
-            load.moment += arm(i).cross(force);
-        }
-        for (const int i : body)
-            state_.position[i] = (middle + h * motion.velocity + turn * arm(i)).template cast<Real>();
-    }
-    return true;
+    return drive(
+        [&] {
+            middle.setZero();
+            for (const int i : body)
+                middle += state_.position[i].template cast<double>() / static_cast<double>(body.size());
+            for (const int i : body)
+                state_.velocity[i] = (motion.velocity + motion.spin.cross(arm(i))).template cast<Real>();
+        },
+        [&](double h, const std::vector<Vector3<Real>>& forces) {
+            const double angle = h * motion.spin.norm();
+            const Eigen::Vector3d axis = angle > 0 ? motion.spin.normalized() : Eigen::Vector3d::UnitX();
+            const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+            for (const int i : body) {
+                const Eigen::Vector3d force = forces[i].template cast<double>() / substeps;
+                load.force += force;
+                load.moment += arm(i).cross(force);
+            }
+            for (const int i : body)
+                state_.position[i] = (middle + h * motion.velocity + turn * arm(i)).template cast<Real>();
+        });
+}
+
+template <class Real>
+bool WaterTank<Real>::drive(const std::function<Eigen::Vector3d(int)>& velocity, std::vector<Eigen::Vector3d>& force) {
+    const std::vector<int> body = held();
+    const int substeps = model_->parameters.substeps;
+    force.assign(model_->particles(), Eigen::Vector3d::Zero());
+    return drive(
+        [&] {
+            for (const int i : body) state_.velocity[i] = velocity(i).template cast<Real>();
+        },
+        [&](double h, const std::vector<Vector3<Real>>& forces) {
+            for (const int i : body) {
+                force[i] += forces[i].template cast<double>() / substeps;
+                state_.position[i] += (h * velocity(i)).template cast<Real>();
+            }
+        });
 }
 
 template <class Real>
@@ -146,10 +190,23 @@ void WaterTank<Real>::shift(double distance) {
 }
 
 template <class Real>
-double WaterTank<Real>::depth() const {
+double WaterTank<Real>::mean(const std::function<double(const Eigen::Vector3d&, const Eigen::Vector3d&)>& value) const {
     double sum = 0;
-    for (const auto& x : state_.position) sum += static_cast<double>(x.y());
-    return 2 * sum / model_->particles();
+    for (int i = 0; i < model_->particles(); ++i)
+        sum += value(state_.position[i].template cast<double>(), state_.velocity[i].template cast<double>());
+    return sum / model_->particles();
+}
+
+template <class Real>
+double WaterTank<Real>::depth() const {
+    return 2 * mean([](const Eigen::Vector3d& x, const Eigen::Vector3d&) { return x.y(); });
+}
+
+template <class Real>
+double WaterTank<Real>::sloshing_period() const {
+    constexpr double wave_number = std::numbers::pi / water_length;
+    const double gravity = model_->parameters.gravity.norm();
+    return 2 * std::numbers::pi / std::sqrt(gravity * wave_number * std::tanh(wave_number * depth()));
 }
 
 template <class Real>

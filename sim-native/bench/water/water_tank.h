@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "in_precision.h"
@@ -13,6 +15,13 @@ namespace natator::bench {
 
 /// Length of the cases along x, in units of the scene. With 20 particles along it their spacing is that of the thesis.
 inline constexpr double water_length = 2;
+
+inline double spacing_of(const WaterSetting& setting) { return water_length / setting.resolution; }
+/// How many particles fit along a length.
+inline int particles_along(double length, const WaterSetting& setting) {
+    return static_cast<int>(std::lround(length / spacing_of(setting)));
+}
+inline double diameter_of_sphere(double volume) { return std::cbrt(6 * volume / std::numbers::pi); }
 
 /// How a body is moved.
 struct Motion {
@@ -39,16 +48,28 @@ public:
 
     const Model& model() const { return *model_; }
     State<Real>& state() { return state_; }
+    const State<Real>& state() const { return state_; }
+    /// Of each particle in the last substep, mass/(length s^2). Throws InputError on a GPU, which tells none.
+    std::vector<Real> pressures() const { return cpu_solver().pressures(); }
+    /// Mean over all particles of what they have at their places and with their velocities.
+    double mean(const std::function<double(const Eigen::Vector3d&, const Eigen::Vector3d&)>& value) const;
     /// Of the water as it is, taken as of even density: twice its mean height, length.
     double depth() const;
+    /// Of the slowest mode of water that deep, half a wave along water_length, by linear theory: 2 pi over the root of
+    /// g k tanh kh, s.
+    double sloshing_period() const;
 
     /// Advances by one frame. False if the water is unstable; then there are no more frames.
     bool frame();
-    /// Frames for as long as that, s, as far as the water stays stable; value() before the first and after every one.
-    std::vector<WaterSample> follow(double duration, const std::function<double()>& value);
+    /// Frames for as long as that, s, as far as the water stays stable. The curve is value() before the first and after every
+    /// one.
+    WaterRun follow(double duration, const std::function<double()>& value);
     /// A frame while the particles of infinite mass move as one rigid body. Throws InputError on a GPU, which tells no
     /// forces.
     bool drive(const Motion& motion, Load& load);
+    /// A frame while each particle of infinite mass moves at the velocity that `velocity` gives it; `force` becomes the
+    /// mean force of the water on each particle. Throws InputError on a GPU.
+    bool drive(const std::function<Eigen::Vector3d(int)>& velocity, std::vector<Eigen::Vector3d>& force);
     /// Moves the walls along x by so much: the water that is left behind the rear one is put before the front, at rest.
     /// All coordinates are less by `distance` afterwards, so that the walls keep theirs.
     void shift(double distance);
@@ -68,6 +89,12 @@ private:
     Step step_of(const Model& model);
     void settle();
     bool advance(double time, int substeps);
+    const Solver<Real>& cpu_solver() const;
+    std::vector<int> held() const;
+    /// A frame: before each substep `set_off` gives what is held its velocities, after it `arrive` gets the substep, s, and
+    /// the forces, and moves what is held on.
+    bool drive(const std::function<void()>& set_off,
+               const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive);
 
     WaterSetting setting_;
     std::shared_ptr<Model> model_;
