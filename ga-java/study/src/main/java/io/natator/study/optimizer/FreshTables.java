@@ -104,7 +104,7 @@ final class FreshTables {
             return "nothing to compare\n";
         }
         return pairs.stream().map(pair -> "| " + pair.first() + " | " + pair.second() + " | "
-                + interval(pair.difference(), 1, 4) + " | " + PairTest.chance(pair.p()).replaceFirst("^= ", "") + " | "
+                + pair.difference().text(1, 4) + " | " + PairTest.chance(pair.p()).replaceFirst("^= ", "") + " | "
                 + Numbers.fixed(pair.test().a(), 2) + " | " + Numbers.fixed(pair.test().cliffsDelta(), 2) + " | "
                 + pair.verdict() + " |\n")
                 .collect(Collectors.joining("", "| first | second | difference of medians | p | A | Cliff's δ | verdict |\n"
@@ -139,12 +139,7 @@ final class FreshTables {
     }
 
     private static String interval(double[] values, double factor, int digits) {
-        return values.length == 0 ? "–" : interval(MedianInterval.of(values), factor, digits);
-    }
-
-    private static String interval(MedianInterval one, double factor, int digits) {
-        return Numbers.fixed(factor * one.median(), digits) + (Double.isNaN(one.low()) ? ""
-                : " [" + Numbers.fixed(factor * one.low(), digits) + ", " + Numbers.fixed(factor * one.high(), digits) + "]");
+        return values.length == 0 ? "–" : MedianInterval.of(values).text(factor, digits);
     }
 
     /** The medians with all their digits. */

@@ -44,7 +44,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
             Double simulated, List<Double> genes) {
     }
 
-    /** Of the finished run in a folder. */
+    /** Of the run in a folder, finished or not. */
     static RunSummary of(String optimizer, Path directory) {
         StoredRun run = StoredRun.in(directory);
         List<Improvement> improvements = new ArrayList<>();
@@ -55,7 +55,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
             before = one.genes();
         }
         return new RunSummary(optimizer, run.settings(), run.document("environment.json"),
-                run.document("savings.json"), run.best(), run.state().history(), improvements);
+                run.document("savings.json"), run.best(), run.state() == null ? List.of() : run.state().history(), improvements);
     }
 
     /** How many evaluations it took. */

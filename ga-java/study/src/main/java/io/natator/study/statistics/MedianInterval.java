@@ -1,5 +1,6 @@
 package io.natator.study.statistics;
 
+import io.natator.config.Numbers;
 import java.util.Random;
 import java.util.function.Function;
 import org.apache.commons.statistics.descriptive.Median;
@@ -49,6 +50,12 @@ public record MedianInterval(double median, double low, double high) {
 
     private static double[] drawn(double[] values, Random random) {
         return random.ints(values.length, 0, values.length).mapToDouble(i -> values[i]).toArray();
+    }
+
+    /** Median and interval with so many decimals, each times a factor: {@code 0.81 [0.70, 0.93]}. */
+    public String text(double factor, int decimals) {
+        return Numbers.fixed(factor * median, decimals) + (Double.isNaN(low) ? "" : " [" + Numbers.fixed(factor * low, decimals)
+                + ", " + Numbers.fixed(factor * high, decimals) + "]");
     }
 
     /** Whether both ends are known and on the same side of 0. */

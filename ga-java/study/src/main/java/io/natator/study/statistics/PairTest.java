@@ -59,7 +59,7 @@ public record PairTest(String first, String second, MedianInterval difference, R
             boolean greater = difference.median() > 0;
             return (greater ? first : second) + " further than " + (greater ? second : first) + why;
         }
-        return enough ? "no difference seen" + why : "too few runs to tell";
+        return enough ? "no difference seen" + why : "too few to tell";
     }
 
     /** With its sign of relation: {@code = 0.03}, {@code < 0.001}. */

@@ -132,6 +132,6 @@ class StatisticsTest {
         List<PairTest> pairs = PairTest.all(Map.of("a", new double[] {1, 2, 3}, "b", new double[] {11, 12, 13}));
 
         assertThat(pairs.get(0).test().leastP()).isCloseTo(0.1, within(1e-12));
-        assertThat(pairs.get(0).verdict()).isEqualTo("too few runs to tell");
+        assertThat(pairs.get(0).verdict()).isEqualTo("too few to tell");
     }
 }
