@@ -166,6 +166,7 @@ class CommandLineTest {
         assertThat(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png")).isNotEmptyFile();
 
         String page = file("study", "README.md");
+        assertThat(page).contains("At equal evaluations:", "At equal simulated time:", "too few to tell");
         List<String> compact = new ArrayList<>(List.of(study));
         compact.add("--compact");
         assertThat(natator(compact.toArray(String[]::new))).as(err.toString()).isZero();
@@ -230,8 +231,10 @@ class CommandLineTest {
         List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "2"));
         for (String seed : List.of("1", "2")) {
             for (String optimizer : List.of("cma-es", "random")) {
-                assertThat(evolve(optimizer + seed, "--optimizer", optimizer, "--evaluations", "16", "--seed", seed)).isZero();
-                arguments.add(folder.resolve(optimizer + seed).toString());
+                String run = folder.resolve(optimizer + seed).toString();
+                assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "16", "--seed", seed,
+                        "--output-dir", run)).as(err.toString()).isZero();
+                arguments.add(run);
             }
         }
         out.getBuffer().setLength(0);
