@@ -1,5 +1,6 @@
 package io.natator.study.optimizer;
 
+import io.natator.config.Numbers;
 import java.util.List;
 
 /** What all runs of a scene have spent when they are compared. */
@@ -22,6 +23,9 @@ enum EqualBudget {
     /** Shares of the whole at which runs are compared. */
     static final List<Double> SHARES = List.of(0.1, 0.25, 0.5, 1.0);
 
+    /** From so many seconds on tenths of them mean nothing to a reader. */
+    private static final double ROUGH = 100;
+
     private final String label;
     private final String unit;
 
@@ -35,9 +39,9 @@ enum EqualBudget {
         return label;
     }
 
-    /** To stand behind a number. */
-    String unit() {
-        return unit;
+    /** So much of it: {@code 600}, {@code 37.5 s}. */
+    String text(double place) {
+        return Numbers.fixed(place, this == SIMULATED_TIME && place < ROUGH ? 1 : 0) + unit;
     }
 
     /** What a run has spent at its end; NaN if that is not known. */

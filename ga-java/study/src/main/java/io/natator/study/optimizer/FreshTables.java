@@ -79,8 +79,7 @@ final class FreshTables {
             return "not recorded by these runs\n";
         }
         StringBuilder table = new StringBuilder("| optimizer | runs |");
-        EqualBudget.SHARES.forEach(share -> table.append(" after ").append(Numbers.fixed(place(budget, share), 0))
-                .append(budget.unit()).append(" |"));
+        EqualBudget.SHARES.forEach(share -> table.append(" after ").append(budget.text(place(budget, share))).append(" |"));
         table.append("\n| --- | ---: |").append(" ---: |".repeat(EqualBudget.SHARES.size())).append('\n');
         byVariant.forEach((variant, own) -> {
             table.append("| ").append(variant.label()).append(" | ")

@@ -78,7 +78,7 @@ public final class RunComparison {
                 lines.add("at equal " + budget.label() + ": not recorded by these runs");
                 continue;
             }
-            lines.add("at equal " + budget.label() + " (" + Numbers.fixed(place, 0) + budget.unit() + "), from " + starts
+            lines.add("at equal " + budget.label() + " (" + budget.text(place) + "), from " + starts
                     + " fresh starts: median distance" + (byRun ? " of the runs' means" : "") + " [95 % bootstrap interval]");
             Map<String, double[]> samples = new LinkedHashMap<>();
             groups.forEach(group -> samples.put(name(group), sample(group, byRun, budget, place)));
