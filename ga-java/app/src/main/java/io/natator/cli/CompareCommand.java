@@ -1,6 +1,15 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.StoredRun;
+import io.natator.cli.Section.Topic;
+import io.natator.config.Backend;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Limits;
+import io.natator.run.EvolutionRun;
+import io.natator.simulator.Evaluator;
+import io.natator.study.optimizer.RunComparison;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Verdict;
 import java.io.PrintWriter;
@@ -10,13 +19,19 @@ import java.util.Map;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
 /** {@code natator compare}: runs side by side. */
 @Command(name = "compare", mixinStandardHelpOptions = true,
-        description = "Sets runs side by side: settings, best fitness after the same number of evaluations, best gaits.")
+        description = {"Sets runs side by side: settings, best fitness after the same number of evaluations, best gaits.",
+            "Then runs the best gaits from fresh starts, and compares them after equal numbers of evaluations and after equal "
+            + "simulated time: medians with intervals, a rank test, an effect size. Runs that differ only in their seeds stand "
+            + "together."},
+        footer = {"", "Example:", "  natator compare runs/one runs/two"})
 final class CompareCommand implements Callable<Integer> {
 
     private static final int STEPS = 5;
@@ -24,11 +39,25 @@ final class CompareCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
 
+    @Mixin
+    private ExecutionOptions executionOptions;
+
+    @Mixin
+    private CacheOptions cacheOptions;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--starts", paramLabel = "N", defaultValue = "8", description = "Fresh starts of each best gait, from 2; "
+            + "0: nothing is run. Default: ${DEFAULT-VALUE}.")
+    private int starts;
+
     @Parameters(paramLabel = "RUN", arity = "2..*", description = "Run folders, at least two.")
     private List<Path> folders;
 
     @Override
-    public Integer call() {
+    public Integer call() throws InterruptedException {
+        if (starts != 0 && starts < 2 || starts > Limits.STARTS) {
+            throw new InvalidInputException("--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
+        }
         List<StoredRun> runs = folders.stream().map(StoredRun::in).toList();
         PrintWriter out = spec.commandLine().getOut();
         for (int i = 0; i < runs.size(); i++) {
@@ -37,7 +66,26 @@ final class CompareCommand implements Callable<Integer> {
         printCurves(runs, out);
         printBests(runs, out);
         out.flush();
+        if (starts > 0) {
+            runAgain(runs.stream().map(StoredRun::settings).toList(), out);
+            out.flush();
+        }
         return ExitCode.OK;
+    }
+
+    private void runAgain(List<EvolutionSettings> settings, PrintWriter out) throws InterruptedException {
+        Backend backend = settings.stream().map(EvolutionSettings::backend).distinct().count() == 1 ? settings.get(0).backend()
+                : Backend.CPU;
+        ExecutionSettings execution =
+                EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)), settings);
+        RunComparison comparison = new RunComparison(folders, starts);
+        PrintWriter err = spec.commandLine().getErr();
+        err.println("running " + comparison.swims() + " swims from fresh starts; --starts 0 leaves that out");
+        err.flush();
+        try (Evaluator evaluator = EvolutionRun.open(execution)) {
+            comparison.run(evaluator, execution.simulator());
+        }
+        comparison.lines().forEach(out::println);
     }
 
     private static void printCurves(List<StoredRun> runs, PrintWriter out) {

@@ -6,8 +6,9 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
-import io.natator.config.Judge;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Judge;
+import io.natator.config.Limits;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.SceneInfo;
 import io.natator.study.optimizer.OptimizerStudy;
@@ -31,6 +32,8 @@ import picocli.CommandLine.Spec;
 @Command(name = "compare-optimizers", mixinStandardHelpOptions = true,
         description = {"Runs optimizers on creatures with several seeds, each for the same number of evaluations, and "
             + "draws their best distance against the evaluations.",
+            "Then runs the best gaits from fresh starts, and compares the optimizers by these, at equal evaluations and at equal "
+            + "simulated time: medians with intervals, a rank test, an effect size.",
             "The same command continues a study that was stopped."},
         customSynopsis = "natator compare-optimizers --output-dir DIR [OPTIONS]",
         footer = {"", "Example:", "  natator compare-optimizers --output-dir runs/study --evaluations 600"})
@@ -113,13 +116,22 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             + "distance, or net: less what the gait drifts forwards in vacuum. Default: ${DEFAULT-VALUE}.")
     private FitnessKind fitness;
 
+    @Section(Topic.EXTENT)
+    @Option(names = "--rank-starts", paramLabel = "N", description = "Run all gaits of each run's last generation from N fresh "
+            + "starts, from 1, and tell how well they were ranked. Default: only the best gaits are run again.")
+    private Integer rankStarts;
+
     @Override
     public Integer call() throws InterruptedException {
         queueOptions.stopAfter();
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         queueOptions.atOnce(execution);
+        if (rankStarts != null) {
+            Limits.checkCount("--rank-starts", rankStarts, Limits.STARTS);
+        }
         Map<String, EvolutionSettings> scenes = scenes(execution);
-        OptimizerStudy study = new OptimizerStudy(scenes, variants(), seeds, cmaEsPopulation, directory);
+        OptimizerStudy study = new OptimizerStudy(scenes, variants(), seeds, cmaEsPopulation,
+                rankStarts == null ? 0 : rankStarts, directory);
         boolean all = queueOptions.carryOut(study::run, EvolutionRun.withTimeLimit(execution, scenes.values()),
                 study.size(), study.finished(), study.evaluations(), study.recorded(), spec.commandLine().getErr());
         if (compact) {
@@ -127,7 +139,8 @@ final class CompareOptimizersCommand implements Callable<Integer> {
         }
         PrintWriter out = spec.commandLine().getOut();
         if (!all) {
-            out.printf("%d of %d runs finished; the same command continues%n", study.finished(), study.size());
+            out.printf("%d of %d runs finished%s; the same command continues%n", study.finished(), study.size(),
+                    study.finished() < study.size() ? "" : ", " + study.compared() + " of them run again from fresh starts");
         }
         out.println(study.report(CommandText.of(spec, WITHOUT_OUTCOME)));
         return ExitCode.OK;

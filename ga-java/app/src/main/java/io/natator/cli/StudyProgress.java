@@ -55,6 +55,12 @@ abstract class StudyProgress implements RunQueue.Watcher {
     }
 
     @Override
+    public synchronized void said(String line) {
+        out.println(line);
+        out.flush();
+    }
+
+    @Override
     public synchronized void finished(RunFolder run, EvolutionRun.Outcome outcome) {
         finished++;
         FitnessPlot.draw(run, outcome.state().history());

@@ -36,7 +36,7 @@ class CommandLineTest {
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of(arguments));
         all.addAll(1, List.of("--simulator-path", simulator.toString()));
-        if (List.of("show", "compare").contains(arguments[0])) {
+        if (arguments[0].equals("show")) {
             return command.execute(arguments);
         }
         if (!arguments[0].equals("evaluate")) {
@@ -166,6 +166,7 @@ class CommandLineTest {
         assertThat(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png")).isNotEmptyFile();
 
         String page = file("study", "README.md");
+        assertThat(page).contains("At equal evaluations:", "At equal simulated time:", "too few to tell");
         List<String> compact = new ArrayList<>(List.of(study));
         compact.add("--compact");
         assertThat(natator(compact.toArray(String[]::new))).as(err.toString()).isZero();
@@ -210,7 +211,37 @@ class CommandLineTest {
         assertThat(lines.get(10)).contains("distance ", " ± ", "4 fresh starts", "body lengths/s", "in vacuum", "phi ");
         assertThat(lines.get(11)).startsWith("   half step ");
         assertThat(lines.get(12)).contains("   selected ", " by one run, ", " again");
-        assertThat(lines).hasSize(17);
+        assertThat(lines.get(17)).isEqualTo("at equal evaluations (24), from 8 fresh starts: median distance [95 % bootstrap interval]");
+        assertThat(lines.get(18)).matches(" {3}run 1 {2}-?\\d\\.\\d{4} \\[-?\\d\\.\\d{4}, -?\\d\\.\\d{4}]");
+        assertThat(lines.get(20)).matches(" {3}run 1 less run 2 {2}-?\\d.*]: (run [12] further than run [12]|no difference seen) "
+                + "\\(p [=<] 0\\.\\d+, A = \\d\\.\\d\\d\\)");
+        assertThat(lines.get(21)).startsWith("at equal simulated time (");
+        assertThat(lines).hasSize(25);
+        assertThat(err.toString()).contains(" swims from fresh starts; --starts 0 leaves that out");
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("compare", "--starts", "0", folder.resolve("short").toString(), folder.resolve("long").toString()))
+                .isZero();
+        assertThat(out.toString().lines()).containsExactlyElementsOf(lines.subList(0, 17));
+    }
+
+    /** Two seeds of each: the runs are the sample. */
+    @Test
+    void comparesGroupsOfRunsThatDifferOnlyInTheirSeeds() {
+        List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "2"));
+        for (String seed : List.of("1", "2")) {
+            for (String optimizer : List.of("cma-es", "random")) {
+                String run = folder.resolve(optimizer + seed).toString();
+                assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "16", "--seed", seed,
+                        "--output-dir", run)).as(err.toString()).isZero();
+                arguments.add(run);
+            }
+        }
+        out.getBuffer().setLength(0);
+
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("at equal evaluations (16), from 2 fresh starts: median distance of the runs' means [",
+                "\n   runs 1+3  ", "\n   runs 2+4  ", "\n   runs 1+3 less runs 2+4  ", "]: too few to tell\n");
     }
 
     @ParameterizedTest
@@ -295,6 +326,8 @@ class CommandLineTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
+        "compare-optimizers --output-dir NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
+        "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000",
         "compare-optimizers --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
         "compare-optimizers --output-dir NEVER --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
         "compare-optimizers --output-dir NEVER --cma-es-population 1000000|population is 1000000; expected a whole number"})

@@ -16,6 +16,11 @@ import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 public record EvaluationStatistics(long evaluations, long unchanged, long fromCache, long stoppedEarly,
         double simulatedSeconds, double wholeSeconds) {
 
+    /** Of an evaluation that nothing ends early, in seconds; 0 without evaluations. */
+    public double duration() {
+        return evaluations == 0 ? 0 : wholeSeconds / evaluations;
+    }
+
     /** Share of the simulated time that early stops saved; 0 without evaluations. */
     public double shareOfEarlyStops() {
         return wholeSeconds > 0 ? 1 - simulatedSeconds / wholeSeconds : 0;

@@ -1,42 +1,53 @@
 package io.natator.checkpoint;
 
 import io.natator.config.EvolutionSettings;
+import io.natator.evolution.Estimate;
 import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.Surest;
 import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
 import java.util.Comparator;
-import java.util.LinkedHashMap;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.NavigableSet;
+import java.util.TreeSet;
 
 /** The gaits of a run as its evaluations become known one after another. */
 final class JudgedGaits {
 
     private final EvolutionSettings settings;
-    private final Map<List<Double>, Runs> gaits = new LinkedHashMap<>();
-    private Runs best;
+    private final Map<List<Double>, Runs> gaits = new HashMap<>();
+    /** Those that count, the best first, the earlier of equals. */
+    private final NavigableSet<Runs> ranked = new TreeSet<>(
+            Comparator.comparingDouble((Runs one) -> one.estimate.score()).reversed().thenComparingInt(one -> one.number));
+    private int numbers;
 
     /** A gait's runs. */
     private final class Runs {
         private final EvaluationRecord first;
-        private final List<Double> scores = new ArrayList<>();
+        private final int number = numbers++;
+        private Estimate estimate = new Estimate(0, List.of(), null);
         private boolean measured;
 
         Runs(EvaluationRecord first) {
             this.first = first;
         }
 
-        double score() {
-            return settings.judge().of(scores);
+        void add(SimulationResult result) {
+            List<Double> runs = new ArrayList<>(estimate.runs());
+            runs.add(result.score());
+            estimate = new Estimate(settings.judge().of(runs), runs, null);
+            measured |= result.status() == SimulationResult.Status.OK;
         }
 
         /** Whether it has all the runs of a newborn, and swam in one. */
         boolean counts() {
-            return measured && scores.size() >= settings.starts();
+            return measured && estimate.runs().size() >= settings.starts();
         }
 
         JudgedGait judged() {
-            return new JudgedGait(first.gait(), first.generation(), score(), scores.size());
+            return new JudgedGait(first.genes(), first.gait(), first.generation(), estimate.score(), estimate.runs().size());
         }
     }
 
@@ -45,36 +56,27 @@ final class JudgedGaits {
     }
 
     void add(EvaluationRecord evaluation) {
-        // With one start each evaluation is a gait of its own, also where the same genes came up twice.
-        Runs runs = settings.starts() == 1 ? new Runs(evaluation)
-                : gaits.computeIfAbsent(evaluation.genes(), genes -> new Runs(evaluation));
-        runs.scores.add(evaluation.result().score());
-        runs.measured |= evaluation.result().status() == SimulationResult.Status.OK;
-        if (settings.starts() == 1) {
-            gaits.putIfAbsent(evaluation.genes(), runs);
+        Runs known = gaits.get(evaluation.genes());
+        if (settings.starts() == 1 && known != null && known.counts()) {
+            return; // The same run again tells nothing new.
         }
-        if (runs == best) {
-            best = null;
-            gaits.values().forEach(this::offer);
-        } else {
-            offer(runs);
+        Runs runs = settings.starts() == 1 || known == null ? new Runs(evaluation) : known;
+        gaits.put(evaluation.genes(), runs);
+        ranked.remove(runs);
+        runs.add(evaluation.result());
+        if (runs.counts()) {
+            ranked.add(runs);
         }
     }
 
-    private void offer(Runs one) {
-        if (one.counts() && (best == null || one.score() > best.score())) {
-            best = one;
-        }
-    }
-
-    /** The best so far, the earliest of equals; null without any. */
+    /** Whom the run would take for its winner, had it ended here; null without any. */
     JudgedGait best() {
-        return best == null ? null : best.judged();
+        List<Runs> best = ranked.stream().limit(settings.starts() == 1 ? 1 : Math.max(settings.elites(), 1)).toList();
+        return best.isEmpty() ? null : best.get(Surest.of(best.stream().map(one -> one.estimate).toList())).judged();
     }
 
     /** All that swam, the best first. */
     List<JudgedGait> ranked() {
-        return gaits.values().stream().filter(Runs::counts).map(Runs::judged)
-                .sorted(Comparator.comparingDouble(JudgedGait::score).reversed()).toList();
+        return ranked.stream().map(Runs::judged).toList();
     }
 }

@@ -14,6 +14,8 @@ import io.natator.file.JsonLines;
 import io.natator.simulator.SimulationResult;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 import java.util.SortedMap;
 import java.util.TreeMap;
@@ -187,12 +189,28 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** Best fitness after each evaluation. */
     public double[] bestFitness() {
-        JudgedGaits gaits = new JudgedGaits(settings);
         double[] best = new double[evaluations.size()];
-        for (int i = 0; i < best.length; i++) {
-            gaits.add(evaluations.get(i));
-            best[i] = gaits.best() == null ? 0 : Math.max(gaits.best().score(), 0);
-        }
+        leaders().forEach(one -> Arrays.fill(best, one.evaluation(), best.length, one.fitness()));
         return best;
+    }
+
+    /** The course of the run: whom it would have taken for its winner, the earliest first. */
+    public List<Leader> leaders() {
+        JudgedGaits gaits = new JudgedGaits(settings);
+        List<Leader> leaders = new ArrayList<>();
+        JudgedGait before = null;
+        double simulated = 0;
+        for (int i = 0; i < evaluations.size(); i++) {
+            gaits.add(evaluations.get(i));
+            if (statistics != null) {
+                simulated += evaluations.get(i).result().simulatedOf(statistics.duration());
+            }
+            JudgedGait best = gaits.best();
+            if (best != null && !best.equals(before)) {
+                leaders.add(new Leader(i, statistics == null ? null : simulated, best.genes(), Math.max(best.score(), 0)));
+                before = best;
+            }
+        }
+        return leaders;
     }
 }

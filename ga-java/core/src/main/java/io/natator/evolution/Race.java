@@ -1,7 +1,6 @@
 package io.natator.evolution;
 
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Judge;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.LinkedHashMap;
@@ -80,27 +79,11 @@ final class Race {
         return first(ranked());
     }
 
-    /**
-     * Whom to take for the best: of the champions the one that is worth most less a standard error, since the greatest of
-     * many means of few runs is mostly luck. Null without champions.
-     */
+    /** Whom of the champions to take for the best; null without champions. */
     Individual winner() {
         List<Individual> champions = first(ranked());
-        double deviation = deviation(champions);
-        return champions.stream()
-                .max(Comparator.comparingDouble(one -> one.score() - deviation / Math.sqrt(one.runs()))).orElse(null);
-    }
-
-    /** How far the runs of a gait scatter, by all runs of all these together. */
-    private static double deviation(List<Individual> individuals) {
-        double squares = 0;
-        int freedom = 0;
-        for (Individual one : individuals) {
-            double mean = Judge.MEAN.of(one.estimate().runs());
-            squares += one.estimate().runs().stream().mapToDouble(run -> (run - mean) * (run - mean)).sum();
-            freedom += one.runs() - 1;
-        }
-        return freedom == 0 ? 0 : Math.sqrt(squares / freedom);
+        return champions.isEmpty() ? null
+                : champions.get(Surest.of(champions.stream().map(Individual::estimate).toList()));
     }
 
     /** An individual as it is known now. */

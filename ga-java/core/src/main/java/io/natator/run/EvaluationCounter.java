@@ -65,12 +65,10 @@ final class EvaluationCounter implements EvolutionListener {
         if (evaluation.start() != null) {
             newborns.add(evaluation.genes());
         }
-        if (result.status() == SimulationResult.Status.OK && !"completed".equals(result.stopped())) {
+        if (result.isStoppedEarly()) {
             stoppedEarly++;
-            simulated += result.simulated();
-        } else {
-            simulated += duration;
         }
+        simulated += result.simulatedOf(duration);
     }
 
     @Override

@@ -118,16 +118,20 @@ public final class EvolutionRun {
             all.add(new VacuumCheck(folder, evaluator));
         }
         all.addAll(listeners);
-        Evaluator rewarding = settings.objectives() != null ? new ObjectiveEvaluator(evaluator, settings.objectives())
-                : settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
-        EvolutionState state = new Evolution(settings, rewarding, all, folder.recorded()).run(folder.checkpoint());
+        EvolutionState state = new Evolution(settings, rewarding(settings, evaluator), all, folder.recorded()).run(folder.checkpoint());
         BestGait best = folder.writeResults(state);
         if (best != null) {
-            best = examined(best, state.best(), new FreshStarts(settings, rewarding, execution.simulator()), evaluator,
+            best = examined(best, state.best(), new FreshStarts(settings, evaluator, execution.simulator()), evaluator,
                     scene.bodyLength());
             folder.write(best);
         }
         return new Outcome(state, best);
+    }
+
+    /** An evaluator whose results are worth what the run rewards. */
+    static Evaluator rewarding(EvolutionSettings settings, Evaluator evaluator) {
+        return settings.objectives() != null ? new ObjectiveEvaluator(evaluator, settings.objectives())
+                : settings.fitness() == FitnessKind.NET ? new NetEvaluator(evaluator) : evaluator;
     }
 
     /** The winner with what it does from fresh starts, and in vacuum for as long as it swam. */

@@ -12,11 +12,12 @@ import io.natator.simulator.SimulationResult;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.stream.IntStream;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** Runs a winner from starts that no generation had, as the run simulates and at half the time step. */
-final class FreshStarts {
+/** Runs gaits from starts that no generation had, as the run simulates; its winner at half the time step too. */
+public final class FreshStarts {
 
     private static final Logger LOG = LoggerFactory.getLogger(FreshStarts.class);
     /** Runs at each time step: twice those that a newborn has, and enough for a standard deviation. */
@@ -27,20 +28,45 @@ final class FreshStarts {
     private final WinnerRuns again;
 
     /**
-     * For the winner of one run.
+     * For the gaits of one run.
      *
-     * @param evaluator as in the run: what it measures is judged as there
+     * @param evaluator carries out the evaluations; what it measures is judged as in the run
      * @param simulator the native program
      */
-    FreshStarts(EvolutionSettings settings, Evaluator evaluator, Path simulator) throws InterruptedException {
+    public FreshStarts(EvolutionSettings settings, Evaluator evaluator, Path simulator) throws InterruptedException {
         this.settings = settings;
-        this.evaluator = evaluator;
+        this.evaluator = EvolutionRun.rewarding(settings, evaluator);
         this.again = new WinnerRuns(settings, simulator);
+    }
+
+    /** From how many starts a run's winner is run again. */
+    public static int usual(EvolutionSettings settings) {
+        return Math.max(LEAST, 2 * settings.starts());
+    }
+
+    /**
+     * Gaits of the run again, all from the same starts: the more there are, the first are the same.
+     *
+     * @param genomes what stands for the gaits
+     * @param starts  of each
+     * @return what came of each, in this order
+     * @throws RequestRejectedException if the simulator refuses that
+     */
+    public List<List<SimulationResult>> each(List<List<Double>> genomes, int starts) throws InterruptedException {
+        List<SimulationRequest> requests = new ArrayList<>();
+        for (List<Double> genes : genomes) {
+            for (SimulationRequest one : again.requests(gait(genes), starts, null)) {
+                requests.add(one.withId(requests.size()));
+            }
+        }
+        List<SimulationResult> results = new ArrayList<>();
+        evaluator.evaluateInOrder(requests, results::add);
+        return IntStream.range(0, genomes.size()).mapToObj(i -> results.subList(i * starts, (i + 1) * starts)).toList();
     }
 
     /** The winner again, or null if the simulator refuses that. */
     FreshRuns of(Individual winner) throws InterruptedException {
-        Gait gait = gait(winner);
+        Gait gait = gait(winner.genes());
         List<SimulationResult> base = runs(gait, null);
         if (base == null) {
             return null;
@@ -53,7 +79,7 @@ final class FreshStarts {
 
     /** From the fresh starts; null, and a word of it, if the simulator refuses them. What the run found is not lost by that. */
     private List<SimulationResult> runs(Gait gait, ObjectNode change) throws InterruptedException {
-        int starts = Math.max(LEAST, 2 * settings.starts());
+        int starts = usual(settings);
         List<SimulationResult> results = new ArrayList<>();
         try {
             evaluator.evaluateInOrder(again.requests(gait, starts, change), results::add);
@@ -66,11 +92,11 @@ final class FreshStarts {
 
     /** The winner from the scene's own start, as whoever watches it sees it. */
     SimulationResult fromOwnStart(Individual winner) throws InterruptedException {
-        return evaluator.evaluate(new SimulationRequest(winner.result().id(), settings.scene(), gait(winner),
+        return evaluator.evaluate(new SimulationRequest(winner.result().id(), settings.scene(), gait(winner.genes()),
                 settings.duration(), settings.scheme(), settings.overrides()));
     }
 
-    private Gait gait(Individual winner) {
-        return settings.encoding().forActuators(settings.actuators()).decode(winner.genes());
+    private Gait gait(List<Double> genes) {
+        return settings.encoding().forActuators(settings.actuators()).decode(genes);
     }
 }

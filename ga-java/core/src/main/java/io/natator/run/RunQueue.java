@@ -4,17 +4,8 @@ import io.natator.checkpoint.RunFolder;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
-import io.natator.evolution.EvolutionStoppedException;
 import io.natator.simulator.Evaluator;
-import java.util.ArrayList;
 import java.util.List;
-import java.util.concurrent.ConcurrentLinkedQueue;
-import java.util.concurrent.ExecutionException;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
-import java.util.concurrent.Future;
-import java.util.concurrent.TimeUnit;
-import java.util.function.Supplier;
 
 /** Carries out many runs, several at the same time with one evaluator, so that their generations share a batch. */
 public final class RunQueue {
@@ -35,6 +26,10 @@ public final class RunQueue {
         /** A run has reached its end; its folder is still open. */
         void finished(RunFolder run, EvolutionRun.Outcome outcome);
 
+        /** Something to tell, in one line. */
+        default void said(String line) {
+        }
+
         /** An own listener for a run that is about to begin or to continue. */
         EvolutionListener forRun();
     }
@@ -50,44 +45,8 @@ public final class RunQueue {
      */
     public boolean run(ExecutionSettings execution, Evaluator evaluator, int atOnce, Watcher watcher)
             throws InterruptedException {
-        ConcurrentLinkedQueue<PlannedRun> waiting = new ConcurrentLinkedQueue<>(
-                runs.stream().filter(run -> !run.isFinished()).toList());
-        ExecutorService threads = Executors.newFixedThreadPool(atOnce);
-        try {
-            List<Future<Boolean>> lanes = new ArrayList<>();
-            for (int i = 0; i < atOnce; i++) {
-                lanes.add(threads.submit(() -> work(waiting::poll, execution, evaluator, watcher)));
-            }
-            boolean all = true;
-            for (Future<Boolean> lane : lanes) {
-                all &= lane.get();
-            }
-            return all;
-        } catch (ExecutionException e) {
-            evaluator.close();
-            if (e.getCause() instanceof RuntimeException cause) {
-                throw cause;
-            }
-            throw new IllegalStateException(e.getCause());
-        } finally {
-            threads.shutdown();
-            threads.awaitTermination(1, TimeUnit.MINUTES);
-        }
-    }
-
-    private static boolean work(Supplier<PlannedRun> waiting, ExecutionSettings execution, Evaluator evaluator,
-            Watcher watcher) throws InterruptedException {
-        try {
-            for (PlannedRun run = waiting.get(); run != null; run = waiting.get()) {
-                carryOut(run, execution, evaluator, watcher);
-            }
-            return true;
-        } catch (EvolutionStoppedException | InterruptedException e) {
-            return false;
-        } catch (RuntimeException e) {
-            evaluator.close();
-            throw e;
-        }
+        return Lanes.carryOut(runs.stream().filter(run -> !run.isFinished())
+                .<Lanes.Work>map(run -> () -> carryOut(run, execution, evaluator, watcher)).toList(), evaluator, atOnce);
     }
 
     private static void carryOut(PlannedRun run, ExecutionSettings execution, Evaluator evaluator, Watcher watcher)

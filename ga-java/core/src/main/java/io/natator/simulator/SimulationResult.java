@@ -1,5 +1,6 @@
 package io.natator.simulator;
 
+import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
@@ -127,6 +128,21 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** The fitness that selection works with: the score of what swims forwards, never negative nor NaN. */
     public double fitness() {
         return Math.max(score(), 0.0);
+    }
+
+    /** Whether it ended before its time though nothing was wrong. */
+    @JsonIgnore
+    public boolean isStoppedEarly() {
+        return status == Status.OK && !"completed".equals(stopped);
+    }
+
+    /**
+     * Time simulated in seconds; what was unstable or failed counts as if it had lasted to the end.
+     *
+     * @param duration of an evaluation that nothing ends early
+     */
+    public double simulatedOf(double duration) {
+        return isStoppedEarly() ? simulated : duration;
     }
 
     /** Mean speed over the simulated time in scene units per second, or 0 where there is no distance. */

@@ -1,8 +1,11 @@
 package io.natator.study.optimizer;
 
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
+import io.natator.run.Lanes;
 import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import java.nio.file.Path;
@@ -21,6 +24,8 @@ public final class OptimizerStudy {
     private final Path directory;
     private final List<OptimizerRun> runs = new ArrayList<>();
     private final Map<String, RunSummaries> kept = new LinkedHashMap<>();
+    private final Map<String, FreshResults> again = new LinkedHashMap<>();
+    private final int rankStarts;
 
     /**
      * What is to be compared.
@@ -30,12 +35,16 @@ public final class OptimizerStudy {
      * @param variants    at least one
      * @param seeds          runs of each with seeds 1, 2, …; at least 1
      * @param cmaEsPopulation evaluations in a generation of CMA-ES, or null for its inventor's 4 + ⌊3 ln n⌋ with n genes
+     * @param rankStarts     fresh starts by which the gaits of each run's last generation are ranked; 0: they are not
      * @param directory      where the run folders and results go
+     * @throws InvalidInputException if the last generation of a run that is only a line is to be ranked
      */
     public OptimizerStudy(Map<String, EvolutionSettings> scenes, List<OptimizerVariant> variants, int seeds,
-            Integer cmaEsPopulation, Path directory) {
+            Integer cmaEsPopulation, int rankStarts, Path directory) {
         Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
         this.directory = directory;
+        this.rankStarts = rankStarts;
+        scenes.keySet().forEach(scene -> again.put(scene, new FreshResults(directory, scene)));
         scenes.keySet().forEach(scene -> kept.put(scene, new RunSummaries(directory, scene)));
         for (int seed = 1; seed <= seeds; seed++) {
             for (Map.Entry<String, EvolutionSettings> scene : scenes.entrySet()) {
@@ -51,6 +60,16 @@ public final class OptimizerStudy {
                 }
             }
         }
+        long unknown = runs.stream().filter(run -> run.summary() != null && !isRanked(run)
+                && !StoredRun.exists(run.directory())).count();
+        if (unknown > 0) {
+            throw new InvalidInputException("--rank-starts is " + rankStarts + "; the last generation of " + unknown
+                    + " runs, which --compact left only a line of, can no longer be ranked from so many");
+        }
+    }
+
+    private boolean isRanked(OptimizerRun run) {
+        return FreshWork.isRanked(run, rankStarts, again.get(run.scene()));
     }
 
     private static int usualSize(EvolutionSettings settings) {
@@ -83,25 +102,65 @@ public final class OptimizerStudy {
     }
 
     /**
-     * Carries out what is missing.
+     * Carries out what is missing: the runs, then what they are compared by from fresh starts.
      *
      * @param execution how the evaluator works, for the record
      * @param evaluator carries out the evaluations; closed if a run fails
      * @param atOnce    runs under way at the same time, at least 1
-     * @return whether all runs are finished; false if the evaluator was closed meanwhile
+     * @return whether all is done; false if the evaluator was closed meanwhile
      * @throws InterruptedException if the calling thread is interrupted
      */
     public boolean run(ExecutionSettings execution, Evaluator evaluator, int atOnce, RunQueue.Watcher watcher)
             throws InterruptedException {
-        return new RunQueue(runs.stream().filter(run -> run.summary() == null).map(OptimizerRun::plan).toList())
+        boolean all = new RunQueue(runs.stream().filter(run -> run.summary() == null).map(OptimizerRun::plan).toList())
                 .run(execution, evaluator, atOnce, watcher);
+        return all && runAgain(execution, evaluator, atOnce, watcher);
     }
 
-    /** Keeps a line of every finished run in {@code SCENE.jsonl}, and removes its folder. */
+    private boolean runAgain(ExecutionSettings execution, Evaluator evaluator, int atOnce, RunQueue.Watcher watcher)
+            throws InterruptedException {
+        List<FreshWork> missing = missing();
+        if (!missing.isEmpty()) {
+            watcher.said("running " + missing.stream().mapToInt(one -> one.genomes().size()).sum()
+                    + " gaits again from fresh starts" + (rankStarts == 0 ? "" : ", and ranking the last generations of "
+                    + missing.stream().filter(one -> one.rankStarts() > 0).count() + " runs"));
+        }
+        try {
+            return Lanes.carryOut(missing.stream().map(one -> one.with(evaluator, execution.simulator())).toList(), evaluator,
+                    atOnce);
+        } finally {
+            again.values().forEach(FreshResults::close);
+        }
+    }
+
+    /** What is still to be run from fresh starts, once all runs are finished. */
+    private List<FreshWork> missing() {
+        runs.replaceAll(run -> run.isFinished() ? run.summarised() : run);
+        List<FreshWork> missing = new ArrayList<>();
+        for (OptimizerRun run : finishedRuns()) {
+            List<RunSummary> all = runs.stream().filter(other -> other.scene().equals(run.scene()) && other.isFinished())
+                    .map(OptimizerRun::summary).toList();
+            FreshWork work = FreshWork.of(run, all, rankStarts, again.get(run.scene()));
+            if (!work.isDone()) {
+                missing.add(work);
+            }
+        }
+        return missing;
+    }
+
+    /** How many runs are finished and compared from fresh starts as far as that is to be. */
+    public int compared() {
+        return finished() - missing().size();
+    }
+
+    /**
+     * Keeps a line of every finished run in {@code SCENE.jsonl}, and removes its folder; not of those whose last generation is
+     * still to be ranked.
+     */
     public void compact() {
         runs.replaceAll(run -> run.isFinished() ? run.summarised() : run);
-        kept.forEach((scene, summaries) -> summaries.keep(
-                finishedRuns().stream().filter(run -> run.scene().equals(scene)).toList()));
+        kept.forEach((scene, summaries) -> summaries.keep(finishedRuns().stream()
+                .filter(run -> run.scene().equals(scene) && isRanked(run)).toList()));
     }
 
     /**
@@ -112,6 +171,6 @@ public final class OptimizerStudy {
      */
     public Path report(String command) {
         return OptimizerReport.write(finishedRuns().stream().map(OptimizerRun::summarised).toList(), runs.size(), command,
-                directory);
+                directory, again);
     }
 }

@@ -1,9 +1,11 @@
 package io.natator.study.optimizer;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
+import io.natator.checkpoint.Leader;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.GenerationSummary;
@@ -21,7 +23,7 @@ import java.util.List;
  * @param statistics   what it did not have to simulate, as {@code savings.json}; null if that was not recorded
  * @param best         its best gait, or null if there is none
  * @param generations  figures of each
- * @param improvements where the best fitness so far rose; null where only the generations are known
+ * @param improvements where the best gait so far, or its fitness, changed; null where only the generations are known
  */
 record RunSummary(@JsonProperty(required = true) String optimizer,
         @JsonProperty(required = true) EvolutionSettings settings, JsonNode environment, JsonNode statistics,
@@ -29,26 +31,31 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         List<Improvement> improvements) {
 
     /**
-     * An evaluation that changed how good the best gait is; for the worse, where it was that gait's own, from another start.
+     * An evaluation that changed which gait is the best or how good it is; for the worse, where it was that gait's own, from
+     * another start.
      *
      * @param evaluation its number, from 0
-     * @param fitness    what it was judged by
+     * @param fitness    what the best is worth from then on
+     * @param simulated  time simulated until then in all evaluations, in seconds; null in old studies
+     * @param genes      of the best; null where it is the same as before, and in old studies
      */
-    record Improvement(@JsonProperty(required = true) int evaluation, @JsonProperty(required = true) double fitness) {
+    @JsonInclude(JsonInclude.Include.NON_NULL)
+    record Improvement(@JsonProperty(required = true) int evaluation, @JsonProperty(required = true) double fitness,
+            Double simulated, List<Double> genes) {
     }
 
-    /** Of the finished run in a folder. */
+    /** Of the run in a folder, finished or not. */
     static RunSummary of(String optimizer, Path directory) {
         StoredRun run = StoredRun.in(directory);
         List<Improvement> improvements = new ArrayList<>();
-        double[] best = run.bestFitness();
-        for (int i = 0; i < best.length; i++) {
-            if (i == 0 || best[i] != best[i - 1]) {
-                improvements.add(new Improvement(i, best[i]));
-            }
+        List<Double> before = null;
+        for (Leader one : run.leaders()) {
+            improvements.add(new Improvement(one.evaluation(), one.fitness(), one.simulated(),
+                    one.genes().equals(before) ? null : one.genes()));
+            before = one.genes();
         }
         return new RunSummary(optimizer, run.settings(), run.document("environment.json"),
-                run.document("savings.json"), run.best(), run.state().history(), improvements);
+                run.document("savings.json"), run.best(), run.state() == null ? List.of() : run.state().history(), improvements);
     }
 
     /** How many evaluations it took. */
@@ -64,6 +71,39 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
             Arrays.fill(curve, improvements.get(i).evaluation(), end, improvements.get(i).fitness());
         }
         return curve;
+    }
+
+    /** Time simulated in all evaluations, in seconds; NaN if that is not known. */
+    double simulated() {
+        boolean known = statistics != null && statistics.hasNonNull("simulatedSeconds");
+        return known ? statistics.get("simulatedSeconds").asDouble() : Double.NaN;
+    }
+
+    /**
+     * The gait that the run would have taken for its winner, had it ended earlier.
+     *
+     * @param place what it would have spent then
+     * @return its genes; null if there is none, or it is not known
+     */
+    List<Double> leader(EqualBudget budget, double place) {
+        if (place >= budget.of(this)) {
+            return best == null ? null : best.genes();
+        }
+        List<Double> genes = null;
+        for (Improvement one : improvements) {
+            Double spent = budget == EqualBudget.EVALUATIONS ? Double.valueOf(one.evaluation() + 1.0) : one.simulated();
+            if (spent == null || spent > place) {
+                break;
+            }
+            genes = one.genes() != null ? one.genes() : genes;
+        }
+        return genes;
+    }
+
+    /** What the best gait was worth when it was chosen. */
+    double selected() {
+        double[] curve = curve();
+        return best != null && best.selected() != null ? best.selected() : curve.length == 0 ? 0 : curve[curve.length - 1];
     }
 
     /** What the best gait does from fresh starts; null in old studies. */

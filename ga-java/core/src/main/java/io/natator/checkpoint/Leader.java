@@ -1,0 +1,15 @@
+package io.natator.checkpoint;
+
+import java.util.List;
+
+/**
+ * Whom a run would have taken for its winner from an evaluation on, had it ended there, until another leads or more runs
+ * change what it is worth.
+ *
+ * @param evaluation number of the evaluation, from 0
+ * @param simulated  time simulated until then, in seconds; null where the time of a whole run is not recorded
+ * @param genes      of the gait, in the order of the encoding
+ * @param fitness    its worth by all its runs so far; never negative
+ */
+public record Leader(int evaluation, Double simulated, List<Double> genes, double fitness) {
+}

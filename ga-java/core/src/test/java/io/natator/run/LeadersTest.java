@@ -1,0 +1,77 @@
+package io.natator.run;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+import io.natator.checkpoint.Leader;
+import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.Judge;
+import io.natator.evolution.ToySimulator;
+import io.natator.simulator.FakeSimulator;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.Simulator;
+import io.natator.simulator.WorkerPool;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+/** Whom a run would have taken for its winner, had it ended earlier. */
+class LeadersTest {
+
+    @TempDir
+    private Path folder;
+
+    /** The toy swimmer, who touches a wall after 1 s of 4 if it is quick. */
+    private static final class Hurried implements Simulator {
+
+        private final Simulator toy = new ToySimulator();
+
+        @Override
+        public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+            SimulationResult one = toy.evaluate(request);
+            return one.distance() < 0.2 ? one : new SimulationResult(one.id(), one.status(), one.distance(), "touched-plane", 1.0,
+                    60, one.scheme(), one.precision(), one.hash(), null, null);
+        }
+
+        @Override
+        public void close() {
+            toy.close();
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource({"1, 1", "1, 2", "3, 1", "3, 2", "4, 3"})
+    void theLastLeaderIsTheWinner(int starts, long seed) throws InterruptedException {
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(20, 8)
+                .withStarts(starts, Judge.MEAN).withSeed(seed);
+        ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+        try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
+                WorkerPool pool = new WorkerPool(new Hurried(), 2)) {
+            new EvolutionRun(run).run(how, pool);
+        }
+        StoredRun run = StoredRun.in(folder.resolve("run"));
+
+        List<Leader> leaders = run.leaders();
+
+        Leader last = leaders.get(leaders.size() - 1);
+        assertThat(last.genes()).isEqualTo(run.best().genes());
+        assertThat(last.fitness()).isCloseTo(run.best().selected(), within(1e-12));
+        assertThat(run.bestFitness()).hasSize(run.evaluations().size()).endsWith(last.fitness());
+        assertThat(leaders).extracting(Leader::evaluation).isSorted().doesNotHaveDuplicates();
+        for (Leader one : leaders) {
+            double until = run.evaluations().subList(0, one.evaluation() + 1).stream()
+                    .mapToDouble(done -> done.result().distance() < 0.2 ? 4 : 1).sum();
+            assertThat(one.simulated()).isEqualTo(until);
+        }
+        assertThat(run.evaluations().get(leaders.get(0).evaluation()).result().id()).isEqualTo(starts - 1L);
+        assertThat(run.statistics().simulatedSeconds()).isLessThan(run.statistics().wholeSeconds());
+    }
+}

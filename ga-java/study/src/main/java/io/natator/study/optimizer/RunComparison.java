@@ -1,0 +1,123 @@
+package io.natator.study.optimizer;
+
+import io.natator.checkpoint.Spread;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.Numbers;
+import io.natator.run.FreshStarts;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.SimulationResult;
+import io.natator.study.statistics.MedianInterval;
+import io.natator.study.statistics.PairTest;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.stream.Collectors;
+
+/**
+ * Some runs side by side by what their best gaits do from fresh starts, after equal numbers of evaluations and after equal
+ * simulated time. Runs that differ in nothing but their seeds stand together where all have such company: then each run
+ * counts as one value, its mean; else each start of a run does.
+ */
+public final class RunComparison {
+
+    private final List<RunSummary> runs;
+    private final int starts;
+    private final List<Map<List<Double>, List<Double>>> distances = new ArrayList<>();
+
+    /**
+     * Runs that may still be under way.
+     *
+     * @param folders of the runs, at least two
+     * @param starts  fresh starts of each gait
+     */
+    public RunComparison(List<Path> folders, int starts) {
+        this.runs = folders.stream().map(folder -> RunSummary.of("", folder)).toList();
+        this.starts = starts;
+    }
+
+    /** How many swims that takes. */
+    public int swims() {
+        return starts * runs.stream().mapToInt(run -> genomes(run).size()).sum();
+    }
+
+    /** Runs the gaits. */
+    public void run(Evaluator evaluator, Path simulator) throws InterruptedException {
+        for (RunSummary run : runs) {
+            List<List<Double>> genomes = genomes(run);
+            List<List<SimulationResult>> again = new FreshStarts(run.settings(), evaluator, simulator).each(genomes, starts);
+            Map<List<Double>, List<Double>> own = new HashMap<>();
+            for (int i = 0; i < genomes.size(); i++) {
+                own.put(genomes.get(i), again.get(i).stream().map(SimulationResult::distanceOrZero).toList());
+            }
+            distances.add(own);
+        }
+    }
+
+    private List<List<Double>> genomes(RunSummary run) {
+        List<List<Double>> genomes = new ArrayList<>();
+        for (EqualBudget budget : EqualBudget.values()) {
+            List<Double> leader = run.leader(budget, budget.at(1, runs));
+            if (leader != null && !genomes.contains(leader)) {
+                genomes.add(leader);
+            }
+        }
+        return genomes;
+    }
+
+    /** Tables as text, once the gaits were run. */
+    public List<String> lines() {
+        List<String> lines = new ArrayList<>();
+        List<List<Integer>> groups = groups();
+        boolean byRun = groups.get(0).size() > 1;
+        for (EqualBudget budget : EqualBudget.values()) {
+            double place = budget.at(1, runs);
+            if (Double.isNaN(place)) {
+                lines.add("at equal " + budget.label() + ": not recorded by these runs");
+                continue;
+            }
+            lines.add("at equal " + budget.label() + " (" + budget.text(place) + "), from " + starts
+                    + " fresh starts: median distance" + (byRun ? " of the runs' means" : "") + " [95 % bootstrap interval]");
+            Map<String, double[]> samples = new LinkedHashMap<>();
+            groups.forEach(group -> samples.put(name(group), sample(group, byRun, budget, place)));
+            samples.forEach((name, sample) -> lines.add("   " + name + "  "
+                    + (sample.length == 0 ? "no gait" : MedianInterval.of(sample).text(1, 4))));
+            PairTest.all(samples).forEach(pair -> lines.add("   " + pair.first() + " less " + pair.second() + "  "
+                    + pair.difference().text(1, 4) + ": " + pair.verdict()));
+        }
+        return lines;
+    }
+
+    /** Numbers of the runs that are taken together, in their order. */
+    private List<List<Integer>> groups() {
+        Map<EvolutionSettings, List<Integer>> bySettings = new LinkedHashMap<>();
+        for (int i = 0; i < runs.size(); i++) {
+            bySettings.computeIfAbsent(runs.get(i).settings().withSeed(0), settings -> new ArrayList<>()).add(i);
+        }
+        boolean company = bySettings.size() > 1 && bySettings.values().stream().allMatch(group -> group.size() > 1);
+        List<List<Integer>> alone = new ArrayList<>();
+        for (int i = 0; i < runs.size(); i++) {
+            alone.add(List.of(i));
+        }
+        return company ? List.copyOf(bySettings.values()) : alone;
+    }
+
+    private static String name(List<Integer> group) {
+        return (group.size() > 1 ? "runs " : "run ")
+                + group.stream().map(i -> Integer.toString(i + 1)).collect(Collectors.joining("+"));
+    }
+
+    private double[] sample(List<Integer> group, boolean byRun, EqualBudget budget, double place) {
+        List<Double> sample = new ArrayList<>();
+        for (int i : group) {
+            List<Double> leader = runs.get(i).leader(budget, place);
+            if (leader != null) {
+                List<Double> own = distances.get(i).get(leader);
+                sample.addAll(byRun ? List.of(Spread.of(own).mean()) : own);
+            }
+        }
+        return sample.stream().mapToDouble(Double::doubleValue).toArray();
+    }
+}

@@ -1,0 +1,2 @@
+/** What samples tell: medians with intervals, differences between samples, ranks. */
+package io.natator.study.statistics;
