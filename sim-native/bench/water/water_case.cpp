@@ -31,6 +31,7 @@ const std::vector<WaterCase>& water_cases() {
          {"viscosity (length^2/s)", "drag of the walls (of the exact)", "slip length (particle distances)"},
          run_poiseuille, true},
         {"spinning-sphere", "torque (of Kirchhoff's)", {"torque (of Kirchhoff's)"}, run_spinning_sphere, true},
+        {"slow-sphere", "torque (of Kirchhoff's)", {"torque (of Kirchhoff's)"}, run_slow_sphere, true},
         {"towed-sphere",
          "drag coefficient",
          {"drag coefficient at Re 100", "drag coefficient at Re 50", "drag coefficient at Re 20",

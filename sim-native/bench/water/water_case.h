@@ -74,6 +74,7 @@ WaterRun run_column(const WaterSetting& setting);
 WaterRun run_couette(const WaterSetting& setting);
 WaterRun run_poiseuille(const WaterSetting& setting);
 WaterRun run_spinning_sphere(const WaterSetting& setting);
+WaterRun run_slow_sphere(const WaterSetting& setting);
 WaterRun run_towed_sphere(const WaterSetting& setting);
 WaterRun run_towed_cylinder(const WaterSetting& setting);
 WaterRun run_shedding_cylinder(const WaterSetting& setting);
