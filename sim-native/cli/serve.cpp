@@ -53,13 +53,16 @@ void answer(const SharedJob& shared, const MemberResult& result) {
     std::visit([&shared](const auto& one) { answer(shared, one); }, result);
 }
 
-/// Jobs that one launch of the GPU can do: same scene, arrangement of its water, precision and device.
-using GroupKey = std::tuple<std::string, std::string, int, Precision, int>;
+/// Jobs that one launch of the GPU can do: same scene but for the arrangement of its water, precision and device.
+using GroupKey = std::tuple<std::string, std::string, Precision, int>;
 
 /// Evaluates jobs on the GPU, together but for those that cannot be done.
 void evaluate_group(const std::vector<SharedJob>& group) {
     std::vector<BatchMember> members;
-    for (const auto& [job, ids] : group) members.push_back({job.gait, job.request.perturbation});
+    for (const auto& [job, ids] : group) {
+        members.push_back({job.gait, job.request.perturbation});
+        if (job.scene.fluid) members.back().arrangement = job.scene.fluid->disorder;
+    }
     const Job& first = group.front().job;
     const auto together = [&first](const std::vector<BatchMember>& some) {
         return evaluate_on_gpu(first.scene, some, batch_options(first.request.precision, first.backend));
@@ -119,8 +122,7 @@ void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, T
             continue;
         }
         const Request& request = job.request;
-        const int arrangement = job.scene.fluid ? job.scene.fluid->disorder : 0;
-        groups[{request.scene, request.overrides.dump(), arrangement, request.precision, job.backend.device}].push_back(shared);
+        groups[{request.scene, request.overrides.dump(), request.precision, job.backend.device}].push_back(shared);
     }
     for (const auto& [key, jobs] : groups) evaluate_group(jobs);
 }

@@ -43,6 +43,29 @@ TEST_P(GpuBatch, AnyBatchSizeSlotAndRunGivesTheSameBits) {
     EXPECT_EQ(std::set<std::uint64_t>(all.begin(), all.end()).size(), all.size());
 }
 
+/// Members with water in several arrangements, among them the scene's own, are computed together.
+TEST_P(GpuBatch, ArrangementsOfTheWaterShareABatch) {
+    scene.fluid->disorder = 7;
+    std::vector<BatchMember> together = members(0, 12);
+    for (int k = 0; k < 12; ++k)
+        if (k % 4 > 0) together[k].arrangement = std::vector{0, 7, 3, 20}[k % 4];
+    together.push_back(together[1]);
+    together.back().arrangement = 3;
+    const std::vector<std::uint64_t> all = hashes(together);
+    EXPECT_EQ(all[12] == all[1], scene.scheme == Scheme::flex) << "another arrangement";
+    for (const int k : {0, 1, 2, 3, 5, 11, 12}) {
+        Scene own = scene;
+        own.fluid->disorder = together[k].arrangement.value_or(7);
+        const BatchMember alone{together[k].gait, together[k].perturbation};
+        EXPECT_EQ(evaluate_on_gpu(own, {alone}, {.precision = precision()})[0].hash, all[k]) << k << " alone";
+        if (precision() == Precision::double_precision && scene.scheme == Scheme::conserving && k == 1) {
+            const EvaluationOptions options{.precision = precision(), .perturbation = alone.perturbation};
+            EXPECT_NEAR(evaluate(own, alone.gait, options).distance,
+                        evaluate_on_gpu(scene, together, {.precision = precision()})[k].distance, 1e-7);
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Schemes, GpuBatch,
                          testing::Combine(testing::Values(Scheme::flex, Scheme::conserving),
                                           testing::Values(Precision::single_precision, Precision::double_precision)),

@@ -29,6 +29,7 @@ std::optional<std::string> gpu_refusal(const Scene& scene);
 struct BatchMember {
     Gait gait;
     Perturbation perturbation;
+    std::optional<int> arrangement{};  ///< of the water in scheme `conserving`: FluidBlock::disorder instead of the scene's
 };
 
 /// Where the time of a batch goes.

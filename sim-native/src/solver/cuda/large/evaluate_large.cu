@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
+#include <map>
+#include <tuple>
 
 #include "evaluate/perturb.h"
 #include "large_runner.h"
+#include "natator/model_builder.h"
 #include "physics/early_stop.h"
 #include "solver/cuda/evaluation.h"
 
@@ -22,19 +24,42 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
+using Points = std::vector<Eigen::Vector3d>;
+
+/// Members whose Models differ in nothing but where their water begins.
+struct Company {
+    Model model;                     ///< what the device knows of all of them
+    std::map<int, Points> begin;     ///< places of the particles, by arrangement
+    std::vector<BatchMember> members{};
+    std::vector<std::size_t> numbers{};  ///< of the members among all
+};
+
+int arrangement_of(const BatchMember& member, const Scene& scene) {
+    return scene.fluid ? member.arrangement.value_or(scene.fluid->disorder) : 0;
+}
+
+/// Where a member begins, if places are the same.
+using Start = std::tuple<int, double, std::uint64_t>;
+
+Start start_of(const BatchMember& member, const Scene& scene) {
+    const Perturbation& shift = member.perturbation;
+    return {arrangement_of(member, scene), shift.amplitude, shift.amplitude == 0 ? 0 : shift.seed};
+}
+
 /// Evaluates as many members at a time as there are States side by side.
 template <class Real>
 class LargeScene {
 public:
-    LargeScene(const Scene& scene, const Model& model, int states, BatchTimes* times)
-        : scene_(scene), model_(model), times_(times), runner_(model, states) {}
+    LargeScene(const Scene& scene, const Company& company, int states, BatchTimes* times)
+        : scene_(scene), company_(company), times_(times), runner_(company.model, states) {}
 
-    /// At most as many as there are States.
-    void evaluate(const BatchMember* members, int count, std::vector<Evaluation>& evaluations) {
-        progress_.assign(runner_.states(), Progress{});
+    /// Members from `first` on, at most as many as there are States.
+    void evaluate(int first, int count, std::vector<Evaluation>& evaluations) {
+        const BatchMember* const members = company_.members.data() + first;
         start(members, count);
+        forget_starts(first + count);
         const std::vector<Progress> settled = progress_;
-        typename Runner::Update update{0, scene_.time_step, model_.parameters.substeps, {}, false};
+        typename Runner::Update update{0, scene_.time_step, company_.model.parameters.substeps, {}, false};
         for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
         runner_.prepare(update);
         path_.assign(runner_.states(), {});
@@ -56,9 +81,9 @@ public:
         for (int k = 0; k < count; ++k) {
             const auto own = densities.begin() + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : k * fluid);
             evaluations.push_back(evaluation_of(
-                scene_, model_, runner_.model().particle_of(), progress_[k],
+                scene_, company_.model, runner_.model().particle_of(), progress_[k],
                 settled[k].stopped >= 0 ? nullptr : &members[k].gait, path_[k].data(), tail_[k],
-                runner_.download(k, initial_state<Real>(model_)),
+                runner_.download(k, initial_state<Real>(company_.model)),
                 std::vector<Real>(own, own + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : fluid))));
         }
     }
@@ -66,24 +91,43 @@ public:
 private:
     using Runner = LargeRunner<Real>;
 
-    /// Takes the members to their settled starts; those without a perturbation share one.
+    /// Takes the members to their settled starts; those that begin alike share one.
     void start(const BatchMember* members, int count) {
-        const auto is_perturbed = [](const BatchMember& member) { return member.perturbation.amplitude != 0; };
-        const bool alike = std::none_of(members, members + count, is_perturbed);
-        if (!alike || !shared_start_) {
-            for (int k = 0; k < runner_.states(); ++k) {
-                Model own = model_;
-                perturb(members[std::min(k, count - 1)].perturbation, own);
-                runner_.upload(k, initial_state<Real>(own));
-            }
-            settle(alike ? 1 : count);
+        std::vector<Start> unsettled;
+        for (int k = 0; k < count; ++k) {
+            const Start start = start_of(members[k], scene_);
+            if (!settled_.contains(start) && std::find(unsettled.begin(), unsettled.end(), start) == unsettled.end())
+                unsettled.push_back(start);
         }
-        if (!alike) return;
-        if (!shared_start_) shared_start_ = {runner_.download(0, initial_state<Real>(model_)), progress_[0]};
+        progress_.assign(runner_.states(), Progress{});
+        if (!unsettled.empty()) {
+            const int different = static_cast<int>(unsettled.size());
+            for (int k = 0; k < runner_.states(); ++k) runner_.upload(k, begin_of(unsettled[std::min(k, different - 1)]));
+            settle(different);
+            for (int k = 0; k < different; ++k)
+                settled_[unsettled[k]] = {runner_.download(k, initial_state<Real>(company_.model)), progress_[k]};
+        }
         for (int k = 0; k < runner_.states(); ++k) {
-            runner_.upload(k, shared_start_->first);
-            progress_[k] = shared_start_->second;
+            const auto& [state, progress] = settled_.at(start_of(members[std::min(k, count - 1)], scene_));
+            runner_.upload(k, state);
+            progress_[k] = progress;
         }
+    }
+
+    State<Real> begin_of(const Start& start) const {
+        const auto& [arrangement, amplitude, seed] = start;
+        Model own = company_.model;
+        own.position = company_.begin.at(arrangement);
+        perturb({amplitude, seed}, own);
+        return initial_state<Real>(own);
+    }
+
+    /// Keeps the settled starts that members from `next` on begin from.
+    void forget_starts(int next) {
+        std::map<Start, std::pair<State<Real>, Progress>> kept;
+        for (std::size_t k = next; k < company_.members.size(); ++k)
+            if (auto found = settled_.extract(start_of(company_.members[k], scene_))) kept.insert(std::move(found));
+        settled_ = std::move(kept);
     }
 
     void settle(int count) {
@@ -112,7 +156,7 @@ private:
     }
 
     void note(const std::vector<typename Runner::End>& ends, const typename Runner::Update& update) {
-        const bool swims = !model_.body.particles.empty();
+        const bool swims = !company_.model.body.particles.empty();
         const long window = swims ? std::lround(scene_.stopping.no_progress_after / scene_.time_step) : 0;
         for (int k = 0; k < runner_.states(); ++k) {
             Progress& progress = progress_[k];
@@ -138,13 +182,13 @@ private:
     }
 
     const Scene& scene_;
-    const Model& model_;
+    const Company& company_;
     BatchTimes* times_;
     Runner runner_;
     std::vector<Progress> progress_;
     std::vector<std::vector<double>> path_, tail_;  ///< mean x of the body, mean z of its last slice
     std::vector<bool> idle_;
-    std::optional<std::pair<State<Real>, Progress>> shared_start_;
+    std::map<Start, std::pair<State<Real>, Progress>> settled_;
 };
 
 /// So many fill a GPU; more at a time only take more memory.
@@ -152,15 +196,59 @@ constexpr int particles_at_a_time = 1'000'000;
 
 /// At most so many at a time, in parts of the same size as far as they go.
 template <class Real>
-std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Model& model,
-                                          const std::vector<BatchMember>& members, int most, BatchTimes* times) {
-    const int all = static_cast<int>(members.size());
+std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& company, int most, BatchTimes* times) {
+    const int all = static_cast<int>(company.members.size());
     const int parts = (all + most - 1) / most, states = (all + parts - 1) / parts;
-    LargeScene<Real> large(scene, model, states, times);
+    LargeScene<Real> large(scene, company, states, times);
     std::vector<Evaluation> evaluations;
     for (int first = 0; first < all; first += states)
-        large.evaluate(members.data() + first, std::min(states, all - first), evaluations);
+        large.evaluate(first, std::min(states, all - first), evaluations);
     return evaluations;
+}
+
+template <class Real>
+std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& company, BatchTimes* times) {
+    int most = std::min(static_cast<int>(company.members.size()), particles_at_a_time / company.model.particles() + 1);
+    for (;;) {
+        try {
+            return evaluate_in_parts<Real>(scene, company, most, times);
+        } catch (const std::bad_alloc&) {
+            if (most == 1) throw;
+            most = (most + 1) / 2;
+        }
+    }
+}
+
+Model arranged(Scene scene, int arrangement) {
+    scene.fluid->disorder = arrangement;
+    return build_model(scene);
+}
+
+/// Where nothing but the water's places depends on its arrangement, the device gets the Model of the usual one whatever the
+/// members', so that a member's bits do not depend on its company. An arrangement that asks for more substeps, say, stays
+/// alone.
+std::vector<Company> companies(const Scene& scene, const Model& model, const std::vector<BatchMember>& members) {
+    std::vector<Company> all;
+    std::map<int, std::size_t> company_of;
+    const bool arranges = model.scheme == Scheme::conserving && scene.fluid;
+    const int usual = arranges ? FluidBlock{}.disorder : 0;
+    all.push_back({arranges ? arranged(scene, usual) : model, {}});
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const int arrangement = arrangement_of(members[k], scene);
+        if (!company_of.contains(arrangement)) {
+            const Model own = arranges && arrangement != usual ? arranged(scene, arrangement) : all.front().model;
+            const Model& first = all.front().model;
+            const bool alike =
+                own.inverse_mass == first.inverse_mass && own.parameters.substeps == first.parameters.substeps;
+            if (!alike) all.push_back({own, {}});
+            company_of[arrangement] = alike ? 0 : all.size() - 1;
+            all[company_of[arrangement]].begin[arrangement] = own.position;
+        }
+        Company& company = all[company_of[arrangement]];
+        company.members.push_back(members[k]);
+        company.numbers.push_back(k);
+    }
+    return all;
 }
 
 }  // namespace
@@ -168,16 +256,13 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Model& model
 template <class Real>
 std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                        BatchTimes* times) {
-    const int all = static_cast<int>(members.size());
-    int most = std::min(all, particles_at_a_time / model.particles() + 1);
-    for (;;) {
-        try {
-            return evaluate_in_parts<Real>(scene, model, members, most, times);
-        } catch (const std::bad_alloc&) {
-            if (most == 1) throw;
-            most = (most + 1) / 2;
-        }
+    std::vector<Evaluation> evaluations(members.size());
+    for (const Company& company : companies(scene, model, members)) {
+        if (company.members.empty()) continue;
+        const std::vector<Evaluation> own = evaluate_company<Real>(scene, company, times);
+        for (std::size_t k = 0; k < own.size(); ++k) evaluations[company.numbers[k]] = own[k];
     }
+    return evaluations;
 }
 
 template std::vector<Evaluation> evaluate_large<float>(const Scene&, const Model&, const std::vector<BatchMember>&,
