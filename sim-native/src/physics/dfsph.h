@@ -179,8 +179,13 @@ NATATOR_HD T pressure_impulse(T target, T rate, T response, T density) {
     return density > R(wet_density) ? all : T{};
 }
 
-/// The pressure impulse that a particle may have before relief sets in. `strength`: kept_pressure times h and the fluid's
-/// mass density.
+/// Of kept_impulse, in a substep of length h. `fluid_density`: mass/length^3.
+template <class T>
+NATATOR_HD T kept_strength(T h, T fluid_density) {
+    return T(kept_pressure) * h * fluid_density;
+}
+
+/// The pressure impulse that a particle may have before relief sets in. `strength`: see kept_strength.
 template <class T>
 NATATOR_HD T kept_impulse(T fastest_square, Scalar<T> strength) {
     return strength * fastest_square;

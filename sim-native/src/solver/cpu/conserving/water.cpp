@@ -260,7 +260,7 @@ void Water<Real>::apply_impulses(ThreadTeam& team) {
 template <class Real>
 void Water<Real>::push_apart(ThreadTeam& team) {
     apply_impulses(team);
-    const Real strength = Real(physics::kept_pressure) * h_ * fluid_density_;
+    const Real strength = physics::kept_strength(h_, fluid_density_);
     on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->relieve(part, strength); });
     mirror_velocities();
 }

@@ -219,7 +219,9 @@ std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& comp
     }
 }
 
-Model arranged(Scene scene, int arrangement) {
+/// `model`: the scene's own.
+Model arranged(Scene scene, const Model& model, int arrangement) {
+    if (arrangement == scene.fluid->disorder) return model;
     scene.fluid->disorder = arrangement;
     return build_model(scene);
 }
@@ -232,11 +234,11 @@ std::vector<Company> companies(const Scene& scene, const Model& model, const std
     std::map<int, std::size_t> company_of;
     const bool arranges = model.scheme == Scheme::conserving && scene.fluid;
     const int usual = arranges ? FluidBlock{}.disorder : 0;
-    all.push_back({arranges ? arranged(scene, usual) : model, {}});
+    all.push_back({arranges ? arranged(scene, model, usual) : model, {}});
     for (std::size_t k = 0; k < members.size(); ++k) {
         const int arrangement = arrangement_of(members[k], scene);
         if (!company_of.contains(arrangement)) {
-            const Model own = arranges && arrangement != usual ? arranged(scene, arrangement) : all.front().model;
+            const Model own = arranges && arrangement != usual ? arranged(scene, model, arrangement) : all.front().model;
             const Model& first = all.front().model;
             const bool alike =
                 own.inverse_mass == first.inverse_mass && own.parameters.substeps == first.parameters.substeps;

@@ -282,7 +282,7 @@ template <class Real>
 __device__ Vec3<Real> relieve(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> zeroth = water.zeroth[s];
-    const Real strength = Real(physics::kept_pressure) * slots.h * model.water.density;
+    const Real strength = physics::kept_strength(slots.h, model.water.density);
     const Real now = physics::relief(water.density[s], water.impulse_sum[s],
                                      physics::kept_impulse(water.crowding[s].w, strength));
     water.zeroth[s].w = now;

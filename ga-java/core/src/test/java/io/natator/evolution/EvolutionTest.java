@@ -67,26 +67,13 @@ class EvolutionTest {
     @ParameterizedTest
     @EnumSource(OperatorSet.class)
     void continuesFromAnyGenerationAsIfNeverInterrupted(OperatorSet operators) {
-        List<EvolutionState> states = new ArrayList<>();
-        List<EvaluationRecord> recorded = new ArrayList<>();
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         EvolutionSettings settings = settings(operators, 20, 6, 8);
-        EvolutionState whole = run(settings, new ToySimulator(), 2, new EvolutionListener() {
-            @Override
-            public void evaluated(EvaluationRecord evaluation) {
-                recorded.add(evaluation);
-            }
+        EvolutionState whole = run(settings, new ToySimulator(), 2, recorder);
 
-            @Override
-            public void generationFinished(EvolutionState state) {
-                states.add(state);
-            }
-        });
-
-        assertThat(states).hasSize(7);
-        for (EvolutionState state : states) {
-            try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-                assertThat(new Evolution(settings, pool, List.of(), recorded).run(state)).isEqualTo(whole);
-            }
+        assertThat(recorder.states).hasSize(7);
+        for (EvolutionState state : recorder.states) {
+            assertThat(ToyEvolution.run(settings, 2, state, recorder.evaluations)).isEqualTo(whole);
         }
     }
 

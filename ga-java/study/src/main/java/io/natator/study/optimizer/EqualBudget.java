@@ -2,6 +2,8 @@ package io.natator.study.optimizer;
 
 import io.natator.config.Numbers;
 import java.util.List;
+import java.util.Objects;
+import java.util.stream.Stream;
 
 /** What all runs of a scene have spent when they are compared. */
 enum EqualBudget {
@@ -50,6 +52,18 @@ enum EqualBudget {
     /** A share of what all of these runs have spent at least; NaN if that is not known of any. */
     double at(double share, List<RunSummary> runs) {
         double all = runs.stream().mapToDouble(this::of).filter(Double::isFinite).min().orElse(Double.NaN);
-        return this == EVALUATIONS ? Math.max(1, Math.round(share * all)) : share * all;
+        return this == EVALUATIONS ? evaluations(share, (long) all) : share * all;
+    }
+
+    /** A share of so many evaluations, at least 1. */
+    static int evaluations(double share, long all) {
+        return (int) Math.max(1, Math.round(share * all));
+    }
+
+    /** The different gaits that led a run where it is compared with all of these, at these shares of either budget. */
+    static List<List<Double>> leaders(RunSummary run, List<RunSummary> all, List<Double> shares) {
+        return Stream.of(values())
+                .flatMap(budget -> shares.stream().map(share -> run.leader(budget, budget.at(share, all))))
+                .filter(Objects::nonNull).distinct().toList();
     }
 }

@@ -7,7 +7,6 @@ import io.natator.run.Lanes;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationResult;
 import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -26,15 +25,8 @@ record FreshWork(OptimizerRun run, List<List<Double>> genomes, int rankStarts, F
 
     /** What is missing of a run whose course is compared with that of these. */
     static FreshWork of(OptimizerRun run, List<RunSummary> all, int rankStarts, FreshResults results) {
-        List<List<Double>> genomes = new ArrayList<>();
-        for (EqualBudget budget : EqualBudget.values()) {
-            for (double share : EqualBudget.SHARES) {
-                List<Double> genes = run.summary().leader(budget, budget.at(share, all));
-                if (genes != null && !genomes.contains(genes) && Double.isNaN(results.worth(run, genes))) {
-                    genomes.add(genes);
-                }
-            }
-        }
+        List<List<Double>> genomes = EqualBudget.leaders(run.summary(), all, EqualBudget.SHARES).stream()
+                .filter(genes -> Double.isNaN(results.worth(run, genes))).toList();
         return new FreshWork(run, genomes, isRanked(run, rankStarts, results) ? 0 : rankStarts, results);
     }
 

@@ -99,11 +99,11 @@ final class OptimizerReport {
     }
 
     private static int at(CurveBand band, double share) {
-        return (int) Math.max(1, Math.round(share * band.evaluations()));
+        return EqualBudget.evaluations(share, band.evaluations());
     }
 
     private static String columns(long evaluations) {
-        String places = SHARES.stream().map(share -> "after " + Math.max(1, Math.round(share * evaluations)))
+        String places = SHARES.stream().map(share -> "after " + EqualBudget.evaluations(share, evaluations))
                 .collect(Collectors.joining(" | "));
         return "| optimizer | population | runs | " + places + " | mean ± sd | in vacuum |\n| --- | ---: | ---: |"
                 + " ---: |".repeat(SHARES.size() + 2) + "\n";

@@ -57,14 +57,7 @@ public final class RunComparison {
     }
 
     private List<List<Double>> genomes(RunSummary run) {
-        List<List<Double>> genomes = new ArrayList<>();
-        for (EqualBudget budget : EqualBudget.values()) {
-            List<Double> leader = run.leader(budget, budget.at(1, runs));
-            if (leader != null && !genomes.contains(leader)) {
-                genomes.add(leader);
-            }
-        }
-        return genomes;
+        return EqualBudget.leaders(run, runs, List.of(1.0));
     }
 
     /** Tables as text, once the gaits were run. */
