@@ -35,9 +35,16 @@ __device__ Real wall_distance(const ModelView<Real>& model, bool fluid) {
 template <class Real, class Visit>
 __device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x, const Visit& visit) {
     visit(0u, x);
+    unsigned near = 0;
+    for (int k = 0; k < model.planes; ++k) {
+        const Real distance = distance_to(model.plane[k].surface, x);
+        if (distance >= 0 && distance < model.water.radius) near |= 1u << k;
+    }
+    if (near == 0) return;
     // Each set of planes from the one without its last.
     for (unsigned planes = 1; planes < 1u << model.planes; ++planes) {
-        if (__popc(planes) > 3) continue;
+        const bool first_is_near = near & planes & ~(planes - 1);
+        if (!first_is_near || __popc(planes) > 3) continue;
         bool before_all = true;
         unsigned so_far = 0;
         for (int k = 0; k < model.planes && before_all; ++k) {
