@@ -26,7 +26,7 @@ FRAMES_OF_A_BEAT = 40
 def bending(simulator, creature, cluster, spring, refinement, substeps, iterations):
     overrides = {
         "fluid": None, "planes": [],
-        "solver": {"substeps": substeps, "numIterations": iterations, "gravity": [0, 0, 0]},
+        "solver": {"substeps": substeps, "numIterations": iterations, "solidIterations": 1, "gravity": [0, 0, 0]},
         "creature": {"clusterStiffness": cluster, "springStiffness": spring, "refinement": refinement},
         "stopping": {"planeContact": False, "noProgressAfter": 0},
     }

@@ -21,7 +21,7 @@ class GpuSwimming : public OnGpu<testing::TestWithParam<Swim>> {};
 TEST_P(GpuSwimming, NumbersAndWorkAreTheCpus) {
     const Swim& swim = GetParam();
     Scene scene = load_scene(swim.scene, {{"duration", 0.15},
-                                          {"solver", {{"substeps", 4}, {"kinematicViscosity", 0.01}}},
+                                          {"solver", {{"substeps", 4}, {"solidIterations", 3}, {"kinematicViscosity", 0.01}}},
                                           {"settling", {{"updates", 3}}}});
     scene.scheme = swim.scheme;
     Gait gait = wave(scene);

@@ -22,6 +22,9 @@ enum class RelaxationMode {
 struct SolverParameters {
     int substeps = 4;       ///< substeps per frame, >= 1
     int numIterations = 4;  ///< constraint iterations per substep, >= 1
+    /// In scheme `conserving` times that contacts, springs, clusters and planes are solved in each iteration, >= 1. A body's
+    /// stiffness and the strength of its muscles need many more iterations than the pressure of the water, and cheaper ones.
+    int solidIterations = 1;
 
     Eigen::Vector3d gravity{0, -10, 0};  ///< acceleration, length/s^2
     double radius = 0.15;                ///< interaction radius R of particles, length, > 0

@@ -154,8 +154,8 @@ Cost cost_of(const Model& model) {
     double members = 0;
     for (const Cluster& cluster : model.clusters) members += static_cast<double>(cluster.particles.size());
     const double springs = static_cast<double>(model.springs.size());
-    const double per_iteration = cost.neighbours + springs + members +
-                                 work_of_cluster * static_cast<double>(model.clusters.size()) +
+    const double of_solids = springs + members + work_of_cluster * static_cast<double>(model.clusters.size());
+    const double per_iteration = cost.neighbours + (water ? p.solidIterations : 1) * of_solids +
                                  particles * (work_of_particle + static_cast<double>(model.planes.size())) +
                                  work_of_substep;
     cost.per_substep = cost.candidates + 2 * cost.neighbours + p.numIterations * per_iteration + work_of_cell * start.cells +

@@ -33,8 +33,8 @@ std::string build_id() {
 }
 
 void add_parameters(ByteWriter& key, const SolverParameters& p) {
-    static_assert(sizeof(SolverParameters) == 264, "a parameter was added or removed: list it here");
-    for (const int value : {p.substeps, p.numIterations, p.maxNeighborsPerParticle}) key.add(value);
+    static_assert(sizeof(SolverParameters) == 272, "a parameter was added or removed: list it here");
+    for (const int value : {p.substeps, p.numIterations, p.solidIterations, p.maxNeighborsPerParticle}) key.add(value);
     key.add(p.gravity);
     for (const double value : {p.radius,
                                p.solidRestDistance,

@@ -139,6 +139,8 @@ void read_parameters(const json& params, const Reader& read, Model& model) {
             model.planes = read_planes(value, read);
         else if (key == "numIterations")
             p.numIterations = integer(value, read.where, field, 1, 10000);
+        else if (key == "solidIterations")
+            p.solidIterations = integer(value, read.where, field, 1, 10000);
         else if (key == "relaxationMode")
             p.relaxationMode = static_cast<RelaxationMode>(integer(value, read.where, field, 0, 1));
         else

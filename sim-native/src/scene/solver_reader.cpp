@@ -18,6 +18,7 @@ const std::vector<Field<SolverParameters>>& solver_fields() {
     static const std::vector<Field<P>> fields = {
         {"substeps", &P::substeps, {1, 1000}},
         {"numIterations", &P::numIterations, {1, 1000}},
+        {"solidIterations", &P::solidIterations, {1, 1000}},
         {"gravity", &P::gravity, {-1000, 1000, false, "length/s^2"}},
         {"radius", &P::radius, {0, 1000, true, "length"}},
         {"solidRestDistance", &P::solidRestDistance, {0, 1000, true, "length"}},

@@ -102,6 +102,10 @@ std::vector<std::string> describe_plan(const Model& model) {
     const auto each = [&](Stage stage, const char* kind = "") {
         return std::to_string(model.parameters.numIterations) + " x per substep: " + kind + name(stage);
     };
+    const auto each_of_solids = [&](Stage stage) {
+        const int times = model.parameters.numIterations * (flex ? 1 : model.parameters.solidIterations);
+        return std::to_string(times) + " x per substep: " + name(stage);
+    };
     const auto forces = [&] {
         add(plan.free_surface_drag, once(name(Stage::free_surface_drag)));
         add(plan.cohesion && !flex, once(name(Stage::cohesion)));
@@ -121,13 +125,13 @@ std::vector<std::string> describe_plan(const Model& model) {
     add(plan.fluid, each(Stage::density) + (plan.solid_pressure ? " with solid pressure" : ""));
     add(plan.fluid || plan.water, each(Stage::density_constraint));
     add(plan.cohesion && flex, each(Stage::cohesion));
-    add(plan.contacts, each(Stage::contacts) + (plan.particle_friction ? " with friction" : "") +
+    add(plan.contacts, each_of_solids(Stage::contacts) + (plan.particle_friction ? " with friction" : "") +
                            (plan.shock_propagation ? ", shock propagation" : ""));
-    add(plan.springs, each(Stage::springs));
-    add(plan.clusters, each(Stage::shape_matching));
+    add(plan.springs, each_of_solids(Stage::springs));
+    add(plan.clusters, each_of_solids(Stage::shape_matching));
     const bool local = model.parameters.relaxationMode == RelaxationMode::local;
     add(flex, each(Stage::relaxation, local ? "local " : "global "));
-    add(plan.planes, each(Stage::planes) + (plan.plane_friction ? " with friction" : ""));
+    add(plan.planes, each_of_solids(Stage::planes) + (plan.plane_friction ? " with friction" : ""));
     std::string velocities = once(name(Stage::velocities));
     if (!flex && (plan.springs || plan.clusters)) velocities += ", body momentum";
     if (flex && plan.viscosity) velocities += ", viscosity";

@@ -11,12 +11,16 @@
 namespace natator {
 namespace {
 
+Iterations iterations_of(const Model& model) {
+    return {model.parameters.numIterations, model.parameters.solidIterations};
+}
+
 /// Runs the substep once more from the unchanged state and looks behind each stage for the first bad particle.
 template <class Stages>
 Instability locate_instability(Stages& stages, const Model& model, double time) {
     std::optional<Instability> found;
     stages.forget();
-    substep(stages, stages.plan(), model.parameters.numIterations, [&](Stage stage) {
+    substep(stages, stages.plan(), iterations_of(model), [&](Stage stage) {
         if (found) return;
         if (const auto particle = stages.first_not_finite()) found = {*particle, name(stage), time};
     });
@@ -125,7 +129,7 @@ private:
     /// One substep; false if its outcome is not finite: the state is as it was then.
     template <class Stages, class AfterStage>
     bool advance(Stages& stages, const AfterStage& after) {
-        substep(stages, stages.plan(), model_.parameters.numIterations, after);
+        substep(stages, stages.plan(), iterations_of(model_), after);
         if (!stages.finite()) return false;
         stages.commit();
         after(Stage::commit);

@@ -16,6 +16,12 @@
 
 namespace natator {
 
+/// Of a substep, and of the solids in each of those; the latter in scheme `conserving` alone.
+struct Iterations {
+    int all;
+    int of_solids = 1;
+};
+
 /// How a backend goes through the constraints of an iteration.
 enum class Grouping {
     one_by_one,  ///< each group by itself
@@ -73,10 +79,10 @@ NATATOR_STEP void iterate_summed(Stages& stages, const Plan& plan, const AfterSt
 }
 
 /// One iteration of scheme `conserving`: each group of constraints in turn, on the positions that the
-/// last one left.
+/// last one left; those of the solids `solid_iterations` times, of which Stages that solve them together know.
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterStage& after) {
+NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, int solid_iterations, const AfterStage& after) {
     if (plan.water) {
         stages.solve_density_constraint();
         after(Stage::density_constraint);
@@ -85,10 +91,12 @@ NATATOR_STEP void iterate_in_turn(Stages& stages, const Plan& plan, const AfterS
         stages.solve_solids_together();
         after(Stage::solids);
     } else {
-        solve_solids(stages, plan, after);
-        if (plan.planes) {
-            stages.solve_planes();
-            after(Stage::planes);
+        for (int k = 0; k < solid_iterations; ++k) {
+            solve_solids(stages, plan, after);
+            if (plan.planes) {
+                stages.solve_planes();
+                after(Stage::planes);
+            }
         }
     }
 }
@@ -148,7 +156,7 @@ NATATOR_STEP void apply_effects(Stages& stages, const Plan& plan, const AfterSta
 
 NATATOR_ANY_SIDE
 template <class Stages, class AfterStage>
-NATATOR_STEP void substep(Stages& stages, const Plan& plan, int iterations, const AfterStage& after) {
+NATATOR_STEP void substep(Stages& stages, const Plan& plan, Iterations iterations, const AfterStage& after) {
     if constexpr (Stages::scheme != Scheme::flex)
         if (plan.water) begin_water(stages, plan, after);
     stages.predict();
@@ -158,9 +166,9 @@ NATATOR_STEP void substep(Stages& stages, const Plan& plan, int iterations, cons
     stages.find_neighbours(after);
     stages.begin_iterations();
     after(Stage::neighbours);
-    for (int i = 0; i < iterations; ++i) {
+    for (int i = 0; i < iterations.all; ++i) {
         if constexpr (Stages::scheme != Scheme::flex)
-            iterate_in_turn(stages, plan, after);
+            iterate_in_turn(stages, plan, iterations.of_solids, after);
         else
             iterate_summed(stages, plan, after);
         after(Stage::iteration);

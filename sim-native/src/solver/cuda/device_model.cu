@@ -75,6 +75,7 @@ DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
     view_.gravity = vec3<Real>(p.gravity);
     view_.fluid_gravity = vec3<Real>(p.gravity * p.buoyancy);
     view_.iterations = p.numIterations;
+    view_.solid_iterations = p.solidIterations;
     view_.most_neighbours = p.maxNeighborsPerParticle;
     view_.planes = static_cast<int>(model.planes.size());
     for (int k = 0; k < view_.planes; ++k) {

@@ -114,7 +114,7 @@ struct ModelView {
     Real viscosity, damping, max_acceleration, max_speed, relaxation_factor, solid_pressure;
     bool local_relaxation;
     Vec3<Real> gravity, fluid_gravity;
-    int iterations, most_neighbours;
+    int iterations, solid_iterations, most_neighbours;
 
     // Off in the thesis, see physics/effects.h.
     Real restitution, touching_distance, slowest_impact;  ///< the last per substep length

@@ -236,7 +236,7 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
     for (int k = 0; k < batch.substeps; ++k) {
         using Stages = BlockStages<effects, Real, Block>;
         Stages stages{model, trace, block, k};
-        natator::substep(stages, model.plan, model.iterations, AfterBlockStage<Stages>{stages});
+        natator::substep(stages, model.plan, {model.iterations}, AfterBlockStage<Stages>{stages});
         if (!stages.all_finite()) {
             note_instability(model, block, time + k * batch.time_step / batch.substeps, progress);
             break;

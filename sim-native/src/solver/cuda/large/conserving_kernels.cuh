@@ -20,18 +20,22 @@ __device__ void begin_large(const ModelView<Real>& model, const Slots<Real>& slo
     for (int k = first; k < model.members; k += step) slots.member_displacement()[k] = zero;
 }
 
-/// Contacts, springs, clusters and planes of the solids; tells the water how they move by then. One block.
+/// Contacts, springs, clusters and planes of the solids, in all their iterations; tells the water how they move by then.
+/// One block.
 template <class Real>
 __device__ void solids_large(const ModelView<Real>& model, const Slots<Real>& slots) {
-    if (model.plan.contacts) solve_contacts(model, slots);
-    if (model.plan.springs) solve_springs(model, slots);
-    if (model.plan.clusters) solve_clusters(model, slots);
-    for (int solid = threadIdx.x; solid < model.solids; solid += threads) {
-        const int s = slots.slot_of_solid()[solid];
-        solve_planes_of(model, slots, s);
-        if (model.plan.water)
-            slots.water.velocity[slots.water.slot_of_solid[solid]] = constrained_velocity<Real>(slots, s);
+    for (int k = 0; k < model.solid_iterations; ++k) {
+        if (model.plan.contacts) solve_contacts(model, slots);
+        if (model.plan.springs) solve_springs(model, slots);
+        if (model.plan.clusters) solve_clusters(model, slots);
+        for (int solid = threadIdx.x; solid < model.solids; solid += threads)
+            solve_planes_of(model, slots, slots.slot_of_solid()[solid]);
+        __syncthreads();
     }
+    if (!model.plan.water) return;
+    for (int solid = threadIdx.x; solid < model.solids; solid += threads)
+        slots.water.velocity[slots.water.slot_of_solid[solid]] =
+            constrained_velocity<Real>(slots, slots.slot_of_solid()[solid]);
 }
 
 template <class Real>

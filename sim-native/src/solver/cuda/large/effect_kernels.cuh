@@ -39,7 +39,7 @@ struct LaunchEffects : LaunchStages<scheme, Real> {
 template <class Stages>
 void launch_by(const LargeLaunch<typename Stages::Real>& launch) {
     Stages stages{{{launch}}};
-    natator::substep(stages, launch.model.plan, launch.model.iterations, AfterLaunch<Stages>{stages});
+    natator::substep(stages, launch.model.plan, {launch.model.iterations}, AfterLaunch<Stages>{stages});
     if (launch.model.plan.effects()) launch.template each_particle<check_slot<typename Stages::Real>>();
     check(cudaGetLastError(), "launch");
 }
