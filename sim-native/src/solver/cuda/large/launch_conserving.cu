@@ -11,6 +11,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     using Base::blocks, Base::launch, Base::model, Base::slots;
     static constexpr Grouping grouping = Grouping::together;
     static constexpr bool effects = true;
+    // Blocks that act on the solids of a State, each on one multiprocessor: several small ones fit there.
+    static constexpr int few_threads = 512, warp_threads = 128;
 
     template <auto work>
     void each_particle() const {
@@ -65,7 +67,10 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void solve_density_constraint() const { pass<Pass::density>(); }
     void solve_solids_together() const {
-        if (model.solids > 0) launch.template each_state<solids_large<Real>, threads>(1);
+        if (model.solids > 2 * few_threads)
+            launch.template each_state<solids_large<Real>, threads>(1);
+        else if (model.solids > 0)
+            launch.template each_state<solids_large<Real>, few_threads>(1);
     }
     void update_velocities() const {
         if (model.plan.water) {
@@ -75,7 +80,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
             launch.template each_slot<move_water<Real>>(model.fluid);
         }
         each_particle<constrained_velocities<Real>>();
-        if (model.free_bodies > 0) launch.template each_state<keep_body_momentum<Real>, threads>(1);
+        if (model.free_bodies > 0) launch.template each_state<keep_body_momentum<Real>, warp_threads>(1);
         each_particle<velocities_in_turn_large<Real>>();
     }
 };
