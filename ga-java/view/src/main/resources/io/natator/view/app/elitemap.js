@@ -60,7 +60,8 @@ export class EliteMap {
       element.setAttribute('fill', isPoor ? 'none' : `rgb(${colour(elite.worth)})`);
       return {x: x + width / 2, y: y + height / 2, element, gait: elite.gait,
         label: `elite of ${short(elite.beats)} beats per length`,
-        text: `${short(elite.beats)} beats per body length, cost of transport ${short(elite.cost)}: worth ${short(elite.worth)}`
+        text: `${short(elite.beats)} beats per body length, cost of transport ${short(elite.cost)} mass · length/s²: `
+            + `${map.worth.split(',')[0]} ${short(elite.worth)}`
             + ` (${elite.runs === 1 ? 'one run' : `${elite.runs} runs`})`};
     });
     this.#plot.fill([

@@ -1,7 +1,7 @@
 /** What is known of a run's winner. */
 
 const NAMES = {
-  verdict: 'Verdict', controls: 'Controls', speed: 'Speed', distance: 'Distance', 'half step': 'Half the time step',
+  verdict: 'Verdict', controls: 'Controls', speed: 'Speed', distance: 'Distance', 'half step': 'Half step',
   selected: 'Selected', cost: 'Cost', flow: 'Flow',
 };
 
