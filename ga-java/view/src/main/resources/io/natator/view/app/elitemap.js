@@ -5,9 +5,9 @@ import {GaitPlot, draw, short} from './gaitplot.js';
 import {byId} from './element.js';
 
 const WIDTH = 320;
-const LEFT = 58;
+const LEFT = 48;
 const BOTTOM = 36;
-const TOP = 6;
+const TOP = 24;
 const RIGHT = 10;
 const MOST_HEIGHT = 230;
 const MOST_ROW = 24;
@@ -68,10 +68,9 @@ export class EliteMap {
       draw('rect', {class: 'paper', x: LEFT, y: TOP, width: columns * width, height: rows * height}),
       ...this.#marks(map.beats, i => [LEFT + i * width, bottom + 13], 'middle', MOST_LABELS),
       ...this.#marks(map.costs, i => [LEFT - 5, bottom - i * height + 4], 'end', Math.floor(rows * height / 14)),
-      draw('text', {x: LEFT + columns * width / 2, y: bottom + BOTTOM - 5, 'text-anchor': 'middle', class: 'axis'},
+      draw('text', {x: (LEFT + WIDTH - RIGHT) / 2, y: bottom + BOTTOM - 5, 'text-anchor': 'middle', class: 'axis'},
           'beats per body length'),
-      draw('text', {x: 11, y: TOP + rows * height / 2, 'text-anchor': 'middle', class: 'axis',
-        transform: `rotate(-90 11 ${TOP + rows * height / 2})`}, rows * height > 150 ? 'cost of transport, mass · length/s²' : 'cost of transport'),
+      draw('text', {x: 2, y: 11, class: 'axis'}, 'cost of transport, mass · length/s²'),
     ], items);
     byId('elites-worth').textContent = map.worth;
     byId('elites-low').textContent = short(least);

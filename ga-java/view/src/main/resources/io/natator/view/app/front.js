@@ -5,10 +5,10 @@ import {byId, fillSelect} from './element.js';
 import {axis, axisText} from './scaling.js';
 
 const WIDTH = 320;
-const HEIGHT = 240;
-const LEFT = 54;
+const HEIGHT = 250;
+const LEFT = 46;
 const BOTTOM = 36;
-const TOP = 8;
+const TOP = 24;
 const RIGHT = 12;
 
 /** To the right the first objective, upwards one of the others. */
@@ -73,8 +73,7 @@ export class ParetoPlot {
       ...y.marks.map(mark => draw('path', {class: 'grid', d: `M${LEFT} ${up(mark)}H${WIDTH - RIGHT}`})),
       ...goals.length === 2 ? [draw('path', {class: 'front', d: `M${front.map(at => at.join(' ')).join('L')}`})] : [],
       draw('text', {x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 5, 'text-anchor': 'middle', class: 'axis'}, title(goals[0])),
-      draw('text', {x: 11, y: (TOP + HEIGHT - BOTTOM) / 2, 'text-anchor': 'middle', class: 'axis',
-        transform: `rotate(-90 11 ${(TOP + HEIGHT - BOTTOM) / 2})`}, title(goals[other])),
+      draw('text', {x: 2, y: 11, class: 'axis'}, title(goals[other])),
     ], items);
   }
 }
