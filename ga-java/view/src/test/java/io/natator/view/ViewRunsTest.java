@@ -111,8 +111,8 @@ class ViewRunsTest extends ViewBrowserTest {
     }
 
     private void awaitGait(JsonNode gait) {
-        await("(one => JSON.stringify([one.amplitude, one.phase]) === '" + Json.line(List.of(gait.get("amplitude"), gait.get("phase")))
-                + "')(natator.scene().gait)");
+        await("((...both) => (([one, other]) => one.every((value, i) => Math.abs(value - other[i]) < 1e-9))"
+                + "(both.map(gait => [gait.frequency, ...gait.amplitude, ...gait.phase])))(natator.scene().gait, " + gait + ")");
     }
 
     private JsonNode answer(int run) throws IOException {
@@ -236,7 +236,7 @@ class ViewRunsTest extends ViewBrowserTest {
         awaitSwimming();
         assertThat(get("run-chosen")).containsText("Generation 0");
         get("run-compare").click();
-        assertThat(get("run-error")).hasText("This gait swims already: choose another generation first.");
+        assertThat(get("run-error")).hasText("This gait swims already: choose another one first.");
         assertThat(get("stage-b")).isHidden();
     }
 }

@@ -6,7 +6,7 @@ import {byId} from './element.js';
 
 const WIDTH = 320;
 const LEFT = 48;
-const BOTTOM = 36;
+const BOTTOM = 40;
 const TOP = 24;
 const RIGHT = 10;
 const MOST_HEIGHT = 230;
@@ -66,7 +66,7 @@ export class EliteMap {
     });
     this.#plot.fill([
       draw('rect', {class: 'paper', x: LEFT, y: TOP, width: columns * width, height: rows * height}),
-      ...this.#marks(map.beats, i => [LEFT + i * width, bottom + 13], 'middle', MOST_LABELS),
+      ...this.#marks(map.beats, i => [LEFT + i * width, bottom + 18], 'middle', MOST_LABELS),
       ...this.#marks(map.costs, i => [LEFT - 5, bottom - i * height + 4], 'end', Math.floor(rows * height / 14)),
       draw('text', {x: (LEFT + WIDTH - RIGHT) / 2, y: bottom + BOTTOM - 5, 'text-anchor': 'middle', class: 'axis'},
           'beats per body length'),

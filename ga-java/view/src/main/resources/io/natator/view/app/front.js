@@ -7,7 +7,7 @@ import {axis, axisText} from './scaling.js';
 const WIDTH = 320;
 const HEIGHT = 250;
 const LEFT = 46;
-const BOTTOM = 36;
+const BOTTOM = 40;
 const TOP = 24;
 const RIGHT = 12;
 
@@ -68,7 +68,7 @@ export class ParetoPlot {
     this.#svg.setAttribute('viewBox', `0 0 ${WIDTH} ${HEIGHT}`);
     this.#plot.fill([
       draw('rect', {class: 'paper', x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM}),
-      ...x.marks.map(mark => draw('text', {x: right(mark), y: HEIGHT - BOTTOM + 14, 'text-anchor': 'middle'}, axisText(mark, x.step))),
+      ...x.marks.map(mark => draw('text', {x: right(mark), y: HEIGHT - BOTTOM + 18, 'text-anchor': 'middle'}, axisText(mark, x.step))),
       ...y.marks.map(mark => draw('text', {x: LEFT - 5, y: up(mark) + 4, 'text-anchor': 'end'}, axisText(mark, y.step))),
       ...y.marks.map(mark => draw('path', {class: 'grid', d: `M${LEFT} ${up(mark)}H${WIDTH - RIGHT}`})),
       ...goals.length === 2 ? [draw('path', {class: 'front', d: `M${front.map(at => at.join(' ')).join('L')}`})] : [],
