@@ -39,6 +39,7 @@ final class EliteMapPlot {
         chart.getStyler().setRangeColors(new Color[] {new Color(0xdeebf7), new Color(0x6baed6), new Color(0x08306b)});
         chart.getStyler().setChartBackgroundColor(Color.WHITE);
         chart.getStyler().setXAxisLabelRotation(90);
+        chart.getStyler().setHeatMapDecimalValueFormatter(worth -> Numbers.significant(worth, DIGITS));
         return Picture.save(chart, file);
     }
 
