@@ -9,16 +9,17 @@ ok() {
     local hash digits=${2//[!0-9]/} scheme=flex more=
     if [[ $request = *'"scheme":"conserving"'* || $scene = pool/* && $request != *'"scheme":"flex"'* ]]; then
         scheme=conserving
-        more='"swimming":{"tailAmplitude":0.25,"strouhal":0.3125,"reynolds":131.4,"swimmingNumber":409.6},"work":0.75,'
+        more='"swimming":{"tailAmplitude":0.25,"strouhal":0.3125,"reynolds":131.4,"swimmingNumber":409.6},"work":'$work,
     fi
     printf -v hash '%016x' "$((10#0$digits))"
     printf '{"id":%s,"status":"ok","fitness":%s,"distance":%s,"stopped":"completed","simulated":4.0,"frames":240,"scheme":"%s","precision":"float","hash":"%s",%s"new field":[1]}\n' \
         "$1" "$2" "$2" "$scheme" "$hash" "$more"
 }
 
-# Sets `distance`: it falls off from an optimum, and is negative far from it. In units of 1e-9.
+# Sets `distance`: it falls off from an optimum, and is negative far from it. In units of 1e-9. Sets `work`, which grows with the
+# first amplitude where there is a file `tired`.
 measure() {
-    local numbers number exponent whole fraction x sum=800000000 centre=250000000
+    local numbers number exponent whole fraction x sum=800000000 centre=250000000 place=0
     [[ $1 =~ \"gait\":\{([^}]*)\} ]]
     numbers=${BASH_REMATCH[1]//[!0-9.E-]/ }
     for number in $numbers; do
@@ -28,12 +29,15 @@ measure() {
         fraction=${number#*.}000000000
         x=$(((whole * 1000000000 + 10#${fraction:0:9}) / 10 ** exponent))
         centre=$((centre + 100000000))
+        ((place++ == 1)) && amplitude=$x
         sum=$((sum - (x - centre) * (x - centre) / 1000000000))
     done
     # Another start: up to 0.05 more or less, otherwise for each gait.
     if [[ $1 =~ \"start\":([0-9]+) ]]; then
         sum=$((sum + ((BASH_REMATCH[1] % 99991 * 7919 + (sum < 0 ? -sum : sum) % 99991 * 31) % 101 - 50) * 1000000))
     fi
+    work=0.75
+    [[ -e $here/tired ]] && printf -v work '%d.%09d' $((1 + amplitude / 1000000000)) $((amplitude % 1000000000))
     local sign=
     if ((sum < 0)); then sign=- sum=$((-sum)); fi
     printf -v distance '%s%d.%09d' "$sign" $((sum / 1000000000)) $((sum % 1000000000))

@@ -7,7 +7,6 @@ import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.OptimizerKind;
-import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
@@ -47,8 +46,8 @@ final class ShowCommand implements Callable<Integer> {
             printControls(run, out);
             printFront(run, out);
             if (run.elites() != null) {
-                out.printf("map of gaits: %d of %d kinds found; natator report draws it%n", run.elites().elites().size(),
-                        EliteMap.SIDE * EliteMap.SIDE);
+                out.printf("map of gaits: the best of %d kinds; natator view --run %s swims them, natator report draws them%n",
+                        run.elites().moving().size(), run.directory());
             }
             printSavings(run, out);
         }

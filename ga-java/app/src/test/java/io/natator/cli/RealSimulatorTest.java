@@ -96,11 +96,11 @@ class RealSimulatorTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "--optimizer nsga2 --objectives forward,work|front-1.png|of several objectives, the gaits that no other is better than",
-        "--optimizer map-elites --objectives forward=1,straight=0.1|elites.png|map of gaits: "})
+        "--duration 0.1 --optimizer nsga2 --objectives forward,work|front-1.png|of several objectives, the gaits that no other is better than",
+        "--duration 0.5 --optimizer map-elites --objectives forward=1,straight=0.1|elites.png|map of gaits: "})
     void reportsDrawWhatIsMoreThanOneGait(String options, String picture, String line) {
         Path run = folder.resolve("run");
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1", "--duration", "0.1",
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1",
                 "--output-dir", run.toString()));
         arguments.addAll(List.of(options.split(" ")));
         assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();

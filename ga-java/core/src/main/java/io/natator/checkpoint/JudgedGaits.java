@@ -27,7 +27,7 @@ final class JudgedGaits {
     private final class Runs {
         private final EvaluationRecord first;
         private final int number = numbers++;
-        private Estimate estimate = new Estimate(0, List.of(), null);
+        private Estimate estimate = new Estimate(0, List.of());
         private boolean measured;
 
         Runs(EvaluationRecord first) {
@@ -37,7 +37,7 @@ final class JudgedGaits {
         void add(SimulationResult result) {
             List<Double> runs = new ArrayList<>(estimate.runs());
             runs.add(result.score());
-            estimate = new Estimate(settings.judge().of(runs), runs, null);
+            estimate = new Estimate(settings.judge().of(runs), runs);
             measured |= result.status() == SimulationResult.Status.OK;
         }
 

@@ -159,10 +159,14 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
                 settings.encoding().forActuators(settings.actuators()).genes()) : List.of();
     }
 
-    /** The best gait of each kind that MAP-Elites found; null of another optimizer. */
+    /**
+     * The best gait of each kind that MAP-Elites found; null of another optimizer, and of a run by an earlier version, whose
+     * kinds were others.
+     */
     public EliteMap elites() {
-        return settings.optimizer() == OptimizerKind.MAP_ELITES && state != null
-                ? new EliteMap(settings, state.population()) : null;
+        boolean isMapped = settings.optimizer() == OptimizerKind.MAP_ELITES && state != null
+                && state.population().stream().anyMatch(one -> one.effort() != null);
+        return isMapped ? new EliteMap(state.population()) : null;
     }
 
     /** The best gait up to each generation that any is recorded of, the earliest generation first. */

@@ -1,8 +1,6 @@
 package io.natator.evolution;
 
-import io.natator.config.EvolutionSettings;
-import io.natator.encoding.Encoding;
-import io.natator.encoding.Gait;
+import io.natator.simulator.Effort;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
@@ -10,74 +8,77 @@ import java.util.SortedMap;
 import java.util.TreeMap;
 
 /**
- * The best gait of each kind. A kind is a cell of two numbers that follow from the gait alone, so that no luck of a run
- * moves it to another: how many waves are on the body, and how often it beats.
+ * The best gait of each kind. A kind is a cell of two numbers that are measured on the swim: beats for a body length, and
+ * cost of transport. Cells are half an octave wide, from 1 upwards and downwards, so that the map needs no bounds that
+ * would suit one creature and not another.
  */
 public final class EliteMap {
 
-    /** Cells along each side. */
-    public static final int SIDE = 12;
-    private static final double LEAST_FREQUENCY = 0.5;
-    private static final double MOST_FREQUENCY = 2.0;
+    /** What beats more often for a body length gets nowhere, which is a kind by itself. */
+    public static final double MOST_BEATS = 128;
+    /** Cells in an octave. */
+    private static final int PER_OCTAVE = 2;
 
     private final SortedMap<Cell, Individual> elites = new TreeMap<>();
-    private final Encoding encoding;
 
     /**
-     * A kind of gait.
+     * A kind of gait. Cell n is from {@link EliteMap#edge edge(n)} up to edge(n + 1).
      *
-     * @param wave number of the cell by {@link EliteMap#waves}, from 0
-     * @param beat number of the cell by frequency, from 0
+     * @param beats cell by beats for a body length
+     * @param cost  cell by cost of transport
      */
-    public record Cell(int wave, int beat) implements Comparable<Cell> {
+    public record Cell(int beats, int cost) implements Comparable<Cell> {
+
+        /** Of all that get nowhere, whatever that costs. */
+        public static final Cell NOWHERE = new Cell(Integer.MAX_VALUE, 0);
+
         @Override
         public int compareTo(Cell other) {
-            return wave != other.wave ? Integer.compare(wave, other.wave) : Integer.compare(beat, other.beat);
+            return beats != other.beats ? Integer.compare(beats, other.beats) : Integer.compare(cost, other.cost);
         }
     }
 
-    /** Of these individuals, the first of equals. */
-    public EliteMap(EvolutionSettings settings, Collection<Individual> individuals) {
-        this.encoding = settings.encoding().forActuators(settings.actuators());
+    /**
+     * Of these individuals, the first of equals.
+     *
+     * @throws EvolutionFailedException if it is not known what a swim took
+     */
+    public EliteMap(Collection<Individual> individuals) {
         for (Individual one : individuals) {
             if (one.isMeasured()) {
-                elites.merge(cell(one), one, (elite, other) -> other.score() > elite.score() ? other : elite);
+                if (one.effort() == null) {
+                    throw new EvolutionFailedException("the run's gaits are not told apart by beats per length and cost of "
+                            + "transport: another version made it; expected a new run");
+                }
+                elites.merge(cell(one.effort()), one, (elite, other) -> other.score() > elite.score() ? other : elite);
             }
         }
     }
 
-    private Cell cell(Individual one) {
-        Gait gait = encoding.decode(one.genes());
-        double most = mostWaves(gait.actuators());
-        return new Cell(number((waves(gait) + most) / (2 * most)),
-                number((gait.frequency() - LEAST_FREQUENCY) / (MOST_FREQUENCY - LEAST_FREQUENCY)));
+    /** The kind of what took this. Without any work, as with muscles that are pushed, it is of the kind that gets nowhere. */
+    static Cell cell(Effort effort) {
+        boolean moves = effort.beatsPerLength() < MOST_BEATS && effort.work() > 0;
+        return moves ? new Cell(number(effort.beatsPerLength()), number(effort.costOfTransport())) : Cell.NOWHERE;
     }
 
-    private static int number(double share) {
-        return Math.min(Math.max((int) (share * SIDE), 0), SIDE - 1);
+    /** The same bits on every machine, as the course of a run depends on it. */
+    private static int number(double value) {
+        return (int) Math.floor(PER_OCTAVE * StrictMath.log(value) / StrictMath.log(2));
     }
 
-    /**
-     * Waves on the body: the sum of the delays from each actuator to the next, each the shorter way round a period; above 0
-     * where phases grow from head to tail.
-     */
-    public static double waves(Gait gait) {
-        double sum = 0;
-        for (int i = 1; i < gait.actuators(); i++) {
-            double delay = gait.phase().get(i) - gait.phase().get(i - 1);
-            sum += delay - Math.rint(delay);
-        }
-        return sum;
-    }
-
-    /** Half a period from each actuator to the next. */
-    public static double mostWaves(int actuators) {
-        return Math.max((actuators - 1) / 2.0, 0.5);
+    /** Lower end of a cell. */
+    public static double edge(int number) {
+        return StrictMath.pow(2, number / (double) PER_OCTAVE);
     }
 
     /** The best of each kind, by cells. */
     public SortedMap<Cell, Individual> elites() {
         return elites;
+    }
+
+    /** The same without the kind that gets nowhere. */
+    public SortedMap<Cell, Individual> moving() {
+        return elites.headMap(Cell.NOWHERE);
     }
 
     List<Individual> individuals() {

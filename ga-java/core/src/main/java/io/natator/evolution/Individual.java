@@ -1,6 +1,7 @@
 package io.natator.evolution;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
+import io.natator.simulator.Effort;
 import io.natator.simulator.SimulationResult;
 import java.util.List;
 
@@ -38,6 +39,11 @@ public record Individual(List<Double> genes, int age, SimulationResult result, E
     /** What it is worth by each of the run's objectives; null where it has none. */
     public List<Double> objectives() {
         return estimate == null ? result.objectives() : estimate.objectives();
+    }
+
+    /** What its runs took together; null where nobody asked. */
+    public Effort effort() {
+        return estimate == null ? result.effort() : estimate.effort();
     }
 
     /** How many runs the score rests on. */

@@ -31,13 +31,13 @@ final class MapElites implements Optimizer {
     @Override
     public List<Individual> next(int generation, List<Individual> before) {
         SplittableRandom random = new SplittableRandom(Seeds.of(settings.seed(), generation));
-        List<Individual> elites = new EliteMap(settings, before).individuals();
+        List<Individual> elites = new EliteMap(before).individuals();
         List<Individual> all = new ArrayList<>();
         elites.forEach(elite -> all.add(elite.withAge(elite.age() + 1)));
         List<Individual> newborns = evaluator.evaluate(elites.isEmpty()
                 ? RandomSearch.genomes(settings.population(), ranges, random) : children(elites, random));
         all.addAll(newborns);
-        List<Individual> next = new EliteMap(settings, all).individuals();
+        List<Individual> next = new EliteMap(all).individuals();
         return next.isEmpty() ? newborns : next;
     }
 

@@ -9,10 +9,12 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
+import io.natator.config.OptimizerKind;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
+import io.natator.simulator.EffortEvaluator;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.NetEvaluator;
 import io.natator.simulator.ObjectiveEvaluator;
@@ -118,7 +120,9 @@ public final class EvolutionRun {
             all.add(new VacuumCheck(folder, evaluator));
         }
         all.addAll(listeners);
-        EvolutionState state = new Evolution(settings, rewarding(settings, evaluator), all, folder.recorded()).run(folder.checkpoint());
+        Evaluator rewarding = rewarding(settings, evaluator);
+        EvolutionState state = new Evolution(settings, settings.optimizer() == OptimizerKind.MAP_ELITES
+                ? new EffortEvaluator(rewarding, scene.bodyLength()) : rewarding, all, folder.recorded()).run(folder.checkpoint());
         BestGait best = folder.writeResults(state);
         if (best != null) {
             best = examined(best, state.best(), new FreshStarts(settings, evaluator, execution.simulator()), evaluator,

@@ -29,12 +29,14 @@ import java.util.List;
  *                  said by the simulator itself
  * @param objectives what it is worth by each of the run's objectives, or null where it has none
  * @param worth      by all of them together, or null likewise
+ * @param effort     what the swim took, or null where nobody asked
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
         Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
-        SwimmingNumbers swimming, Double work, Course course, Double vacuumDrift, List<Double> objectives, Double worth) {
+        SwimmingNumbers swimming, Double work, Course course, Double vacuumDrift, List<Double> objectives, Double worth,
+        Effort effort) {
 
     /** Copies the list. */
     public SimulationResult {
@@ -46,7 +48,7 @@ public record SimulationResult(Long id, Status status, Double distance, String s
             String scheme, String precision, String hash, Instability unstable, String error, SwimmingNumbers swimming,
             Double work, Double vacuumDrift) {
         this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, swimming, work, null,
-                vacuumDrift, null, null);
+                vacuumDrift, null, null, null);
     }
 
     /** A result as the simulator gives it where nothing of the swim's mechanics is known. */
@@ -90,19 +92,25 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** This result under another id. */
     public SimulationResult withId(long newId) {
         return new SimulationResult(newId, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, vacuumDrift, objectives, worth);
+                unstable, error, swimming, work, course, vacuumDrift, objectives, worth, effort);
     }
 
     /** This result with what the same gait drifts in vacuum. */
     public SimulationResult withVacuumDrift(double drift) {
         return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, drift, objectives, worth);
+                unstable, error, swimming, work, course, drift, objectives, worth, effort);
     }
 
     /** This result with what it is worth. */
     public SimulationResult withWorth(List<Double> byObjective, double together) {
         return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, vacuumDrift, byObjective, together);
+                unstable, error, swimming, work, course, vacuumDrift, byObjective, together, effort);
+    }
+
+    /** This result with what the swim took. */
+    public SimulationResult withEffort(Effort taken) {
+        return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
+                unstable, error, swimming, work, course, vacuumDrift, objectives, worth, taken);
     }
 
     /** The signed distance swum, or 0 where there is none because the evaluation was unstable or failed. */

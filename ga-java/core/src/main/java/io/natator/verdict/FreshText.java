@@ -28,8 +28,9 @@ public final class FreshText {
         lines.put("distance", spread(base.distance(), 4) + " in " + Numbers.fixed(fresh.duration(), 2) + " s; "
                 + ends(base));
         if (fresh.halfStep() != null) {
-            lines.put("half step", spread(fresh.halfStep().distance(), 4) + " at half the time step; "
-                    + ends(fresh.halfStep()));
+            SwimSample half = fresh.halfStep();
+            lines.put("half step", spread(half.distance(), 4) + " at half the time step; " + ends(half)
+                    + (half.bodyLengths() == null ? "" : "; " + spread(half.bodyLengths(), 3) + " body lengths/s"));
         }
         lines.put("speed", spread(base.speed(), 4) + " units/s" + (base.bodyLengths() == null ? ""
                 : ", " + spread(base.bodyLengths(), 3) + " body lengths/s, " + spread(base.perBeat(), 3) + " per beat"));

@@ -1,15 +1,23 @@
 package io.natator.evolution;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Judge;
+import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
+import io.natator.simulator.Effort;
+import io.natator.simulator.EffortEvaluator;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.Simulator;
 import io.natator.simulator.WorkerPool;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.SortedMap;
 import org.junit.jupiter.api.Test;
@@ -20,26 +28,19 @@ class MapElitesTest {
     private static final EvolutionSettings SETTINGS = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
             .withSize(30, 12).withSeed(2).withObjectives(OptimizerKind.MAP_ELITES, null);
 
-    private static List<EvolutionState> run(EvolutionSettings settings) {
-        List<EvolutionState> states = new ArrayList<>();
-        try (WorkerPool pool = new WorkerPool(new ToySimulator(), 2)) {
-            new Evolution(settings, pool, List.of(new EvolutionListener() {
-                @Override
-                public void generationFinished(EvolutionState state) {
-                    states.add(state);
-                }
-            }), List.of()).run(null);
-        }
-        return states;
+    private static ToyEvolution.Recorder run(EvolutionSettings settings) {
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        ToyEvolution.run(settings, 2, null, List.of(), recorder);
+        return recorder;
     }
 
     @Test
     void theMapFillsAndNoEliteGetsWorse() {
-        List<EvolutionState> states = run(SETTINGS);
+        List<EvolutionState> states = run(SETTINGS).states;
 
-        SortedMap<EliteMap.Cell, Individual> before = new EliteMap(SETTINGS, List.of()).elites();
+        SortedMap<EliteMap.Cell, Individual> before = new EliteMap(List.of()).elites();
         for (EvolutionState state : states) {
-            SortedMap<EliteMap.Cell, Individual> now = new EliteMap(SETTINGS, state.population()).elites();
+            SortedMap<EliteMap.Cell, Individual> now = new EliteMap(state.population()).elites();
             assertThat(now).as("one individual for each cell").hasSize(state.population().size());
             before.forEach((cell, elite) -> assertThat(now.get(cell).score()).isGreaterThanOrEqualTo(elite.score()));
             before = now;
@@ -49,21 +50,81 @@ class MapElitesTest {
         assertThat(states.get(12).best().score()).isGreaterThan(states.get(0).best().score()).isGreaterThan(0.45);
     }
 
-    /** Cells are those of the elites' gaits: beats from 0.5 to 2 per second, waves from -1/2 to 1/2 of two actuators. */
+    /** By what the simulated body did in its 4 s, not by what its gait asks for. */
     @Test
-    void cellsAreByWavesAndBeats() {
-        new EliteMap(SETTINGS, run(SETTINGS).get(12).population()).elites().forEach((cell, elite) -> {
+    void cellsAreByWhatWasMeasured() {
+        SortedMap<EliteMap.Cell, Individual> elites = new EliteMap(run(SETTINGS).states.get(12).population()).moving();
+
+        assertThat(elites).hasSizeGreaterThan(20);
+        elites.forEach((cell, elite) -> {
             Gait gait = ENCODING.decode(elite.genes());
-            assertThat(EliteMap.waves(gait)).isBetween(-0.5 + cell.wave() / 12.0 - 1e-9, -0.5 + (cell.wave() + 1) / 12.0 + 1e-9);
-            assertThat(gait.frequency()).isBetween(0.5 + 0.125 * cell.beat() - 1e-9, 0.5 + 0.125 * (cell.beat() + 1) + 1e-9);
+            double way = Math.abs(ToySimulator.distance(gait));
+            assertThat(4 * gait.frequency() / (way / ToyEvolution.BODY_LENGTH)).isBetween(end(cell.beats(), 0), end(cell.beats(), 1));
+            assertThat(ToySimulator.work(gait) / way).isBetween(end(cell.cost(), 0), end(cell.cost(), 1));
         });
     }
 
+    /** An end of a cell, with room for rounding outwards. */
+    private static double end(int cell, int which) {
+        return Math.pow(2, (cell + which) / 2.0) * (1 + (2 * which - 1) * 1e-9);
+    }
+
     @Test
-    void wavesAreTheSumOfTheShorterDelays() {
-        Gait travelling = new Gait(1, List.of(1.0, 1.0, 1.0, 1.0), List.of(0.75, 0.0, 0.25, 0.5));
-        assertThat(EliteMap.waves(travelling)).isCloseTo(0.75, within(1e-12));
-        assertThat(EliteMap.waves(new Gait(1, List.of(1.0, 1.0), List.of(0.1, 0.9)))).isCloseTo(-0.2, within(1e-12));
-        assertThat(EliteMap.waves(new Gait(1, List.of(1.0), List.of(0.1)))).isZero();
+    void whatGetsNowhereIsOneKind() {
+        assertThat(EliteMap.cell(new Effort(8, 1, 2, 12))).isEqualTo(new EliteMap.Cell(6, 5));
+        assertThat(EliteMap.cell(new Effort(8, -1, -2, 12))).as("backwards").isEqualTo(new EliteMap.Cell(6, 5));
+        assertThat(EliteMap.edge(6)).isEqualTo(8);
+        assertThat(EliteMap.cell(new Effort(8, 8, 8, 0.6))).as("below 1").isEqualTo(new EliteMap.Cell(0, -8));
+        assertThat(List.of(new Effort(8, 0.06, 0.1, 3), new Effort(8, 0, 0, 3), new Effort(8, 1, 1, 0), new Effort(8, 0, 0, 0)))
+                .allSatisfy(effort -> assertThat(EliteMap.cell(effort)).isEqualTo(EliteMap.Cell.NOWHERE));
+    }
+
+    /** Of several starts a gait is of the kind of all its runs together, those in races too. */
+    @Test
+    void kindsAreByAllRuns() {
+        ToyEvolution.Recorder recorder = run(SETTINGS.withSize(20, 4).withStarts(3, Judge.MEAN));
+        EvolutionState end = recorder.states.get(4);
+
+        assertThat(end.champions()).isNotEmpty().allSatisfy(one -> {
+            List<EvaluationRecord> own = recorder.evaluations.stream().filter(run -> run.genes().equals(one.genes())).toList();
+            assertThat(own).hasSizeGreaterThan(3);
+            assertThat(one.effort().distance()).isCloseTo(own.stream().mapToDouble(run -> run.result().distance()).sum(), within(1e-12));
+            assertThat(one.effort().beats()).isCloseTo(4 * own.size() * ENCODING.decode(one.genes()).frequency(), within(1e-9));
+            assertThat(one.effort().work()).isCloseTo(own.size() * ToySimulator.work(ENCODING.decode(one.genes())), within(1e-9));
+        });
+        assertThat(Json.line(end)).contains("\"effort\":{\"beats\":");
+    }
+
+    /** As scheme flex, which cannot tell what its muscles do. */
+    @Test
+    void withoutWorkThereAreNoKinds() {
+        Simulator flex = new Simulator() {
+            @Override
+            public SimulationResult evaluate(SimulationRequest request) {
+                return new SimulationResult(request.id(), SimulationResult.Status.OK, 1.0, "completed", 4.0, 240, "flex", "float",
+                        null, null, null);
+            }
+
+            @Override
+            public void close() {
+                // Nothing is held.
+            }
+        };
+        try (WorkerPool pool = new WorkerPool(flex, 1)) {
+            Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(), List.of());
+            assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(InvalidInputException.class)
+                    .hasMessageStartingWith("optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
+            assertThatThrownBy(() -> new EffortEvaluator(pool, null)).hasMessageContaining("the body's length is null");
+        }
+    }
+
+    /** A run by a version whose kinds were others does not go on as if its map were empty. */
+    @Test
+    void anotherVersionsMapIsNoMap() {
+        EvolutionState state = run(SETTINGS.withSize(20, 1)).states.get(0);
+        List<Individual> old = state.population().stream()
+                .map(one -> new Individual(one.genes(), one.age(), one.result().withEffort(null))).toList();
+
+        assertThatThrownBy(() -> new EliteMap(old)).isInstanceOf(EvolutionFailedException.class).hasMessageContaining("another version");
     }
 }

@@ -3,6 +3,7 @@ package io.natator.evolution;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.OptimizerKind;
 import io.natator.config.WeightedObjective;
+import io.natator.simulator.EffortEvaluator;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.ObjectiveEvaluator;
 import io.natator.simulator.WorkerPool;
@@ -11,6 +12,9 @@ import java.util.List;
 
 /** Evolutions with {@link ToySimulator}. */
 final class ToyEvolution {
+
+    /** Of the toy's body. */
+    static final double BODY_LENGTH = 0.8;
 
     private ToyEvolution() {
     }
@@ -24,10 +28,14 @@ final class ToyEvolution {
     static EvolutionState run(EvolutionSettings settings, int workers, EvolutionState from,
             List<EvaluationRecord> recorded, EvolutionListener... listeners) {
         try (WorkerPool pool = new WorkerPool(new ToySimulator(), workers)) {
-            Evaluator evaluator =
-                    settings.objectives() == null ? pool : new ObjectiveEvaluator(pool, settings.objectives());
-            return new Evolution(settings, evaluator, List.of(listeners), recorded).run(from);
+            return new Evolution(settings, evaluator(settings, pool), List.of(listeners), recorded).run(from);
         }
+    }
+
+    /** What measures all that the settings ask for. */
+    static Evaluator evaluator(EvolutionSettings settings, Evaluator toy) {
+        Evaluator worth = settings.objectives() == null ? toy : new ObjectiveEvaluator(toy, settings.objectives());
+        return settings.optimizer() == OptimizerKind.MAP_ELITES ? new EffortEvaluator(worth, BODY_LENGTH) : worth;
     }
 
     /** Keeps all that a run folder keeps. */

@@ -12,6 +12,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
+import io.natator.evolution.EliteMap;
 import io.natator.evolution.Individual;
 import io.natator.flow.FlowField;
 import io.natator.kinematics.Attitude;
@@ -131,9 +132,10 @@ public final class GaitReport {
                     run.state().population(), front, 0, other, folder.resolve("front-" + other)),
                     "all gaits and those that no other is better than, in two objectives");
         }
-        if (run.elites() != null && !run.elites().elites().isEmpty()) {
-            page.picture(EliteMapPlot.draw(run.elites(), run.settings().actuators(), folder.resolve("elites")),
-                    "worth of the best gait of each kind, by waves on the body and beats per second");
+        EliteMap elites = run.elites();
+        if (elites != null && !elites.moving().isEmpty()) {
+            page.picture(EliteMapPlot.draw(elites, folder.resolve("elites")),
+                    "worth of the best gait of each kind, by beats per body length and cost of transport");
         }
         MotionPlots plots = new MotionPlots(run.settings().scene(), recording, folder);
         page.picture(plots.position("position"), "position over time");

@@ -2,7 +2,10 @@ package io.natator.replay;
 
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamScene;
+import java.util.Collections;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 
 /**
  * A swim with all its frames.
@@ -11,18 +14,19 @@ import java.util.List;
  * @param scene  what stays the same
  * @param json   the scene as the simulator wrote it
  * @param frames from the settled start on, at equal times; at least one, with positions and densities
- * @param verdict whether it swims, in words, or null
+ * @param facts  what is known of how it swims, in words, by what it is about; empty where nobody judged it
  */
 public record Replay(String title, StreamScene scene, String json, List<StreamFrame> frames,
-        String verdict) {
+        Map<String, String> facts) {
 
-    /** Copies the list. */
+    /** Copies list and map. */
     public Replay {
         frames = List.copyOf(frames);
+        facts = Collections.unmodifiableMap(new LinkedHashMap<>(facts));
     }
 
     /** A swim that nobody has judged. */
     public Replay(String title, StreamScene scene, String json, List<StreamFrame> frames) {
-        this(title, scene, json, frames, null);
+        this(title, scene, json, frames, Map.of());
     }
 }

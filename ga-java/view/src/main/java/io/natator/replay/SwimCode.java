@@ -78,9 +78,8 @@ final class SwimCode {
             frames.add(swim.frames().get(i));
         }
         ObjectNode head = JsonNodeFactory.instance.objectNode();
-        if (swim.verdict() != null) {
-            head.put("verdict", swim.verdict());
-        }
+        ObjectNode facts = head.putObject("facts");
+        swim.facts().forEach(facts::put);
         head.put("title", swim.title()).put("frames", frames.size()).put("scalars", SCALARS);
         head.set("scene", scene());
         ByteArrayOutputStream tables = new ByteArrayOutputStream();

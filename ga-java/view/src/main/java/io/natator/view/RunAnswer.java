@@ -8,8 +8,8 @@ import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
 import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
-import io.natator.verdict.Mechanics;
 import io.natator.verdict.Verdict;
+import io.natator.verdict.WinnerFacts;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -28,10 +28,13 @@ import java.util.Map;
  * @param generations those that are finished
  * @param bests       the best gait of each generation that the folder still knows it of
  * @param verdict     on the best gait of all, or null if there is none yet
- * @param mechanics   of the best gait of all, in words, or null if nothing is known of them
+ * @param facts       of the best gait of all, in words, by what they are about; the verdict is the first
+ * @param map         the best gait of every kind, or null if the run looked for no kinds
+ * @param front       gaits by several objectives, or null if it has one
  */
 record RunAnswer(int id, String name, String scene, ObjectNode overrides, OptimizerKind optimizer, long seed,
-        List<Generation> generations, List<Best> bests, Verdict verdict, String mechanics) {
+        List<Generation> generations, List<Best> bests, Verdict verdict, Map<String, String> facts,
+        MapAnswer map, FrontAnswer front) {
 
     /**
      * A generation.
@@ -59,7 +62,8 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         List<Generation> generations = generations(run);
         return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
                 settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()),
-                run.best() == null ? null : Mechanics.of(run.best()));
+                run.best() == null ? Map.of() : WinnerFacts.of(run.directory(), run.best()), MapAnswer.of(run),
+                FrontAnswer.of(run));
     }
 
     /** What the page calls a run: its folder, without where that is. */

@@ -51,7 +51,7 @@ export class Recording {
 
   constructor(head, bytes) {
     this.title = head.title;
-    this.verdict = head.verdict ?? null;
+    this.facts = head.facts;
     this.scene = {...head.scene, number: 1, restarted: true, fields: ['position', 'velocity', 'density']};
     this.frames = head.frames;
     this.#columns = head.scalars + head.scene.actuators;

@@ -3,6 +3,7 @@
 import {CAMERAS} from './cameras.js';
 import {TimeChart, chartColours} from './charts.js';
 import {byId, choose, fillSegments, fillSelect, make} from './element.js';
+import {namedFacts} from './facts.js';
 import {Figures} from './figures.js';
 import {History} from './history.js';
 import {listen} from './keys.js';
@@ -166,9 +167,7 @@ class Player {
     const list = numbers => numbers.map(one => one.toFixed(3)).join(', ');
     const perSecond = duration > 0 ? Math.round(10 * (frames - 1) / duration) / 10 : 0;
     const facts = [['Scene', scene.scene], ['Scheme', scene.scheme], ['Frames', `${frames}, ${perSecond} per second`]];
-    if (this.#recording.verdict !== null) {
-      facts.unshift(['Verdict', this.#recording.verdict]);
-    }
+    facts.unshift(...namedFacts(this.#recording.facts));
     if (gait) {
       facts.push(['Frequency', `${gait.frequency.toFixed(3)} /s`], ['Amplitude', list(gait.amplitude)],
           ['Phase', list(gait.phase)]);

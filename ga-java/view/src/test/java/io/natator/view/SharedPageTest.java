@@ -17,7 +17,9 @@ import java.awt.image.BufferedImage;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.TimeUnit;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
@@ -40,6 +42,10 @@ class SharedPageTest extends BrowserTest {
         Replay swim = new ReplayRecorder(ViewFixture.SIMULATOR).record("swim", StreamOptions
                 .recording("thesis/creature-1", null, gait, SECONDS).with(Scheme.CONSERVING, null));
         file = folder.resolve("swim.html");
+        Map<String, String> facts = new LinkedHashMap<>();
+        facts.put("verdict", "swims: as told");
+        facts.put("half step", "<slower>");
+        swim = new Replay(swim.title(), swim.scene(), swim.json(), swim.frames(), facts);
         new ReplayHtml("swim", List.of(swim), true).write(file, 10_000_000);
     }
 
@@ -59,6 +65,8 @@ class SharedPageTest extends BrowserTest {
         assertThat(colours(picture)).isGreaterThan(500);
         assertThat(number("natator.position().length")).isEqualTo(number("3 * natator.scene().particles"));
         assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");
+        assertThat(get("facts").locator("dt").first()).hasText("Verdict");
+        assertThat(get("facts").locator("dd")).containsText(new String[] {"swims: as told", "<slower>", "thesis/creature-1"});
         await("natator.time() > 0.9");
         await("natator.time() < 0.5");
     }

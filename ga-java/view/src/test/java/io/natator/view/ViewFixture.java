@@ -9,8 +9,11 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Scheme;
+import io.natator.config.WeightedObjective;
 import io.natator.encoding.Gait;
 import io.natator.simulator.FakeSimulator;
+import java.io.IOException;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
@@ -46,11 +49,23 @@ final class ViewFixture {
 
     /** Evolves creature 1 for three generations of eight, with another scheme than the scene's and no real simulator. */
     static Path evolve(Path folder) throws InterruptedException {
-        Path run = folder.resolve("my-run");
-        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 3)
-                .withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05)
-                .withScene(Scheme.CONSERVING, 2.0, null);
-        new Natator(new ExecutionSettings(FakeSimulator.in(folder), 2, null)).evolve(settings, run);
+        return evolve(FakeSimulator.in(folder), folder.resolve("my-run"), EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2)
+                .withSize(8, 3).withSeed(5).withOptimizer(OptimizerKind.RANDOM, OperatorSet.CORRECTED, 0.05));
+    }
+
+    /** Two runs of more than one gait in {@link #SCENE}, likewise: the best of each kind, and by two objectives. */
+    static Path[] evolveMany(Path folder) throws IOException, InterruptedException {
+        Path simulator = FakeSimulator.in(folder);
+        Files.createFile(folder.resolve("tired"));
+        EvolutionSettings settings = EvolutionSettings.of(SCENE, EncodingKind.DENSE, 2).withSize(20, 3).withSeed(5);
+        return new Path[] {
+            evolve(simulator, folder.resolve("kinds"), settings.withObjectives(OptimizerKind.MAP_ELITES, null)),
+            evolve(simulator, folder.resolve("front"), settings.withObjectives(OptimizerKind.NSGA2,
+                    WeightedObjective.parse("distance,work")))};
+    }
+
+    private static Path evolve(Path simulator, Path run, EvolutionSettings settings) throws InterruptedException {
+        new Natator(new ExecutionSettings(simulator, 2, null)).evolve(settings.withScene(Scheme.CONSERVING, 2.0, null), run);
         return run;
     }
 

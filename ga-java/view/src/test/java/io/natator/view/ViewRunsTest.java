@@ -6,14 +6,32 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import java.io.IOException;
+import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
 
 /** The gaits of runs, and two swimmers side by side. */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
 class ViewRunsTest extends ViewBrowserTest {
+
+    @TempDir
+    private static Path runs;
+    private static ViewServer many;
+
+    @BeforeAll
+    static void evolve() throws IOException, InterruptedException {
+        many = ViewFixture.server(ViewFixture.evolveMany(runs));
+    }
+
+    @AfterAll
+    static void end() {
+        many.close();
+    }
 
     @Test
     void theGenerationsOfARunAreWatched() throws IOException {
@@ -23,12 +41,82 @@ class ViewRunsTest extends ViewBrowserTest {
         page.keyboard().press("Home");
 
         assertThat(get("run-chosen")).containsText("Generation 0");
-        assertThat(get("run-mechanics")).containsText("Re 131, St 0.313, work 0.75, cost of transport ");
+        for (String fact : List.of("body lengths/s", "at half the time step", "4 fresh starts, all completed", "selection loss",
+                "cost of transport ", "Reynolds number 131, Strouhal number 0.313")) {
+            assertThat(get("run-fresh")).containsText(fact);
+        }
+        assertThat(get("elites-figure")).isHidden();
+        assertThat(get("front-figure")).isHidden();
         JsonNode first = best(0);
         await("Math.abs(natator.scene().gait.frequency - " + first.get("frequency") + ") < 1e-9");
         assertThat(page.evaluate("() => natator.scene().scheme")).isEqualTo("conserving");
         page.keyboard().press("End");
         await("Math.abs(natator.scene().gait.frequency - " + best(3).get("frequency") + ") < 1e-9");
+    }
+
+    /** The best of each kind, and what several objectives are weighed by: a click or a key swims any of them. */
+    @Test
+    void kindsAndFrontsAreSwum() throws IOException {
+        open(many);
+        JsonNode map = answer(0).get("map");
+        assertThat(get("elites-figure").locator("[role=option]")).hasCount(map.get("elites").size());
+        assertThat(get("front-figure")).isHidden();
+        JsonNode elite = map.get("elites").get(map.get("elites").size() / 2);
+
+        get("elite-" + elite.get("column") + "-" + elite.get("row")).click();
+
+        awaitGait(elite.get("gait"));
+        assertThat(get("stage-a").locator("figcaption")).containsText("kinds, elite of ");
+        assertThat(get("gait-looked-at")).containsText(" beats per body length, cost of transport ");
+        assertThat(get("elites").locator(".swims")).hasCount(1);
+        get("elites").focus();
+        page.keyboard().press("Home");
+        page.keyboard().press("Enter");
+        awaitGait(map.get("elites").get(0).get("gait"));
+        fits("elites");
+
+        get("run-choice").selectOption("1");
+        assertThat(get("elites-figure")).isHidden();
+        JsonNode points = answer(1).get("front").get("points");
+        assertThat(get("front-figure").locator("circle[role=option].best").count()).isBetween(3, points.size() - 1);
+        assertThat(get("front").locator("text.axis").last()).hasText("work of the muscles, mass · length²/s² (less is better)");
+        assertThat(get("front-choice")).isHidden();
+        page.locator("#front-2").click();
+        awaitGait(points.get(2).get("gait"));
+        assertThat(get("front").locator(".swims")).hasId("front-2");
+        assertThat(get("gait-looked-at")).containsText("no other is better in all");
+        get("front").focus();
+        page.keyboard().press("End");
+        page.keyboard().press("Enter");
+        awaitGait(points.get(points.size() - 1).get("gait"));
+        assertThat(get("gait-looked-at")).containsText("another is better");
+        fits("front");
+        page.setViewportSize(390, 844);
+        fits("front");
+    }
+
+    /** No label is cut off, and no two of them lie on each other. */
+    private void fits(String plot) {
+        assertThat((List<?>) page.evaluate("""
+                plot => {
+                  const svg = document.getElementById(plot);
+                  const whole = svg.getBoundingClientRect();
+                  const boxes = [...svg.querySelectorAll('text')].map(one => ({text: one.textContent, box: one.getBoundingClientRect()}));
+                  const isOutside = ({box}) => box.left < whole.left - 1 || box.right > whole.right + 1 || box.top < whole.top - 1
+                      || box.bottom > whole.bottom + 1 || whole.right > innerWidth;
+                  const isOver = ({box: a}, {box: b}) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+                  return boxes.filter((one, i) => isOutside(one) || boxes.slice(i + 1).some(other => isOver(one, other)))
+                      .map(one => one.text);
+                }""", plot)).isEmpty();
+    }
+
+    private void awaitGait(JsonNode gait) {
+        await("((...both) => (([one, other]) => one.every((value, i) => Math.abs(value - other[i]) < 1e-9))"
+                + "(both.map(gait => [gait.frequency, ...gait.amplitude, ...gait.phase])))(natator.scene().gait, " + gait + ")");
+    }
+
+    private JsonNode answer(int run) throws IOException {
+        return Json.parse((String) page.evaluate("async run => (await fetch(`/api/runs/${run}`)).text()", run), JsonNode.class);
     }
 
     private JsonNode best(int generation) throws IOException {
@@ -148,7 +236,7 @@ class ViewRunsTest extends ViewBrowserTest {
         awaitSwimming();
         assertThat(get("run-chosen")).containsText("Generation 0");
         get("run-compare").click();
-        assertThat(get("run-error")).hasText("This gait swims already: choose another generation first.");
+        assertThat(get("run-error")).hasText("This gait swims already: choose another one first.");
         assertThat(get("stage-b")).isHidden();
     }
 }

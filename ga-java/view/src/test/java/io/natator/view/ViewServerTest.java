@@ -133,7 +133,10 @@ class ViewServerTest {
         assertThat(answer.get("generations")).hasSize(4);
         assertThat(answer.get("bests")).hasSize(4);
         assertThat(answer.get("verdict").get("text").textValue()).matches("(swims|does not swim|not judged|may swim).*");
-        assertThat(answer.get("mechanics").textValue()).isEqualTo("Re 131, St 0.313, work 0.75, cost of transport 5.41");
+        assertThat(answer.get("facts").fieldNames()).toIterable()
+                .containsExactly("verdict", "speed", "distance", "half step", "selected", "cost", "flow");
+        assertThat(answer.get("facts").get("cost").textValue()).startsWith("cost of transport 5.41 mass");
+        assertThat(answer.get("map").isNull() && answer.get("front").isNull()).isTrue();
         double bestEver = Double.NEGATIVE_INFINITY;
         for (int i = 0; i < 4; i++) {
             JsonNode generation = answer.get("generations").get(i);

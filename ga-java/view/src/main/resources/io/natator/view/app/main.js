@@ -175,7 +175,7 @@ class Page {
     const figures = [scene.scheme, ...scene.actuators > 0 ? [`${scene.gait.frequency.toFixed(2)} beats/s`] : [],
       `${scene.particles} particles`];
     if (origin !== null) {
-      this.#figures[which].name(`${origin.run}, generation ${origin.generation}`, [place, ...figures].join(', '));
+      this.#figures[which].name(`${origin.run}, ${origin.label ?? 'a gait'}`, [place, ...figures].join(', '));
     } else {
       const published = this.#setup.gaits?.[scene.scene] ?? null;
       const gait = scene.actuators === 0 ? '' : isSameGait(scene.gait, published) ? ', published gait' : ', gait of your own';
@@ -192,7 +192,7 @@ class Page {
         this.#name(which);
       }
       if (which === this.#chosen) {
-        this.#runs.mark(found?.generation ?? null);
+        this.#runs.mark(found?.item ?? null);
       }
     });
   }
@@ -365,14 +365,14 @@ class Page {
   }
 
   /**
-   * Shows the best of a generation in the chosen view, or beside what swims in the first one: if that is the same, beside
+   * Shows a gait of a run (its `label` says which) in the chosen view, or beside what swims in the first one: if that is the same, beside
    * what swam there before the generations were browsed.
    *
    * @returns {Promise<string|null>} why not, or null
    */
   async #watch(run, best, beside) {
     const swim = {scene: run.scene, overrides: run.overrides, gait: best.gait,
-      origin: {run: run.name, generation: best.generation, gait: best.gait}};
+      origin: {run: run.name, label: best.label, gait: best.gait}};
     if (!beside) {
       if (this.#chosen === 0 && !isSameSwim(this.#view.setting, this.#browsed?.last)) {
         this.#browsed = {before: this.#view.setting};
@@ -387,7 +387,7 @@ class Page {
     if (isSameSwim(first.setting, swim)) {
       const before = this.#browsed?.before;
       if (before === undefined || isSameSwim(before, swim)) {
-        return 'This gait swims already: choose another generation first.';
+        return 'This gait swims already: choose another one first.';
       }
       this.#browsed = null;
       const error = await this.#swim(first, before);

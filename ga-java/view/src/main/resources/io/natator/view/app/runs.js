@@ -1,18 +1,25 @@
-/** Browses the generations of a run. */
+/** Browses the gaits of a run: the best of its generations, of its kinds, and by its objectives. */
 
 import {FitnessChart, chartColours} from './charts.js';
-import {byId, fillSelect} from './element.js';
+import {EliteMap} from './elitemap.js';
+import {byId, fillSelect, make} from './element.js';
+import {namedFacts} from './facts.js';
+import {ParetoPlot} from './front.js';
 import {isSameGait} from './gait.js';
 
-/** The fitness curve; a click or the arrow keys choose a generation. */
+/** The fitness curve; a click or the arrow keys choose a generation. Beside it a map of gaits or a front, if the run has one. */
 export class RunBrowser {
   #onWatch;
   #onSettled;
   #canvas = byId('chart-fitness');
   #chart = new FitnessChart(this.#canvas);
   #run = null;
+  /** What is chosen: gait, label and text; of the best of a generation also that. */
   #best = null;
   #pending = 0;
+  #swims = null;
+  #elites;
+  #front;
 
   /** `onWatch(run, best, beside)` shows a gait; a promise of an error or null. `onSettled()` is to mark what swims. */
   constructor(runs, onWatch, onSettled) {
@@ -20,6 +27,19 @@ export class RunBrowser {
     this.#onSettled = onSettled;
     byId('runs-none').hidden = runs.length > 0;
     byId('runs').hidden = runs.length === 0;
+    if (runs.length > 0) {
+      // Whoever comes for a run reads of it first.
+      byId('which').after(byId('runs-section'));
+    }
+    const watch = item => {
+      this.#choose(item);
+      this.#watch(false);
+    };
+    const look = item => {
+      byId('gait-looked-at').textContent = item?.text ?? 'Point at a gait to read what it does.';
+    };
+    this.#elites = new EliteMap(watch, look);
+    this.#front = new ParetoPlot(watch, look, () => this.#front.mark(this.#swims));
     fillSelect(byId('run-choice'), runs.map(({id, name}) => [id, name]));
     byId('run-choice').addEventListener('change', async event => {
       await this.load(event.target.value);
@@ -54,11 +74,17 @@ export class RunBrowser {
       return;
     }
     byId('run-choice').value = id;
-    const {scene, optimizer, seed, generations, verdict, mechanics} = this.#run;
+    const {scene, optimizer, seed, generations, verdict, facts, map, front} = this.#run;
+    this.#run.bests.forEach(best => Object.assign(best, {label: `generation ${best.generation}`,
+      text: `Generation ${best.generation}: best gait, fitness ${best.fitness.toFixed(4)}`}));
     byId('run-verdict').hidden = !verdict;
     byId('run-verdict').textContent = verdict ? `Best gait ${verdict.text}${verdict.advice ? `; ${verdict.advice}` : ''}.` : '';
-    byId('run-mechanics').hidden = !mechanics;
-    byId('run-mechanics').textContent = mechanics ? `${mechanics}.` : '';
+    byId('run-fresh').replaceChildren(...namedFacts(facts).filter(([name]) => name !== 'Verdict').flatMap(([name, text]) => [
+      make('dt', {textContent: name}), make('dd', {textContent: text}),
+    ]));
+    this.#elites.show(map ?? null);
+    this.#front.show(front ?? null);
+    byId('gait-looked-at').hidden = !map && !front;
     byId('run-facts').textContent = `${scene}, ${optimizer}, seed ${seed}, ${generations.length} generations`;
     this.#choose(null);
   }
@@ -66,23 +92,29 @@ export class RunBrowser {
   /**
    * Where a scene's (SCEN) gait is from, if it is of this run and in its scene; `origin` is what is known of that.
    *
-   * @returns {{run: string, generation: number}|null} of several generations the last one, unless `origin` says which
+   * @returns {{run: string, label: string, item: object}|null} of several the last generation, unless `origin` says which
    */
   find(scene, origin) {
     if (this.#run === null || scene.scene !== this.#run.scene && origin?.run !== this.#run.name) {
       return null;
     }
     const {name, bests} = this.#run;
-    const found = bests.filter(best => isSameGait(best.gait, scene.gait));
-    const known = origin?.run === name ? found.find(best => best.generation === origin.generation) : undefined;
-    const best = known ?? found.at(-1);
-    return best === undefined ? null : {run: name, generation: best.generation};
+    const found = [...this.#elites.items, ...this.#front.items, ...bests].filter(one => isSameGait(one.gait, scene.gait));
+    const known = origin?.run === name ? found.find(one => one.label === origin.label) : undefined;
+    const item = known ?? found.at(-1);
+    return item === undefined ? null : {run: name, label: item.label, item};
   }
 
-  /** Marks the generation that swims, null for none; while another one is to swim, that stays marked. */
-  mark(generation) {
-    if (this.#pending === 0 && this.#run !== null && generation !== (this.#best?.generation ?? null)) {
-      this.#choose(generation === null ? null : this.#nearest(generation));
+  /** Marks what swims: what `find` found, null for nothing of this run; while another one is to swim, that stays marked. */
+  mark(item) {
+    if (this.#pending > 0 || this.#run === null) {
+      return;
+    }
+    this.#swims = item?.gait ?? null;
+    this.#elites.mark(this.#swims);
+    this.#front.mark(this.#swims);
+    if (item !== this.#best) {
+      this.#choose(item);
     }
   }
 
@@ -128,7 +160,7 @@ export class RunBrowser {
     byId('run-compare').disabled = best === null;
     const text = best === null && this.#run.bests.length === 0 ? 'No gait of this run is known yet.'
         : best === null ? 'What swims is not of this run. Click a generation, or choose with the arrow keys.'
-        : `Generation ${best.generation}: best gait, fitness ${best.fitness.toFixed(4)}`;
+        : best.text;
     byId('run-chosen').textContent = text;
     this.#canvas.setAttribute('aria-valuemax', this.#run.generations.at(-1)?.generation ?? 0);
     this.#canvas.setAttribute('aria-valuenow', best?.generation ?? 0);

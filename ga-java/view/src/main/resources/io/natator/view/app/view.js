@@ -168,7 +168,7 @@ export class View {
     return this.#live.submit('rate', {do: 'rate', value});
   }
 
-  /** Another gait; `origin` is {run, generation} of where it is from, if that is known. */
+  /** Another gait; `origin` is {run, label} of where it is from, if that is known. */
   setGait(gait, origin = null) {
     this.#setting.origin = origin === null ? null : {...origin, gait};
     return this.#live.submit('gait', {do: 'gait', gait});
@@ -204,15 +204,15 @@ export class View {
     return this.setScene(scene, isVacuum ? patch : kept, gait);
   }
 
-  /** Run and generation that the gait is from, if it is still that gait; else null. */
+  /** Run and what it is there that the gait is from, if it is still that gait; else null. */
   get origin() {
     const {origin} = this.#setting;
     return origin && isSameGait(origin.gait, this.scene === null ? this.#setting.gait : this.scene.gait) ? origin : null;
   }
 
   /** Notes where the present gait is from. */
-  setOrigin({run, generation}) {
-    this.#setting.origin = {run, generation, gait: this.scene.gait};
+  setOrigin({run, label}) {
+    this.#setting.origin = {run, label, gait: this.scene.gait};
   }
 
   /** Begins anew after the simulator was lost for good. */

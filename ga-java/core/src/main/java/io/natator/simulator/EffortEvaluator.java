@@ -1,0 +1,51 @@
+package io.natator.simulator;
+
+import io.natator.config.InvalidInputException;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.function.Consumer;
+
+/** Tells of each result what its swim took. */
+public final class EffortEvaluator implements Evaluator {
+
+    private final Evaluator evaluator;
+    private final double bodyLength;
+
+    /**
+     * Wraps an evaluator, which stays the caller's to close.
+     *
+     * @param bodyLength of the creature in scene units
+     * @throws InvalidInputException if that is not known
+     */
+    public EffortEvaluator(Evaluator evaluator, Double bodyLength) {
+        if (bodyLength == null || !(bodyLength > 0)) {
+            throw new InvalidInputException("optimizer map-elites: the body's length is " + bodyLength
+                    + "; expected a simulator that tells it, and a scene with a body");
+        }
+        this.evaluator = evaluator;
+        this.bodyLength = bodyLength;
+    }
+
+    @Override
+    public void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
+            throws InterruptedException {
+        Map<Long, Double> frequencies = new HashMap<>();
+        requests.forEach(request -> frequencies.put(request.id(), request.gait().frequency()));
+        evaluator.evaluateAll(requests, result -> whenDone.accept(result.status() == SimulationResult.Status.OK
+                ? result.withEffort(effort(result, frequencies.get(result.id()))) : result));
+    }
+
+    private Effort effort(SimulationResult result, double frequency) {
+        if (result.work() == null) {
+            throw new InvalidInputException("optimizer map-elites: this simulator does not measure the muscles' work in scheme "
+                    + result.scheme() + ", by which kinds of gaits are told apart; expected --scheme conserving");
+        }
+        return new Effort(frequency * result.simulated(), result.distance() / bodyLength, result.distance(), result.work());
+    }
+
+    @Override
+    public void close() {
+        evaluator.close();
+    }
+}

@@ -1,0 +1,84 @@
+package io.natator.verdict;
+
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.SwimSample;
+import io.natator.config.Numbers;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.SwimmingNumbers;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+
+/**
+ * What a reader wants to know of a winner, in words: whether it swims, how fast, how sure that is, what it lost since it was
+ * selected, and what it costs.
+ */
+public final class WinnerFacts {
+
+    private static final int DIGITS = 3;
+
+    private WinnerFacts() {
+    }
+
+    /**
+     * By what each is about, the verdict first; what is not known is left out.
+     *
+     * @param run folder of it, for what {@code natator check} found
+     */
+    public static Map<String, String> of(Path run, BestGait best) {
+        Map<String, String> facts = new LinkedHashMap<>();
+        facts.put("verdict", Verdict.of(best).text() + (best.fresh() == null ? " (one run, not a mean)" : ""));
+        Controls controls = Controls.of(run, best.gait());
+        if (controls != null) {
+            facts.put("controls", ControlVerdict.of(controls).text());
+        }
+        Map<String, String> fresh = FreshText.of(best);
+        for (String about : List.of("speed", "distance", "half step", "selected")) {
+            if (fresh.containsKey(about)) {
+                facts.put(about, fresh.get(about));
+            }
+        }
+        if (best.fresh() != null) {
+            SwimSample base = best.fresh().base();
+            put(facts, "cost", cost(base.work(), base.costOfTransport()));
+            put(facts, "flow", numbers(base.reynolds(), base.strouhal()));
+        } else {
+            SimulationResult one = best.result();
+            SwimmingNumbers numbers = one.swimming();
+            put(facts, "cost", cost(one.work(), one.work() == null || one.distanceOrZero() <= 0 ? null : one.work() / one.distance()));
+            put(facts, "flow", numbers == null ? List.of() : numbers(numbers.reynolds(), numbers.strouhal()));
+        }
+        return facts;
+    }
+
+    private static List<String> cost(Double work, Double transport) {
+        List<String> parts = new ArrayList<>();
+        if (transport != null) {
+            parts.add("cost of transport " + Numbers.significant(transport, DIGITS) + " mass · length/s²");
+        }
+        if (work != null) {
+            parts.add("work of the muscles " + Numbers.significant(work, DIGITS) + " mass · length²/s²");
+        }
+        return parts;
+    }
+
+    private static List<String> numbers(Double reynolds, Double strouhal) {
+        List<String> parts = new ArrayList<>();
+        if (reynolds != null) {
+            parts.add("Reynolds number " + Numbers.significant(reynolds, DIGITS));
+        }
+        if (strouhal != null) {
+            parts.add("Strouhal number " + Numbers.significant(strouhal, DIGITS));
+        }
+        return parts;
+    }
+
+    private static void put(Map<String, String> facts, String about, List<String> parts) {
+        if (!parts.isEmpty()) {
+            facts.put(about, String.join(", ", parts));
+        }
+    }
+}

@@ -1,0 +1,56 @@
+package io.natator.verdict;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.FreshRuns;
+import io.natator.checkpoint.SwimSample;
+import io.natator.config.Judge;
+import io.natator.encoding.Gait;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.SwimmingNumbers;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+class WinnerFactsTest {
+
+    private static final Gait GAIT = new Gait(2, List.of(0.1), List.of(0.0));
+    @TempDir
+    private Path run;
+
+    private static SimulationResult result(double distance) {
+        return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving", "float", null, null,
+                null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0), 3.0, null);
+    }
+
+    private static BestGait best(FreshRuns fresh) {
+        return new BestGait("pool/creature-1", List.of(1.0), GAIT, 2.5, 0.625, result(2.5), 1.25, result(0), 2.5, 1, fresh);
+    }
+
+    /** Whether it swims, how fast, how sure, what it lost since it was selected, and what it costs. */
+    @Test
+    void aReaderOfAWinnerIsToldAll() {
+        FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(result(1.9), result(2.1)), 4, GAIT, 4.0, 1.25),
+                SwimSample.of(List.of(result(1.8), result(1.8)), 8, GAIT, 4.0, 1.25), Judge.MEAN, 2.5, 1, 2.0);
+
+        assertThat(WinnerFacts.of(run, best(fresh))).containsExactly(
+                Map.entry("verdict", "swims: 0.40 ± 0.03 body lengths/s, 0.36 at half the time step, 0.00 in vacuum"),
+                Map.entry("speed", "0.5000 ± 0.0354 units/s, 0.400 ± 0.028 body lengths/s, 0.200 ± 0.014 per beat"),
+                Map.entry("distance", "2.0000 ± 0.1414 in 4.00 s; 2 fresh starts, all completed"),
+                Map.entry("half step", "1.8000 ± 0.0000 at half the time step; 2 fresh starts, all completed; "
+                        + "0.360 ± 0.000 body lengths/s"),
+                Map.entry("selected", "2.5000 by one run, 2.0000 again: selection loss 20.0 %"),
+                Map.entry("cost", "cost of transport 1.5 mass · length/s², work of the muscles 3 mass · length²/s²"),
+                Map.entry("flow", "Reynolds number 131, Strouhal number 0.31"));
+    }
+
+    @Test
+    void oneRunIsSaidToBeOne() {
+        assertThat(WinnerFacts.of(run, best(null))).containsOnlyKeys("verdict", "cost", "flow")
+                .containsEntry("verdict", "swims: 0.50 body lengths/s, 0.00 in vacuum (one run, not a mean)")
+                .containsEntry("cost", "cost of transport 1.2 mass · length/s², work of the muscles 3 mass · length²/s²");
+    }
+}

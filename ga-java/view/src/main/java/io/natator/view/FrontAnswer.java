@@ -1,0 +1,82 @@
+package io.natator.view;
+
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.Objective;
+import io.natator.encoding.Encoding;
+import io.natator.encoding.Gait;
+import io.natator.evolution.Individual;
+import io.natator.simulator.SimulationResult;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+
+/**
+ * The gaits of a run with several objectives.
+ *
+ * @param goals  what its objectives are, as they are read: work, not less work
+ * @param points each gait of the last generation once; the front first, the best by the first objective first
+ */
+record FrontAnswer(List<Goal> goals, List<Point> points) {
+
+    /**
+     * An objective.
+     *
+     * @param name   of what is measured
+     * @param unit   of that
+     * @param isLess whether less of it is better
+     */
+    record Goal(String name, String unit, boolean isLess) {
+
+        static Goal of(Objective objective) {
+            return switch (objective) {
+                case DISTANCE -> new Goal("distance", "length", false);
+                case NET -> new Goal("distance less drift in vacuum", "length", false);
+                case FORWARD -> new Goal("way along its heading", "length", false);
+                case STRAIGHT -> new Goal("yaw and roll", "rad", true);
+                case WORK -> new Goal("work of the muscles", "mass · length²/s²", true);
+                case EFFICIENCY -> new Goal("distance by work", "s²/(mass · length)", false);
+            };
+        }
+    }
+
+    /**
+     * A gait.
+     *
+     * @param values by the goals
+     * @param isBest whether no other is better in all
+     * @param runs   that they are means of
+     */
+    record Point(List<Double> values, boolean isBest, int runs, Gait gait) {
+    }
+
+    /** Of a run; null with a single objective, or while nothing is measured. */
+    static FrontAnswer of(StoredRun run) {
+        List<Individual> front = run.front();
+        if (front.isEmpty()) {
+            return null;
+        }
+        List<Goal> goals = run.settings().objectives().stream().map(one -> Goal.of(one.objective())).toList();
+        Encoding encoding = run.settings().encoding().forActuators(run.settings().actuators());
+        List<Point> points = new ArrayList<>();
+        Set<List<Double>> known = new HashSet<>();
+        for (Individual one : front) {
+            known.add(one.genes());
+            points.add(point(one, true, goals, encoding));
+        }
+        for (Individual one : run.state().population()) {
+            if (one.result().status() == SimulationResult.Status.OK && known.add(one.genes())) {
+                points.add(point(one, false, goals, encoding));
+            }
+        }
+        return new FrontAnswer(goals, points);
+    }
+
+    private static Point point(Individual one, boolean isBest, List<Goal> goals, Encoding encoding) {
+        List<Double> values = new ArrayList<>();
+        for (int i = 0; i < goals.size(); i++) {
+            values.add(goals.get(i).isLess() ? 0.0 - one.objectives().get(i) : one.objectives().get(i));
+        }
+        return new Point(values, isBest, one.runs(), encoding.decode(one.genes()));
+    }
+}

@@ -1,0 +1,67 @@
+package io.natator.view;
+
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.FitnessKind;
+import io.natator.config.Json;
+import io.natator.encoding.Encoding;
+import io.natator.encoding.Gait;
+import io.natator.evolution.EliteMap;
+import io.natator.evolution.Individual;
+import java.util.IntSummaryStatistics;
+import java.util.List;
+import java.util.stream.Collectors;
+import java.util.stream.IntStream;
+
+/**
+ * The best gait of every kind that a run of MAP-Elites found.
+ *
+ * @param worth what a gait is worth by
+ * @param beats ends of the columns, in beats for a body length: one more than there are columns
+ * @param costs ends of the rows by cost of transport, in mass times length by seconds squared
+ * @param elites the kinds that were found
+ */
+record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elite> elites) {
+
+    /**
+     * The best gait of a kind.
+     *
+     * @param column by beats, from 0
+     * @param row    by cost, from 0
+     * @param worth  by all its runs
+     * @param runs   how many these are
+     * @param beats  for a body length, measured
+     * @param cost   of transport, measured
+     */
+    record Elite(int column, int row, double worth, int runs, double beats, double cost, Gait gait) {
+    }
+
+    /** Of a run; null without a map, or while it is empty. */
+    static MapAnswer of(StoredRun run) {
+        EliteMap map = run.elites();
+        if (map == null || map.moving().isEmpty()) {
+            return null;
+        }
+        IntSummaryStatistics beats = map.moving().keySet().stream().mapToInt(EliteMap.Cell::beats).summaryStatistics();
+        IntSummaryStatistics costs = map.moving().keySet().stream().mapToInt(EliteMap.Cell::cost).summaryStatistics();
+        Encoding encoding = run.settings().encoding().forActuators(run.settings().actuators());
+        List<Elite> elites = map.moving().entrySet().stream().map(entry -> {
+            Individual one = entry.getValue();
+            return new Elite(entry.getKey().beats() - beats.getMin(), entry.getKey().cost() - costs.getMin(), one.score(),
+                    one.runs(), one.effort().beatsPerLength(), one.effort().costOfTransport(), encoding.decode(one.genes()));
+        }).toList();
+        return new MapAnswer(worth(run.settings()), edges(beats), edges(costs), elites);
+    }
+
+    private static List<Double> edges(IntSummaryStatistics cells) {
+        return IntStream.rangeClosed(cells.getMin(), cells.getMax() + 1).mapToObj(EliteMap::edge).toList();
+    }
+
+    private static String worth(EvolutionSettings settings) {
+        if (settings.objectives() == null) {
+            return settings.fitness() == FitnessKind.NET ? "distance less drift in vacuum, length units" : "distance, length units";
+        }
+        return settings.objectives().stream().map(one -> Json.name(one.objective())
+                + (one.weight() == null ? "" : " × " + one.weight())).collect(Collectors.joining(" + "));
+    }
+}
