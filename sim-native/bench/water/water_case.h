@@ -56,7 +56,7 @@ struct WaterCase {
     std::vector<std::string> quantities;  ///< what the figures are
     std::function<WaterRun(const WaterSetting&)> run;
     bool held = false;  ///< needs the forces on held bodies or the pressures: runs only where they are known, in scheme
-                        ///< conserving on the CPU; takes minutes
+                        ///< conserving; takes minutes
 };
 
 /// All cases.

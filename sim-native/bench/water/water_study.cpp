@@ -46,7 +46,7 @@ void add_curve(const Row& name, const std::vector<WaterSample>& curve, ResultTab
 
 void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& table, ResultTable& curves,
               const std::function<void(const std::string&)>& report) {
-    if (one.held && (setting.solver.scheme != Scheme::conserving || setting.gpu)) return;
+    if (one.held && setting.solver.scheme != Scheme::conserving) return;
     const Row name = name_of(one, setting);
     if (is_done(one, name, table)) return;
     const WaterRun run = one.run(setting);
