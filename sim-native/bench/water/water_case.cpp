@@ -45,6 +45,12 @@ const std::vector<WaterCase>& water_cases() {
          "lift coefficient",
          {"drag coefficient at Re 100", "Strouhal number at Re 100"},
          run_shedding_cylinder, true},
+        {"travelling-wave",
+         "speed (lengths/s)",
+         {"Strouhal number at viscosity 0.004", "Reynolds number at viscosity 0.004", "tail beat at viscosity 0.004 (lengths)",
+          "Strouhal number at viscosity 0.008", "Reynolds number at viscosity 0.008", "tail beat at viscosity 0.008 (lengths)",
+          "Strouhal number at viscosity 0.016", "Reynolds number at viscosity 0.016", "tail beat at viscosity 0.016 (lengths)"},
+         run_travelling_wave, true},
     };
     return cases;
 }

@@ -69,6 +69,10 @@ public:
     /// A frame while each particle of infinite mass moves at the velocity that `velocity` gives it; `force` becomes the
     /// mean force of the water on each particle.
     bool drive(const std::function<Eigen::Vector3d(int)>& velocity, std::vector<Eigen::Vector3d>& force);
+    /// A frame: before each substep `set_off` gives the particles of infinite mass their velocities, after it `arrive` gets the
+    /// substep, s, and the forces of the water on each particle, and moves them on.
+    bool drive(const std::function<void()>& set_off,
+               const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive);
     /// Moves the walls along x by so much: the water that is left behind the rear one is put before the front, at rest.
     /// All coordinates are less by `distance` afterwards, so that the walls keep theirs.
     void shift(double distance);
@@ -89,11 +93,6 @@ private:
     void settle();
     bool advance(double time, int substeps);
     std::vector<int> held() const;
-    /// A frame: before each substep `set_off` gives what is held its velocities, after it `arrive` gets the substep, s, and
-    /// the forces, and moves what is held on.
-    bool drive(const std::function<void()>& set_off,
-               const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive);
-
     WaterSetting setting_;
     std::shared_ptr<Model> model_;
     double length_;  ///< along x
