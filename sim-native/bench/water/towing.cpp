@@ -33,6 +33,7 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
     const double scale = density * towing.speed * towing.speed / 2 * area;
     const double weight = density * volume * towing.gravity;
     const double frame = tank.model().time_step, step = std::ceil(diameter / spacing) * spacing;
+    result.box_step = step / diameter;
     double time = 0, way = 0, unshifted = 0;
     for (const Towing::Leg& leg : towing.legs) {
         tank.set_kinematic_viscosity(towing.speed * diameter / leg.reynolds);
@@ -40,7 +41,9 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
         for (double own_way = 0; own_way < leg.way * diameter;) {
             const double speed = towing.speed * std::min(1.0, (way + 0.05 * diameter) / diameter);
             Load load;
-            if (!tank.drive({.velocity = {speed, 0, 0}}, load)) {
+            const double phase = 2 * std::numbers::pi * way / (10 * diameter);
+            const double across = way < 10 * diameter ? towing.sway * speed * std::sin(phase) : 0;
+            if (!tank.drive({.velocity = {speed, across, 0}}, load)) {
                 result.run = tank.run();
                 return result;
             }
@@ -76,10 +79,10 @@ double mean(const std::vector<TowSample>& leg, double TowSample::* coefficient, 
     return sum / count;
 }
 
-std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient) {
+std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient, double window) {
     std::vector<WaterSample> curve;
     for (const auto& leg : result.legs) {
-        double sum = 0, end = 0.25;
+        double sum = 0, end = window;
         int count = 0;
         for (const TowSample& sample : leg) {
             sum += sample.*coefficient;
@@ -88,10 +91,37 @@ std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* c
             curve.push_back({sample.time, sum / count});
             sum = 0;
             count = 0;
-            end += 0.25;
+            end += window;
         }
     }
     return curve;
+}
+
+double lift_frequency(const TowResult& result, double begin) {
+    const std::vector<TowSample>& leg = result.legs.back();
+    const double mean_lift = mean(leg, &TowSample::lift, begin);
+    std::vector<WaterSample> calm;  // without the mean, over the last box step
+    double sum = 0, squares = 0;
+    for (std::size_t last = 0, first = 0; last < leg.size(); ++last) {
+        sum += leg[last].lift - mean_lift;
+        while (leg[last].way - leg[first].way >= result.box_step) sum -= leg[first++].lift - mean_lift;
+        if (leg[last].way < begin) continue;
+        calm.push_back({leg[last].time, sum / static_cast<double>(last - first + 1)});
+        squares += calm.back().value * calm.back().value;
+    }
+    // Counted only where it has been well below the mean since the last swing, so that noise makes none.
+    const double well_below = -0.3 * std::sqrt(squares / static_cast<double>(calm.size()));
+    double from = 0, to = 0;
+    int swings = -1;
+    bool below = false;
+    for (const WaterSample& sample : calm) {
+        if (sample.value < well_below) below = true;
+        if (!below || sample.value < 0) continue;
+        below = false;
+        if (++swings == 0) from = sample.time;
+        to = sample.time;
+    }
+    return swings > 0 ? swings / (to - from) : 0;
 }
 
 }  // namespace natator::bench
