@@ -21,7 +21,8 @@ struct Leg {
     double viscosity;  ///< length^2/s
     int beats;
 };
-constexpr Leg legs[] = {{0.004, 8}, {0.008, 5}, {0.016, 4}};
+constexpr Leg legs[] = {{0.003, 7}, {0.006, 4}, {0.01, 4}};
+constexpr double most_drift = 0.2;  ///< to the side, of the length: nearer to a wall it swims in other water
 
 /// Speed and beat of the tail of what has been followed.
 class Track {
@@ -113,6 +114,8 @@ WaterRun run_as(const WaterSetting& setting) {
         figures.push_back({.value = reynolds, .reference = reynolds_of_larvae(beating * length / viscosity)});
         figures.push_back({.value = track.beat() / length, .reference = 0.5});
     }
+    const double drift = (motion.centre() - start).z() / length;
+    figures.push_back({.value = drift, .reference = 0, .least = -most_drift, .greatest = most_drift});
     WaterRun run = tank.run();
     run.figures = figures;
     run.curve = curve;

@@ -47,9 +47,10 @@ const std::vector<WaterCase>& water_cases() {
          run_shedding_cylinder, true},
         {"travelling-wave",
          "speed (lengths/s)",
-         {"Strouhal number at viscosity 0.004", "Reynolds number at viscosity 0.004", "tail beat at viscosity 0.004 (lengths)",
-          "Strouhal number at viscosity 0.008", "Reynolds number at viscosity 0.008", "tail beat at viscosity 0.008 (lengths)",
-          "Strouhal number at viscosity 0.016", "Reynolds number at viscosity 0.016", "tail beat at viscosity 0.016 (lengths)"},
+         {"Strouhal number at viscosity 0.003", "Reynolds number at viscosity 0.003", "tail beat at viscosity 0.003 (lengths)",
+          "Strouhal number at viscosity 0.006", "Reynolds number at viscosity 0.006", "tail beat at viscosity 0.006 (lengths)",
+          "Strouhal number at viscosity 0.01", "Reynolds number at viscosity 0.01", "tail beat at viscosity 0.01 (lengths)",
+          "drift to the side (lengths)"},
          run_travelling_wave, true},
     };
     return cases;
