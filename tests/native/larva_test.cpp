@@ -120,10 +120,23 @@ TEST(FreeMotion, ForcesMoveAndTurnIt) {
     EXPECT_NEAR(end.norm(), 1, 1e-9);
 }
 
-/// Water that goes along with three times the body's mass, and shows it a step late.
+/// Whatever momentum it has.
+TEST(FreeMotion, ItIsSteered) {
+    const Places bar{{-1, 0, 0}, {1, 0, 0}};
+    FreeMotion motion(bar);
+    motion.steer(0.2);
+    for (int k = 0; k < 100; ++k) {
+        motion.set_off(bar, 0.01);
+        motion.arrive(Places(2, Eigen::Vector3d::Zero()), 0.01);
+    }
+    EXPECT_NEAR(motion.angle(), 0.2, 1e-12);
+    EXPECT_LE((motion.places()[1] - Eigen::Vector3d(std::cos(0.2), 0, -std::sin(0.2))).norm(), 1e-12);
+}
+
+/// Water that goes along with four times the body's mass, and shows it a step late.
 TEST(FreeMotion, BearsAddedMassOfWater) {
     FreeMotion motion({{-1, 0, 0}, {1, 0, 0}});
-    constexpr double h = 0.01, added = 2.5, push = 0.7;
+    constexpr double h = 0.01, added = 4, push = 0.7;
     double before = 0;
     for (int k = 0; k < 400; ++k) {
         motion.set_off({{-1, 0, 0}, {1, 0, 0}}, h);

@@ -6,7 +6,7 @@ namespace {
 // The water answers to a change of speed only in the next step, with forces that are those of its added mass. Where that is more than the
 // body's own mass, a body that took all of each force at once would swing ever more. Of so much more inertia, which keeps on as it
 // did last, it takes an added mass of up to 1 + 2 times that; a force that lasts acts in full.
-constexpr double kept = 1;
+constexpr double kept = 2;
 
 Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& of) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -32,7 +32,7 @@ std::vector<Eigen::Vector3d> FreeMotion::set_off(const std::vector<Eigen::Vector
         of_bending += arm.cross(then - arm).y() / time;
         inertia += arm.x() * arm.x() + arm.z() * arm.z();
     }
-    angle_ += time * (angular_momentum_ - of_bending) / inertia;
+    angle_ += time * (steering_ + (angular_momentum_ - of_bending) / inertia);
     const Eigen::Matrix3d next = turned(angle_);
     next_.clear();
     std::vector<Eigen::Vector3d> velocities;

@@ -19,18 +19,21 @@ public:
     std::vector<Eigen::Vector3d> set_off(const std::vector<Eigen::Vector3d>& shape, double time);
     /// Goes there; `forces` on the particles, mean over the way, change how it moves next.
     void arrive(const std::vector<Eigen::Vector3d>& forces, double time);
+    /// From now on it turns so much faster about y than the forces make it, 1/s.
+    void steer(double rate) { steering_ = rate; }
     /// Nothing else changes.
     void shift(const Eigen::Vector3d& by);
 
     Eigen::Vector3d centre() const;
     const Eigen::Vector3d& velocity() const { return velocity_; }
-    double angular_momentum() const { return angular_momentum_; }  ///< about the centre, along y
+    double angle() const { return angle_; }  ///< by which the shapes' frame is turned about y, from x away from z
 
 private:
     std::vector<Eigen::Vector3d> shape_, places_, next_;  ///< shape_: in the frame of set_off; empty before it
     double angle_ = 0;                                    ///< of that frame about y
     Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero(), acceleration_ = Eigen::Vector3d::Zero();
-    double angular_momentum_ = 0, moment_ = 0;
+    double angular_momentum_ = 0, moment_ = 0;  ///< about the centre, along y
+    double steering_ = 0;
 };
 
 }  // namespace natator::bench

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 #include "water/free_motion.h"
@@ -23,6 +24,32 @@ struct Leg {
 };
 constexpr Leg legs[] = {{0.003, 7}, {0.006, 4}, {0.01, 4}};
 constexpr double most_drift = 0.2;  ///< to the side, of the length: nearer to a wall it swims in other water
+// Every beat throws it off its course by a degree or so. It is turned back slowly, by what it does in the mean over a beat.
+constexpr double course_per_drift = 0.7;   ///< radians for a length
+constexpr double steering_time = 6;        ///< s
+
+/// Steers by the last beat.
+class Helm {
+public:
+    explicit Helm(long frames_per_beat) : size_(static_cast<std::size_t>(frames_per_beat)) {}
+
+    /// The rate to turn by, 1/s, after a frame; `out`: from the middle, along z, of the length.
+    double rate(double angle, double out) {
+        seen_.emplace_back(angle, out);
+        if (seen_.size() > size_) seen_.pop_front();
+        if (seen_.size() < size_) return 0;
+        Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+        for (const Eigen::Vector2d& one : seen_) mean += one / static_cast<double>(size_);
+        drift_ = std::max(drift_, std::abs(mean.y()));
+        return (course_per_drift * mean.y() - mean.x()) / steering_time;
+    }
+    double drift() const { return drift_; }  ///< the most, of the length
+
+private:
+    std::size_t size_;
+    std::deque<Eigen::Vector2d> seen_;
+    double drift_ = 0;
+};
 
 /// Speed and beat of the tail of what has been followed.
 class Track {
@@ -90,6 +117,7 @@ WaterRun run_as(const WaterSetting& setting) {
     std::vector<WaterFigure> figures;
     std::vector<WaterSample> curve;
     const long frames_per_beat = std::lround(larva.beat() / frame);
+    Helm helm(frames_per_beat);
     for (const auto& [viscosity, beats] : legs) {
         tank.set_kinematic_viscosity(viscosity);
         Track track;
@@ -98,6 +126,7 @@ WaterRun run_as(const WaterSetting& setting) {
             if (!tank.drive(set_off, arrive)) return tank.run();
             time += frame;
             unshifted += motion.centre().x() - before;
+            motion.steer(helm.rate(motion.angle(), (motion.centre() - start).z() / length));
             const Eigen::Vector3d way(shifted, 0, 0);
             if (k >= (beats - counted) * frames_per_beat)
                 track.add(time, motion.centre() + way, motion.places()[tail] + way);
@@ -114,8 +143,7 @@ WaterRun run_as(const WaterSetting& setting) {
         figures.push_back({.value = reynolds, .reference = reynolds_of_larvae(beating * length / viscosity)});
         figures.push_back({.value = track.beat() / length, .reference = 0.5});
     }
-    const double drift = (motion.centre() - start).z() / length;
-    figures.push_back({.value = drift, .reference = 0, .least = -most_drift, .greatest = most_drift});
+    figures.push_back({.value = helm.drift(), .reference = 0, .greatest = most_drift});
     WaterRun run = tank.run();
     run.figures = figures;
     run.curve = curve;
