@@ -57,7 +57,7 @@ WaterRun run_shedding_cylinder(const WaterSetting& setting) {
     const double faster = 1 + blockage_of_cylinder(drag, result.diameter, height * towing.diameter);
     run.figures = {drag_figure(mean(result.legs[0], &TowSample::drag, counted_from), drag, faster),
                    figure_within(0.05, lift_frequency(result, counted_from) * result.diameter / towing.speed, strouhal * faster)};
-    run.curve = smoothed(result, &TowSample::lift, result.box_step);
+    run.curve = calm_lift(result);
     return run;
 }
 

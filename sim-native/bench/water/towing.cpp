@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "water/water_tank.h"
@@ -62,6 +63,12 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
     return result;
 }
 
+/// When it has come so far on a leg, diameters.
+double time_at(const std::vector<TowSample>& leg, double way) {
+    const auto there = std::ranges::find_if(leg, [&](const TowSample& sample) { return sample.way >= way; });
+    return there == leg.end() ? std::numeric_limits<double>::infinity() : there->time;
+}
+
 }  // namespace
 
 TowResult tow(const Towing& towing, const WaterSetting& setting) {
@@ -79,10 +86,10 @@ double mean(const std::vector<TowSample>& leg, double TowSample::* coefficient, 
     return sum / count;
 }
 
-std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient, double window) {
+std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient) {
     std::vector<WaterSample> curve;
     for (const auto& leg : result.legs) {
-        double sum = 0, end = window;
+        double sum = 0, end = 0.25;
         int count = 0;
         for (const TowSample& sample : leg) {
             sum += sample.*coefficient;
@@ -91,23 +98,38 @@ std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* c
             curve.push_back({sample.time, sum / count});
             sum = 0;
             count = 0;
-            end += window;
+            end += 0.25;
         }
     }
     return curve;
 }
 
+std::vector<WaterSample> calm_lift(const TowResult& result) {
+    const std::vector<TowSample>& leg = result.legs.back();
+    std::vector<WaterSample> lift;
+    for (const TowSample& sample : leg) lift.push_back({sample.time, sample.lift});
+    for (int k = 0; k < 3; ++k) {
+        const std::vector<WaterSample> before = lift;
+        double sum = 0;
+        for (std::size_t last = 0, first = 0; last < leg.size(); ++last) {
+            sum += before[last].value;
+            while (leg[last].way - leg[first].way >= result.box_step) sum -= before[first++].value;
+            lift[last].value = sum / static_cast<double>(last - first + 1);
+        }
+    }
+    return lift;
+}
+
 double lift_frequency(const TowResult& result, double begin) {
     const std::vector<TowSample>& leg = result.legs.back();
-    const double mean_lift = mean(leg, &TowSample::lift, begin);
-    std::vector<WaterSample> calm;  // without the mean, over the last box step
-    double sum = 0, squares = 0;
-    for (std::size_t last = 0, first = 0; last < leg.size(); ++last) {
-        sum += leg[last].lift - mean_lift;
-        while (leg[last].way - leg[first].way >= result.box_step) sum -= leg[first++].lift - mean_lift;
-        if (leg[last].way < begin) continue;
-        calm.push_back({leg[last].time, sum / static_cast<double>(last - first + 1)});
-        squares += calm.back().value * calm.back().value;
+    std::vector<WaterSample> calm = calm_lift(result);
+    const double from_time = time_at(leg, begin);
+    std::erase_if(calm, [&](const WaterSample& sample) { return sample.time < from_time; });
+    double mean_lift = 0, squares = 0;
+    for (const WaterSample& sample : calm) mean_lift += sample.value / static_cast<double>(calm.size());
+    for (WaterSample& sample : calm) {
+        sample.value -= mean_lift;
+        squares += sample.value * sample.value;
     }
     // Counted only where it has been well below the mean since the last swing, so that noise makes none.
     const double well_below = -0.3 * std::sqrt(squares / static_cast<double>(calm.size()));

@@ -44,11 +44,14 @@ TowResult tow(const Towing& towing, const WaterSetting& setting);
 /// Mean of one of the coefficients over the part of a leg that begins after so many diameters.
 double mean(const std::vector<TowSample>& leg, double TowSample::* coefficient, double begin);
 
-/// Means over so many diameters at a time of one of the coefficients, for a curve: the frames themselves are noisy.
-std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient, double window = 0.25);
+/// Means over every quarter of a diameter of one of the coefficients, for a curve: the frames themselves are noisy.
+std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient);
 
-/// Of the swings of the lift about its mean over the last leg after so many diameters, without the knocks, 1/s: from the first
-/// to the last time that it passes it upwards; 0 without any.
+/// The lift of the last leg, frame by frame, without the knocks and what swings nearly as often as these: mean over
+/// the last box step, taken three times.
+std::vector<WaterSample> calm_lift(const TowResult& result);
+/// Of the swings of that about its mean after so many diameters, 1/s: from the first to the last time that it passes it
+/// upwards; 0 without any.
 double lift_frequency(const TowResult& result, double begin);
 
 }  // namespace natator::bench
