@@ -50,7 +50,7 @@ parts.append(text(*place(11, 1.62), "cylinder, Dennis and Chang", 'fill="#b04a16
 with open(here / "water.csv", newline="") as table:
     for row in csv.DictReader(table):
         words = row["quantity"].split("drag coefficient at Re ")
-        if row["scheme"] != "conserving" or row["status"] != "ok" or len(words) < 2:
+        if row["scheme"] != "conserving" or row["support"] != "2.5" or row["status"] != "ok" or len(words) < 2:
             continue
         colour = {"towed-sphere": "#1668b0", "towed-cylinder": "#b04a16"}.get(row["case"])
         if colour is None:

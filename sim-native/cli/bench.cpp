@@ -257,6 +257,7 @@ void add_water(CLI::App* bench, int& status) {
         Common common;
         std::vector<std::string> cases, settings{"4x4"};
         std::vector<int> resolutions{20, 40};
+        std::vector<double> supports{SolverParameters().kernelSupport};
         BackendChoice backend;
     };
     const auto options = std::make_shared<Options>();
@@ -272,9 +273,13 @@ void add_water(CLI::App* bench, int& status) {
         ->check(CLI::Range(8, 200))
         ->capture_default_str();
     command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4.")->capture_default_str();
+    command->add_option("--support", options->supports, "Of the kernel of scheme conserving, in particle distances.")
+        ->check(CLI::Range(2.0, 4.0))
+        ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
         WaterStudy study{options->cases, options->resolutions, settings_of(common, options->settings)};
+        study.supports = options->supports;
         study.gpu = on_gpu(options->backend, {});
         if (common.quick) study.resolutions = {10};
         study.held = !common.quick;

@@ -3,6 +3,7 @@
 
 #include "../native/bare_particles.h"
 #include "gpu_test.h"
+#include "model/cluster.h"
 #include "model/disorder_fluid.h"
 #include "natator/evaluate.h"
 #include "natator/gpu_solver.h"
@@ -60,13 +61,13 @@ TEST_F(GpuWater, WallsPullAlongTheirNormalsOnly) {
 
 /// Water in a corner of three walls, one of them oblique to the axes, with another that it nearly touches: ghosts of
 /// ghosts, in all orders.
-Model water_in_a_corner() {
-    Model model = drop(lattice(12, 8, 2, spacing, Eigen::Vector3d(0.6, 0.4, 0.1)));
+Model water_in_a_corner(int layers = 2) {
+    Model model = drop(lattice(12, 8, layers, spacing, Eigen::Vector3d(0.6, 0.4, 0.05 * layers)));
     model.parameters.gravity = {0, -10, 0};
     const Eigen::Vector3d x = Eigen::Vector3d(3, 4, 0) / 5, y = Eigen::Vector3d(-4, 3, 0) / 5;
     const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
     for (auto& at : model.position) at = (at.x() * x + at.y() * y + at.z() * z).eval();
-    model.planes = {{x, 0}, {y, 0}, {z, 0}, {-z, 0.2}};
+    model.planes = {{x, 0}, {y, 0}, {z, 0}, {-z, 0.1 * layers}};
     return model;
 }
 
@@ -104,6 +105,102 @@ TEST_F(GpuWater, ACrowdGetsRoomForItsNeighbours) {
         ASSERT_FALSE(gpu.update(on_gpu, 2 * substep, 2));
     }
     EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-9);
+}
+
+/// More water in that corner with a body in its middle, rigid and free, and another in the corner that is held. The water
+/// turns past both.
+Model bodies_in_a_corner() {
+    Model model = water_in_a_corner(6);
+    model.parameters.kinematicViscosity = 0.02;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& x : model.position) middle += x / model.particles();
+    const Eigen::Vector3d held = model.position[0];
+    std::vector<int> body;
+    for (int i = 0; i < model.particles(); ++i) {
+        model.velocity[i] = Eigen::Vector3d(0, 0, 3).cross(model.position[i] - middle);
+        const bool is_free = (model.position[i] - middle).norm() < 1.7 * spacing;
+        if (!is_free && (model.position[i] - held).norm() > 1.7 * spacing) continue;
+        model.phase[i] = is_free ? 1 : 2;
+        model.inverse_mass[i] = is_free ? 0.8 : 0;
+        model.velocity[i].setZero();
+        if (is_free) body.push_back(i);
+    }
+    model.clusters = {make_cluster(body, model.position, 1)};
+    return model;
+}
+
+/// The sum of forces on particles of one phase.
+Eigen::Vector3d sum_on(unsigned phase, const Model& model, const std::vector<Eigen::Vector3d>& forces) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = 0; i < model.particles(); ++i)
+        if (model.phase[i] == phase) sum += forces[i];
+    return sum;
+}
+
+/// The free body together gets what changes its momentum; where nobody asks there are no forces, and the same bits.
+TEST_F(GpuWater, ForcesAreTheCpusAndWhatChangesABodysMomentum) {
+    const Model model = bodies_in_a_corner();
+    Execution execution;
+    execution.forces = true;
+    Solver<double> cpu(model, execution);
+    GpuSolver<double> gpu(model, {.forces = true}), unasked(model);
+    State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu, other = on_cpu;
+    const auto body_momentum = [&] {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const int i : model.clusters[0].particles) sum += on_gpu.velocity[i] / model.inverse_mass[i];
+        return sum;
+    };
+    const Eigen::Vector3d weight = model.parameters.gravity * static_cast<double>(model.clusters[0].particles.size()) / 0.8;
+    EXPECT_TRUE(gpu.forces().empty());
+    EXPECT_TRUE(gpu.pressures().empty());
+    double largest = 0;
+    for (int k = 0; k < 5; ++k) {
+        const Eigen::Vector3d before = body_momentum();
+        ASSERT_FALSE(cpu.update(on_cpu, 2 * substep, 2));
+        ASSERT_FALSE(gpu.update(on_gpu, 2 * substep, 2));
+        ASSERT_FALSE(unasked.update(other, 2 * substep, 2));
+        const auto forces = gpu.forces(), expected = cpu.forces();
+        ASSERT_EQ(forces.size(), expected.size());
+        for (int i = 0; i < model.particles(); ++i) {
+            if (model.is_fluid(i)) {
+                ASSERT_EQ(forces[i].norm(), 0) << i;
+            }
+            largest = std::max(largest, (forces[i] - expected[i]).norm());
+        }
+        EXPECT_GT(sum_on(2, model, forces).norm(), 1e-3 * weight.norm());
+        const Eigen::Vector3d change = (body_momentum() - before) / (2 * substep);
+        EXPECT_LE((change - weight - sum_on(1, model, forces)).norm(), 1e-9 * weight.norm()) << k;
+        const auto pressures = gpu.pressures(), its = cpu.pressures();
+        ASSERT_EQ(pressures.size(), its.size());
+        for (std::size_t i = 0; i < pressures.size(); ++i)
+            EXPECT_NEAR(pressures[i], its[i], 1e-8 * weight.norm() / std::pow(spacing, 2)) << i;
+    }
+    std::cout << "measured: forces on bodies in a corner " << largest / weight.norm() << " of the weight\n";
+    EXPECT_LE(largest, 1e-8 * weight.norm());
+    EXPECT_TRUE(unasked.forces().empty());
+    EXPECT_EQ(largest_distance(on_gpu, other), 0);
+    for (int i = 0; i < model.particles(); ++i) EXPECT_EQ(on_gpu.velocity[i], other.velocity[i]) << i;
+}
+
+/// More neighbours than lists have room for: the update is done again, and its forces are of that alone.
+TEST_F(GpuWater, ForcesAreSummedAnewWhereAnUpdateIsDoneAgain) {
+    Points positions = lattice(12, 12, 12, 0.03);
+    positions.resize(1500);
+    Model model = drop(positions);
+    for (int i = 700; i < 720; ++i) {
+        model.phase[i] = 1;
+        model.inverse_mass[i] = 0;
+    }
+    Execution execution;
+    execution.forces = true;
+    Solver<double> cpu(model, execution);
+    GpuSolver<double> gpu(model, {.forces = true});
+    State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu;
+    ASSERT_FALSE(cpu.update(on_cpu, substep, 1));
+    ASSERT_FALSE(gpu.update(on_gpu, substep, 1));
+    const auto forces = gpu.forces(), expected = cpu.forces();
+    for (int i = 700; i < 720; ++i) EXPECT_LE((forces[i] - expected[i]).norm(), 1e-7 * expected[i].norm()) << i;
+    EXPECT_GT(sum_on(1, model, forces).norm(), 0);
 }
 
 struct WaterEffect {

@@ -112,7 +112,7 @@ TEST(Water, ForcesAreWhatTheWaterDoesToABody) {
         if ((model.position[i] - middle).norm() > 0.25) continue;
         model.phase[i] = 1;
         model.inverse_mass[i] = 0.8;
-        model.velocity[i] = {0.5, 0, 0};
+        model.velocity[i] = {0.05, 0, 0};  // slow under pressure: relief acts
         body.push_back(i);
     }
     model.clusters = {make_cluster(body, model.position, 1)};
@@ -125,18 +125,22 @@ TEST(Water, ForcesAreWhatTheWaterDoesToABody) {
         for (const int i : body) sum += state.velocity[i] / model.inverse_mass[i];
         return sum;
     };
-    advance_frames(solver, model, state, 8);
-    const Eigen::Vector3d before = momentum();
-    advance_frames(solver, model, state, 1);
-    const auto forces = solver.forces();
-    Eigen::Vector3d whole = Eigen::Vector3d::Zero(), weight = whole, lower = whole, upper = whole;
-    for (const int i : body) {
-        whole += forces[i];
-        weight += model.parameters.gravity / model.inverse_mass[i];
-        (state.position[i].y() < middle.y() ? lower : upper) += forces[i];
+    std::vector<Eigen::Vector3d> forces;
+    Eigen::Vector3d lower = Eigen::Vector3d::Zero(), upper = lower;
+    for (int frame = 0; frame < 9; ++frame) {
+        const Eigen::Vector3d before = momentum();
+        advance_frames(solver, model, state, 1);
+        forces = solver.forces();
+        Eigen::Vector3d whole = Eigen::Vector3d::Zero(), weight = whole;
+        lower = upper = whole;
+        for (const int i : body) {
+            whole += forces[i];
+            weight += model.parameters.gravity / model.inverse_mass[i];
+            (state.position[i].y() < middle.y() ? lower : upper) += forces[i];
+        }
+        const Eigen::Vector3d change = (momentum() - before) / model.time_step;
+        EXPECT_LE((change - whole - weight).norm(), 1e-9 * weight.norm()) << frame;
     }
-    const Eigen::Vector3d change = (momentum() - before) / model.time_step;
-    EXPECT_LE((change - whole - weight).norm(), 1e-9 * weight.norm());
     EXPECT_GT(lower.y(), 0);
     EXPECT_LT(upper.y(), 0);
     for (int i = 0; i < model.particles(); ++i) {

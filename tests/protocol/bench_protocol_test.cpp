@@ -48,13 +48,35 @@ TEST(BenchProtocolTest, WaterWritesEveryFigureOfEveryCaseAndTheCurvesBesideIt) {
     const Outcome outcome = run_simulator({"bench", "water", "--quick", "--scheme", "conserving", "--output", file});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file);
-    for (const char* row : {"vortex,10,conserving,float,cpu,4,4,amplitude after one turnover,ok,",
-                            "vortex,10,conserving,float,cpu,4,4,numerical Reynolds number,ok,",
-                            "vortex,10,conserving,float,cpu,4,4,gain of kinetic energy,ok,",
-                            "standing-wave,10,conserving,float,cpu,4,4,period (s),ok,",
-                            "tilted-gravity,10,conserving,float,cpu,4,4,slope under 1 degree (degrees),ok,"})
+    for (const char* row : {"vortex,10,conserving,float,cpu,4,4,2.5,amplitude after one turnover,ok,",
+                            "vortex,10,conserving,float,cpu,4,4,2.5,numerical Reynolds number,ok,",
+                            "vortex,10,conserving,float,cpu,4,4,2.5,gain of kinetic energy,ok,",
+                            "standing-wave,10,conserving,float,cpu,4,4,2.5,period (s),ok,",
+                            "tilted-gravity,10,conserving,float,cpu,4,4,2.5,slope under 1 degree (degrees),ok,"})
         EXPECT_NE(table.find(row), std::string::npos) << row << " in " << table;
-    EXPECT_NE(content(folder.path / "water-curves.csv").find("vortex,10,conserving,float,cpu,4,4,0,1\n"), std::string::npos);
+    EXPECT_NE(content(folder.path / "water-curves.csv").find("vortex,10,conserving,float,cpu,4,4,2.5,0,1\n"), std::string::npos);
+}
+
+/// The support of the kernel is part of a row's key, but where a scheme has none; what it can't be is refused.
+TEST(BenchProtocolTest, WaterTakesTheKernelsSupport) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path / "water.csv").string();
+    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "8", "--setting", "1x1", "--case", "tilted-gravity",
+                                           "--support", "2", "--support", "2.5", "--output", file});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string table = content(file), quantity = "slope afterwards (degrees)";
+    EXPECT_NE(table.find(",support,quantity,"), std::string::npos) << table;
+    std::vector<std::string> values;
+    for (const char* key : {"conserving,float,cpu,1,1,2,", "conserving,float,cpu,1,1,2.5,", "flex,float,cpu,1,1,,"}) {
+        const std::size_t at = table.find(key + quantity);
+        ASSERT_NE(at, std::string::npos) << key << " in " << table;
+        values.push_back(table.substr(at + std::string(key + quantity).size(), 12));
+    }
+    EXPECT_NE(values[0], values[1]);
+    EXPECT_EQ(lines(table), 1 + 2 * 3) << table;
+    const Outcome refused = run_simulator({"bench", "water", "--support", "1.9"});
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_NE(refused.err.find("--support"), std::string::npos) << refused.err;
 }
 
 TEST(BenchProtocolTest, ValidationRefusesWhatIsNoSetting) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "water/water_tank.h"
@@ -33,6 +34,7 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
     const double scale = density * towing.speed * towing.speed / 2 * area;
     const double weight = density * volume * towing.gravity;
     const double frame = tank.model().time_step, step = std::ceil(diameter / spacing) * spacing;
+    result.box_step = step / diameter;
     double time = 0, way = 0, unshifted = 0;
     for (const Towing::Leg& leg : towing.legs) {
         tank.set_kinematic_viscosity(towing.speed * diameter / leg.reynolds);
@@ -40,7 +42,9 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
         for (double own_way = 0; own_way < leg.way * diameter;) {
             const double speed = towing.speed * std::min(1.0, (way + 0.05 * diameter) / diameter);
             Load load;
-            if (!tank.drive({.velocity = {speed, 0, 0}}, load)) {
+            const double phase = 2 * std::numbers::pi * way / (10 * diameter);
+            const double across = way < 10 * diameter ? towing.sway * speed * std::sin(phase) : 0;
+            if (!tank.drive({.velocity = {speed, across, 0}}, load)) {
                 result.run = tank.run();
                 return result;
             }
@@ -57,6 +61,12 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
     }
     result.run = tank.run();
     return result;
+}
+
+/// When it has come so far on a leg, diameters.
+double time_at(const std::vector<TowSample>& leg, double way) {
+    const auto there = std::ranges::find_if(leg, [&](const TowSample& sample) { return sample.way >= way; });
+    return there == leg.end() ? std::numeric_limits<double>::infinity() : there->time;
 }
 
 }  // namespace
@@ -92,6 +102,48 @@ std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* c
         }
     }
     return curve;
+}
+
+std::vector<WaterSample> calm_lift(const TowResult& result) {
+    const std::vector<TowSample>& leg = result.legs.back();
+    std::vector<WaterSample> lift;
+    for (const TowSample& sample : leg) lift.push_back({sample.time, sample.lift});
+    for (int k = 0; k < 3; ++k) {
+        const std::vector<WaterSample> before = lift;
+        double sum = 0;
+        for (std::size_t last = 0, first = 0; last < leg.size(); ++last) {
+            sum += before[last].value;
+            while (leg[last].way - leg[first].way >= result.box_step) sum -= before[first++].value;
+            lift[last].value = sum / static_cast<double>(last - first + 1);
+        }
+    }
+    return lift;
+}
+
+double lift_frequency(const TowResult& result, double begin) {
+    const std::vector<TowSample>& leg = result.legs.back();
+    std::vector<WaterSample> calm = calm_lift(result);
+    const double from_time = time_at(leg, begin);
+    std::erase_if(calm, [&](const WaterSample& sample) { return sample.time < from_time; });
+    double mean_lift = 0, squares = 0;
+    for (const WaterSample& sample : calm) mean_lift += sample.value / static_cast<double>(calm.size());
+    for (WaterSample& sample : calm) {
+        sample.value -= mean_lift;
+        squares += sample.value * sample.value;
+    }
+    // Counted only where it has been well below the mean since the last swing, so that noise makes none.
+    const double well_below = -0.3 * std::sqrt(squares / static_cast<double>(calm.size()));
+    double from = 0, to = 0;
+    int swings = -1;
+    bool below = false;
+    for (const WaterSample& sample : calm) {
+        if (sample.value < well_below) below = true;
+        if (!below || sample.value < 0) continue;
+        below = false;
+        if (++swings == 0) from = sample.time;
+        to = sample.time;
+    }
+    return swings > 0 ? swings / (to - from) : 0;
 }
 
 }  // namespace natator::bench

@@ -22,6 +22,7 @@ struct Towing {
     double speed = 1;                ///< after a diameter in which it grows evenly
     double gravity = 1;              ///< enough for the water to close behind the body
     std::vector<Leg> legs;
+    double sway = 0;  ///< of the speed: once to and fro across the way, along y, in the first ten diameters: sets off vortices
 };
 
 struct TowSample {
@@ -34,6 +35,7 @@ struct TowSample {
 struct TowResult {
     WaterRun run;           ///< without figures
     double diameter = 0;    ///< of a sphere or circle of the volume that the body's particles have
+    double box_step = 0;    ///< diameters that the box is moved on by at a time; each gives the body a knock
     std::vector<std::vector<TowSample>> legs;  ///< a sample a frame
 };
 
@@ -44,5 +46,12 @@ double mean(const std::vector<TowSample>& leg, double TowSample::* coefficient, 
 
 /// Means over every quarter of a diameter of one of the coefficients, for a curve: the frames themselves are noisy.
 std::vector<WaterSample> smoothed(const TowResult& result, double TowSample::* coefficient);
+
+/// The lift of the last leg, frame by frame, without the knocks and what swings nearly as often as these: mean over
+/// the last box step, taken three times.
+std::vector<WaterSample> calm_lift(const TowResult& result);
+/// Of the swings of that about its mean after so many diameters, 1/s: from the first to the last time that it passes it
+/// upwards; 0 without any.
+double lift_frequency(const TowResult& result, double begin);
 
 }  // namespace natator::bench

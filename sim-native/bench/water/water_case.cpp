@@ -45,6 +45,13 @@ const std::vector<WaterCase>& water_cases() {
          "lift coefficient",
          {"drag coefficient at Re 100", "Strouhal number at Re 100"},
          run_shedding_cylinder, true},
+        {"travelling-wave",
+         "speed (lengths/s)",
+         {"Strouhal number at viscosity 0.003", "Reynolds number at viscosity 0.003", "tail beat at viscosity 0.003 (lengths)",
+          "Strouhal number at viscosity 0.006", "Reynolds number at viscosity 0.006", "tail beat at viscosity 0.006 (lengths)",
+          "Strouhal number at viscosity 0.01", "Reynolds number at viscosity 0.01", "tail beat at viscosity 0.01 (lengths)",
+          "drift to the side (lengths)"},
+         run_travelling_wave, true},
     };
     return cases;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "natator/parameters.h"
 #include "path_run.h"
 
 /// Cases of water whose outcome is known, for measuring how far a scheme is from being a fluid.
@@ -16,6 +17,7 @@ struct WaterSetting {
     Setting solver;
     int resolution = 20;  ///< particles along the case's length
     bool gpu = false;
+    double support = SolverParameters().kernelSupport;  ///< of the kernel of scheme conserving, in spacings
 };
 
 /// One number that a case gives, beside what it should be.
@@ -56,7 +58,7 @@ struct WaterCase {
     std::vector<std::string> quantities;  ///< what the figures are
     std::function<WaterRun(const WaterSetting&)> run;
     bool held = false;  ///< needs the forces on held bodies or the pressures: runs only where they are known, in scheme
-                        ///< conserving on the CPU; takes minutes
+                        ///< conserving; takes minutes
 };
 
 /// All cases.
@@ -78,5 +80,6 @@ WaterRun run_slow_sphere(const WaterSetting& setting);
 WaterRun run_towed_sphere(const WaterSetting& setting);
 WaterRun run_towed_cylinder(const WaterSetting& setting);
 WaterRun run_shedding_cylinder(const WaterSetting& setting);
+WaterRun run_travelling_wave(const WaterSetting& setting);
 
 }  // namespace natator::bench

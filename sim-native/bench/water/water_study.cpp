@@ -27,7 +27,8 @@ Row name_of(const WaterCase& one, const WaterSetting& setting) {
             to_string(solver.precision),
             setting.gpu ? "cuda" : "cpu",
             std::to_string(solver.substeps),
-            std::to_string(solver.iterations)};
+            std::to_string(solver.iterations),
+            solver.scheme == Scheme::conserving ? number_text(setting.support) : ""};
 }
 
 bool is_done(const WaterCase& one, const Row& name, const ResultTable& table) {
@@ -46,7 +47,7 @@ void add_curve(const Row& name, const std::vector<WaterSample>& curve, ResultTab
 
 void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& table, ResultTable& curves,
               const std::function<void(const std::string&)>& report) {
-    if (one.held && (setting.solver.scheme != Scheme::conserving || setting.gpu)) return;
+    if (one.held && setting.solver.scheme != Scheme::conserving) return;
     const Row name = name_of(one, setting);
     if (is_done(one, name, table)) return;
     const WaterRun run = one.run(setting);
@@ -68,12 +69,12 @@ void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& ta
 }  // namespace
 
 Row water_columns() {
-    return {"case",   "resolution", "scheme", "precision", "backend",  "substeps", "iterations", "quantity",
-            "status", "value",      "reference", "least",  "greatest", "met",      "particles",  "run_time"};
+    return {"case",   "resolution", "scheme", "precision", "backend",  "substeps", "iterations", "support",
+            "quantity", "status",  "value",  "reference", "least",   "greatest", "met",        "particles", "run_time"};
 }
 
 Row water_curve_columns() {
-    return {"case", "resolution", "scheme", "precision", "backend", "substeps", "iterations", "time", "value"};
+    return {"case", "resolution", "scheme", "precision", "backend", "substeps", "iterations", "support", "time", "value"};
 }
 
 void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& curves,
@@ -82,7 +83,8 @@ void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& c
         if (water_case(name).held && !study.held) continue;
         for (const int resolution : study.resolutions)
             for (const Setting& setting : study.settings)
-                run_case(water_case(name), {setting, resolution, study.gpu}, table, curves, report);
+                for (const double support : study.supports)  // what has none is done once
+                    run_case(water_case(name), {setting, resolution, study.gpu, support}, table, curves, report);
     }
 }
 

@@ -6,8 +6,8 @@
 
 #include "model/disorder_fluid.h"
 #include "model/fluid_block.h"
-#include "natator/error.h"
 #include "natator/gpu_solver.h"
+#include "natator/solver.h"
 
 namespace natator::bench {
 namespace {
@@ -22,6 +22,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
     p.substeps = setting.solver.substeps;
     p.numIterations = setting.solver.iterations;
     p.fluidRestDistance = spacing;
+    p.kernelSupport = setting.support;
     p.radius = p.solidRestDistance = 1.5 * spacing;
     p.collisionDistance = spacing / 2;
     p.viscosity = p.damping = p.dynamicFriction = p.staticFriction = p.particleFriction = 0;
@@ -68,15 +69,16 @@ void WaterTank<Real>::settle() {
     state_.time = 0;
 }
 
-/// The step keeps its solver; `model` must live as long.
+/// The step keeps its solver, and so do pressures and forces; `model` must live as long.
 template <class Real>
 typename WaterTank<Real>::Step WaterTank<Real>::step_of(const Model& model) {
-    const auto advance = [](auto solver) -> Step {
+    const auto step_by = [this](auto solver) -> Step {
+        pressures_ = [solver] { return solver->pressures(); };
+        forces_ = [solver] { return solver->forces(); };
         return [solver](State<Real>& state, double time, int substeps) { return solver->update(state, time, substeps); };
     };
-    if (setting_.gpu) return advance(std::make_shared<GpuSolver<Real>>(model));
-    solver_ = std::make_shared<Solver<Real>>(model, Execution{.forces = true});
-    return advance(solver_);
+    if (setting_.gpu) return step_by(std::make_shared<GpuSolver<Real>>(model, GpuSolverOptions{.forces = true}));
+    return step_by(std::make_shared<Solver<Real>>(model, Execution{.forces = true}));
 }
 
 template <class Real>
@@ -106,12 +108,6 @@ WaterRun WaterTank<Real>::follow(double duration, const std::function<double()>&
 }
 
 template <class Real>
-const Solver<Real>& WaterTank<Real>::cpu_solver() const {
-    if (!solver_) throw InputError("bench water: forces on held bodies and pressures are known on the CPU only");
-    return *solver_;
-}
-
-template <class Real>
 std::vector<int> WaterTank<Real>::held() const {
     std::vector<int> body;
     for (int i = 0; i < model_->particles(); ++i)
@@ -127,7 +123,7 @@ bool WaterTank<Real>::drive(const std::function<void()>& set_off,
     for (int k = 0; k < substeps; ++k) {
         set_off();
         if (!advance(h, 1)) return false;
-        arrive(h, cpu_solver().forces());
+        arrive(h, forces_());
     }
     return true;
 }

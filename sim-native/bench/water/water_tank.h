@@ -8,7 +8,7 @@
 
 #include "in_precision.h"
 #include "natator/model.h"
-#include "natator/solver.h"
+#include "natator/state.h"
 #include "water/water_case.h"
 
 namespace natator::bench {
@@ -49,8 +49,8 @@ public:
     const Model& model() const { return *model_; }
     State<Real>& state() { return state_; }
     const State<Real>& state() const { return state_; }
-    /// Of each particle in the last substep, mass/(length s^2). Throws InputError on a GPU, which tells none.
-    std::vector<Real> pressures() const { return cpu_solver().pressures(); }
+    /// Of each particle in the last substep, mass/(length s^2).
+    std::vector<Real> pressures() const { return pressures_(); }
     /// Mean over all particles of what they have at their places and with their velocities.
     double mean(const std::function<double(const Eigen::Vector3d&, const Eigen::Vector3d&)>& value) const;
     /// Of the water as it is, taken as of even density: twice its mean height, length.
@@ -64,12 +64,15 @@ public:
     /// Frames for as long as that, s, as far as the water stays stable. The curve is value() before the first and after every
     /// one.
     WaterRun follow(double duration, const std::function<double()>& value);
-    /// A frame while the particles of infinite mass move as one rigid body. Throws InputError on a GPU, which tells no
-    /// forces.
+    /// A frame while the particles of infinite mass move as one rigid body.
     bool drive(const Motion& motion, Load& load);
     /// A frame while each particle of infinite mass moves at the velocity that `velocity` gives it; `force` becomes the
-    /// mean force of the water on each particle. Throws InputError on a GPU.
+    /// mean force of the water on each particle.
     bool drive(const std::function<Eigen::Vector3d(int)>& velocity, std::vector<Eigen::Vector3d>& force);
+    /// A frame: before each substep `set_off` gives the particles of infinite mass their velocities, after it `arrive` gets the
+    /// substep, s, and the forces of the water on each particle, and moves them on.
+    bool drive(const std::function<void()>& set_off,
+               const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive);
     /// Moves the walls along x by so much: the water that is left behind the rear one is put before the front, at rest.
     /// All coordinates are less by `distance` afterwards, so that the walls keep theirs.
     void shift(double distance);
@@ -89,19 +92,14 @@ private:
     Step step_of(const Model& model);
     void settle();
     bool advance(double time, int substeps);
-    const Solver<Real>& cpu_solver() const;
     std::vector<int> held() const;
-    /// A frame: before each substep `set_off` gives what is held its velocities, after it `arrive` gets the substep, s, and
-    /// the forces, and moves what is held on.
-    bool drive(const std::function<void()>& set_off,
-               const std::function<void(double, const std::vector<Vector3<Real>>&)>& arrive);
-
     WaterSetting setting_;
     std::shared_ptr<Model> model_;
     double length_;  ///< along x
     State<Real> state_;
-    std::shared_ptr<Solver<Real>> solver_;  ///< null on a GPU
     Step step_;
+    std::function<std::vector<Real>()> pressures_;        ///< of step_
+    std::function<std::vector<Vector3<Real>>()> forces_;  ///< likewise
     double seconds_ = 0;
     std::optional<Instability> instability_;
 };

@@ -23,6 +23,7 @@ enum class GpuPath {
 struct GpuSolverOptions {
     int device = 0;  ///< number of the GPU, see cuda_devices in batch.h
     GpuPath path = GpuPath::by_size;
+    bool forces = false;  ///< keeps what GpuSolver::forces gives; scheme conserving only
 };
 
 /// Advances one State of a Model on a GPU, update by update, as Solver does on the CPU: for observing and testing what
@@ -57,6 +58,10 @@ public:
     /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids, and for
     /// all before the first update.
     std::vector<Real> densities() const;
+    /// As Solver::pressures gives it; empty before the first update, without water, and in scheme flex.
+    std::vector<Real> pressures() const;
+    /// As Solver::forces gives it; empty without GpuSolverOptions::forces, and before the first update.
+    std::vector<Vector3<Real>> forces() const;
     /// Number of fluid and contact neighbours of each particle in the last substep; 0 before the first.
     std::vector<int> neighbour_counts() const;
 

@@ -49,6 +49,14 @@ std::vector<Real> GpuSolver<Real>::densities() const {
     refuse();
 }
 template <class Real>
+std::vector<Real> GpuSolver<Real>::pressures() const {
+    refuse();
+}
+template <class Real>
+std::vector<Vector3<Real>> GpuSolver<Real>::forces() const {
+    refuse();
+}
+template <class Real>
 std::vector<int> GpuSolver<Real>::neighbour_counts() const {
     refuse();
 }

@@ -85,6 +85,9 @@ public:
         return counts;
     }
 
+    virtual std::vector<Real> pressures() const { return {}; }
+    virtual std::vector<Vector3<Real>> forces() const { return {}; }
+
     const Model& model() const { return model_; }
 
 protected:
@@ -137,7 +140,24 @@ private:
 template <class Real>
 class GpuSolver<Real>::ByWholeGpu : public Implementation {
 public:
-    ByWholeGpu(const Model& model, cuda::ContactRoom room) : Implementation(model), runner_(model, 1, room) {}
+    ByWholeGpu(const Model& model, cuda::ContactRoom room, bool forces)
+        : Implementation(model), runner_(model, 1, room, forces) {}
+
+    std::vector<Real> pressures() const override {
+        const std::vector<Real> impulses = h_ > 0 ? runner_.pressure_impulses() : std::vector<Real>{};
+        std::vector<Real> pressures(impulses.empty() ? 0 : this->model_.particles(), Real(0));
+        for (std::size_t k = 0; k < impulses.size(); ++k) pressures[particle_of(k)] = impulses[k] / h_;
+        return pressures;
+    }
+    std::vector<Vector3<Real>> forces() const override {
+        if (!(time_ > 0) || !runner_.keeps_forces()) return {};
+        std::vector<Vector3<Real>> forces(this->model_.particles(), Vector3<Real>::Zero());
+        const std::vector<cuda::Quad<Real>> impulses = runner_.impulses_on_solids();
+        for (std::size_t k = 0; k < impulses.size(); ++k)
+            forces[particle_of(runner_.model().view().fluid + k)] =
+                Vector3<Real>(impulses[k].x, impulses[k].y, impulses[k].z) / time_;
+        return forces;
+    }
 
 private:
     const cuda::DeviceModel<Real>& device_model() const override { return runner_.model(); }
@@ -156,10 +176,15 @@ private:
         }
         this->densities_ = runner_.densities();
         this->neighbours_ = runner_.neighbour_counts();
+        time_ = static_cast<Real>(time_step);
+        h_ = time_ / static_cast<Real>(substeps);
         return progress;
     }
 
+    int particle_of(std::size_t number) const { return runner_.model().particle_of()[number]; }
+
     cuda::LargeRunner<Real> runner_;
+    Real time_ = 0, h_ = 0;  ///< of the last update and of its substeps, s; 0 before the first
 };
 
 template <class Real>
@@ -179,7 +204,8 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
         implementation_ = std::make_unique<ByBlock>(model);
     else
         implementation_ = std::make_unique<ByWholeGpu>(
-            model, path == GpuPath::whole_gpu ? cuda::LargeRunner<Real>::usual_room : cuda::ContactRoom{0, 0});
+            model, path == GpuPath::whole_gpu ? cuda::LargeRunner<Real>::usual_room : cuda::ContactRoom{0, 0},
+            options.forces);
 }
 template <class Real>
 GpuSolver<Real>::~GpuSolver() = default;
@@ -203,6 +229,16 @@ std::optional<Instability> GpuSolver<Real>::frame(State<Real>& state, const Gait
 template <class Real>
 std::vector<Real> GpuSolver<Real>::densities() const {
     return implementation_->densities();
+}
+
+template <class Real>
+std::vector<Real> GpuSolver<Real>::pressures() const {
+    return implementation_->pressures();
+}
+
+template <class Real>
+std::vector<Vector3<Real>> GpuSolver<Real>::forces() const {
+    return implementation_->forces();
 }
 
 template <class Real>

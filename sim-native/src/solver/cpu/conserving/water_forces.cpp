@@ -2,6 +2,7 @@
 // their gradients through a substep, so all of its passes together are one with the sums of their impulses, and the relief
 // that is given back once they are over.
 #include "physics/dfsph.h"
+#include "physics/water_force.h"
 #include "water.h"
 
 namespace natator::cpu {
@@ -43,18 +44,17 @@ void Water<Real>::add_pressure_forces() {
     const WaterView<Real> all = view();
     const physics::WendlandKernel<Real> kernel{all.inverse_radius, all.kernel_scale, all.slope_scale};
     for_each_solid_slot([&](int slot, int particle) {
-        const auto pressure = [&](int of) {
-            return impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]];
+        const auto side = [&](int of) -> physics::PairSide<Real> {
+            const Real* const relief = &packed_relief_[4 * static_cast<std::size_t>(of)];
+            return {volume_[of], impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]],
+                    {relief[0], relief[1], relief[2]}};
         };
-        Vec3<Real> sum{};
+        const physics::PairSide<Real> own = side(slot);
         for_each_neighbour_of(slot, [&](int entry, int other) {
             if (!is_fluid_slot(other)) return;
-            sum += (pressure(slot) + pressure(other)) * gradient_.at(entry);
-            const Real* const relief = &packed_relief_[4 * static_cast<std::size_t>(other)];
-            sum += volume_[slot] * kernel.value(length_of(position_.at(slot) - position_.at(other))) *
-                   Vec3<Real>{relief[0], relief[1], relief[2]};
+            const Real weight = kernel.value(length_of(position_.at(slot) - position_.at(other)));
+            impulse_on_[particle] += pressure_impulse_between(own, side(other), gradient_.at(entry), weight);
         });
-        impulse_on_[particle] += Real(-1) * sum;
     });
     impulse_time_ += h_;
 }

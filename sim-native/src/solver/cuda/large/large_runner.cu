@@ -36,11 +36,12 @@ Real as_quad_number(int i) {
 }  // namespace
 
 template <class Real>
-LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room)
+LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room, bool keeps_forces)
     : host_model_(model), device_model_(model, most_cells(model)), muscles_(states), idle_(states, 0) {
     base_.model = device_model_.view();
     base_.states = states;
     base_.slots.room = room;
+    base_.keeps_forces = keeps_forces && base_.model.plan.water;
     check(cudaStreamCreateWithFlags(&base_.stream, cudaStreamNonBlocking), "stream");
     allocate();
     check(cudaMallocHost(&end_, states * sizeof *end_), "host memory");
@@ -66,7 +67,7 @@ void LargeRunner<Real>::allocate() {
     const ModelView<Real>& size = base_.model;
     const Plan& plan = size.plan;
     Slots<Real>& slots = base_.slots;
-    const bool turns = size.scheme != Scheme::flex;
+    const bool turns = size.scheme != Scheme::flex, keeps_forces = base_.keeps_forces;
     const std::size_t all = size.particles + 1, water = plan.water ? size.particles : 0;
     slots.chunks = (size.most_neighbours + 3) / 4;
     const struct {
@@ -266,6 +267,11 @@ template <class Real>
 void LargeRunner<Real>::launch_substeps(const Update& update, int substeps, StageClock* clock,
                                         const Trace<Real>& trace) const {
     check(cudaMemsetAsync(base_.slots.at.shared, 0xff, base_.states * sizeof(LargeShared<Real>), base_.stream), "clear");
+    if (base_.keeps_forces && base_.model.solids > 0) {
+        const std::size_t bytes = base_.model.solids * sizeof(Quad<Real>);
+        check(cudaMemset2DAsync(base_.slots.water.impulse_on, base_.slots.stride, 0, bytes, base_.states, base_.stream),
+              "clear");
+    }
     if (clock) clock->mark(Stage::load);
     for (int k = 0; k < substeps; ++k) {
         LargeLaunch<Real> substep = launch_of(update, k);
@@ -393,6 +399,26 @@ std::vector<int> LargeRunner<Real>::neighbour_counts() const {
     launch_neighbour_counts(base_, counts.data());
     wait();
     return counts.download();
+}
+
+template <class Real>
+std::vector<Real> LargeRunner<Real>::pressure_impulses() const {
+    if (!base_.model.plan.water) return {};
+    const DeviceBuffer<Real> impulses(std::size_t(base_.states) * base_.model.fluid);
+    launch_pressure_impulses(base_, impulses.data());
+    wait();
+    return impulses.download();
+}
+
+template <class Real>
+std::vector<Quad<Real>> LargeRunner<Real>::impulses_on_solids() const {
+    if (!base_.keeps_forces) return {};
+    const std::size_t solids = base_.model.solids;
+    const DeviceBuffer<Quad<Real>> impulses(base_.states * solids);
+    copy_rows(impulses.data(), solids * sizeof(Quad<Real>), base_.slots.water.impulse_on, base_.slots.stride, solids,
+              base_.states, base_.stream);
+    wait();
+    return impulses.download();
 }
 
 template class LargeRunner<float>;

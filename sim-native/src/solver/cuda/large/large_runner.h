@@ -20,14 +20,15 @@ class LargeRunner {
 public:
     static constexpr ContactRoom usual_room{32, 256};
 
-    /// Throws std::bad_alloc without memory for so many States.
-    explicit LargeRunner(const Model& model, int states = 1, ContactRoom room = usual_room);
+    /// Throws std::bad_alloc without memory for so many States. `keeps_forces`: for impulses_on_solids.
+    explicit LargeRunner(const Model& model, int states = 1, ContactRoom room = usual_room, bool keeps_forces = false);
     ~LargeRunner();
     LargeRunner(const LargeRunner&) = delete;
     LargeRunner& operator=(const LargeRunner&) = delete;
 
     const DeviceModel<Real>& model() const { return device_model_; }
     int states() const { return base_.states; }
+    bool keeps_forces() const { return base_.keeps_forces; }
 
     void upload(int k, const State<Real>& state);
     /// Time and spring rest lengths are those of `like`.
@@ -64,6 +65,10 @@ public:
     /// As the last substep left them, by State and device number.
     std::vector<Real> densities() const;
     std::vector<int> neighbour_counts() const;
+    /// Sums of the last substep's pressure impulses on the fluid, likewise, mass/(length s); empty in scheme flex.
+    std::vector<Real> pressure_impulses() const;
+    /// What the water has given each solid in the last update, mass length/s, by State and device number; empty unless kept.
+    std::vector<Quad<Real>> impulses_on_solids() const;
 
 private:
     void allocate();

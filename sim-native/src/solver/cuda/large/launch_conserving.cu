@@ -1,6 +1,7 @@
 #include "conserving_kernels.cuh"
 #include "effect_kernels.cuh"
 #include "water_effect_kernels.cuh"
+#include "water_force_kernels.cuh"
 
 namespace natator::cuda {
 namespace {
@@ -25,6 +26,10 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     template <auto work>
     void each_pair_of_fluid() const {
         launch.template each_slot<work, pair_lanes>(model.fluid);
+    }
+    template <auto work>
+    void each_pair_of_solids() const {
+        launch.template each_slot<work, pair_lanes>(model.solids);
     }
     template <Pass which>
     void pass() const {
@@ -51,7 +56,10 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         for (int k = 1; k < physics::parting_passes; ++k) pass<Pass::parting>();
         for (int k = 0; k < physics::divergence_passes; ++k) pass<Pass::divergence>();
     }
-    void add_viscosity() const { each_pair<water_viscosity<Real>>(); }
+    void add_viscosity() const {
+        each_pair<water_viscosity<Real>>();
+        if (launch.keeps_forces) each_pair_of_solids<add_viscous_forces<Real>>();
+    }
     void add_fluid_forces() const {
         if (model.plan.surface_tension || model.plan.vorticity) each_pair_of_fluid<measure_water<Real>>();
         each_pair_of_fluid<push_water_by_effects<Real>>();
@@ -76,6 +84,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         if (model.plan.water) {
             each_particle<lay_out_relief<Real>>();
             each_pair<return_relief<Real>>();
+            if (launch.keeps_forces) each_pair_of_solids<add_pressure_forces<Real>>();
             if (model.planes > 0 && norm(model.fluid_gravity) > 0) each_pair<hold_at_walls<Real>>();
             launch.template each_slot<move_water<Real>>(model.fluid);
         }

@@ -25,6 +25,12 @@ __device__ void neighbour_counts_large(const ModelView<Real>& model, const Slots
 }
 
 template <class Real>
+__device__ void pressure_impulses_large(const ModelView<Real>& model, const Slots<Real>& slots, int s, Real* impulses) {
+    impulses += static_cast<std::size_t>(blockIdx.y) * model.fluid;
+    impulses[slots.number()[s]] = slots.water.impulse_sum[slots.water.slot_before[s]];
+}
+
+template <class Real>
 __device__ void measure_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     measure_path(model, slots, &slots.shared().mean_x);
     measure_tail(model, slots, &slots.shared().tail_z);
@@ -101,6 +107,11 @@ void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts) {
 }
 
 template <class Real>
+void launch_pressure_impulses(const LargeLaunch<Real>& launch, Real* impulses) {
+    launch.template report_slots<pressure_impulses_large<Real>>(launch.model.fluid, impulses);
+}
+
+template <class Real>
 void launch_measure(const LargeLaunch<Real>& launch) {
     at_the_end(launch).template report_states<measure_large<Real>, threads>();
 }
@@ -128,6 +139,7 @@ void launch_far_slot(const LargeLaunch<Real>& launch) {
     template void record_positions(const LargeLaunch<Real>&, Quad<Real>*, int); \
     template void launch_densities(const LargeLaunch<Real>&, Real*);            \
     template void launch_neighbour_counts(const LargeLaunch<Real>&, int*);      \
+    template void launch_pressure_impulses(const LargeLaunch<Real>&, Real*);    \
     template void launch_measure(const LargeLaunch<Real>&);                     \
     template void launch_work(const LargeLaunch<Real>&);                        \
     template void launch_rest(const LargeLaunch<Real>&);                        \

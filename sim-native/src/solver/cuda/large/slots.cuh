@@ -69,7 +69,8 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Real, density_of, water) /* by number */                                                                        \
     X(int, count_of, water)    /* by number */                                                                        \
     X(int, slot_before, water) /* by slot of this substep */                                                          \
-    X(int, slot_of_solid, plan.water ? size.solids : 0)
+    X(int, slot_of_solid, plan.water ? size.solids : 0)                                                               \
+    X(Quad<Real>, impulse_on, keeps_forces ? size.solids : 0) /* of the water, in the update so far; by solid */
 
 #define NATATOR_MEMBER(type, name, ...) type* name = nullptr;
 template <class Real>

@@ -22,6 +22,7 @@ struct LargeLaunch {
     cudaStream_t stream;
     Trace<Real> trace;        ///< null where nobody looks
     StageClock* clock = nullptr;  ///< likewise
+    bool keeps_forces = false;    ///< sums the impulses of the water on solids
 
     /// Of blocks for each State.
     dim3 grid(int blocks) const { return {static_cast<unsigned>(blocks), static_cast<unsigned>(states)}; }
@@ -93,6 +94,9 @@ template <class Real>
 void launch_densities(const LargeLaunch<Real>& launch, Real* density);
 template <class Real>
 void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts);
+/// Likewise of the fluid, for scheme conserving: sums of the last substep's pressure impulses.
+template <class Real>
+void launch_pressure_impulses(const LargeLaunch<Real>& launch, Real* impulses);
 
 /// Adds the work of the muscles in the substep to that of the update, into what all share.
 template <class Real>

@@ -1,0 +1,63 @@
+#include "water/free_motion.h"
+
+namespace natator::bench {
+namespace {
+
+// The water answers to a change of speed only in the next step, with forces that are those of its added mass. Where that is more than the
+// body's own mass, a body that took all of each force at once would swing ever more. Of so much more inertia, which keeps on as it
+// did last, it takes an added mass of up to 1 + 2 times that; a force that lasts acts in full.
+constexpr double kept = 2;
+
+Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& of) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& x : of) sum += x;
+    return sum / static_cast<double>(of.size());
+}
+
+}  // namespace
+
+FreeMotion::FreeMotion(std::vector<Eigen::Vector3d> places) : places_(std::move(places)) {}
+
+Eigen::Vector3d FreeMotion::centre() const {
+    return mean(places_);
+}
+
+std::vector<Eigen::Vector3d> FreeMotion::set_off(const std::vector<Eigen::Vector3d>& shape, double time) {
+    const auto turned = [](double angle) { return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix(); };
+    const Eigen::Vector3d here = centre(), middle = mean(shape);
+    const Eigen::Matrix3d now = turned(angle_);
+    double of_bending = 0, inertia = 0;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        const Eigen::Vector3d arm = places_[k] - here, then = now * (shape[k] - middle);
+        of_bending += arm.cross(then - arm).y() / time;
+        inertia += arm.x() * arm.x() + arm.z() * arm.z();
+    }
+    angle_ += time * (steering_ + (angular_momentum_ - of_bending) / inertia);
+    const Eigen::Matrix3d next = turned(angle_);
+    next_.clear();
+    std::vector<Eigen::Vector3d> velocities;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        next_.push_back(here + time * velocity_ + next * (shape[k] - middle));
+        velocities.push_back((next_[k] - places_[k]) / time);
+    }
+    return velocities;
+}
+
+void FreeMotion::arrive(const std::vector<Eigen::Vector3d>& forces, double time) {
+    const Eigen::Vector3d here = centre();
+    Eigen::Vector3d force = mean(forces);  // per mass
+    force.y() = 0;
+    double moment = 0;
+    for (std::size_t k = 0; k < places_.size(); ++k) moment += (places_[k] - here).cross(forces[k]).y();
+    acceleration_ = (force + kept * acceleration_) / (1 + kept);
+    moment_ = (moment + kept * moment_) / (1 + kept);
+    velocity_ += time * acceleration_;
+    angular_momentum_ += time * moment_;
+    places_ = next_;
+}
+
+void FreeMotion::shift(const Eigen::Vector3d& by) {
+    for (Eigen::Vector3d& x : places_) x += by;
+}
+
+}  // namespace natator::bench

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Dense>
+
+namespace natator::bench {
+
+/// A body that bends as it is told to and else moves freely in the plane of x and z, by the forces on it: what its bending
+/// alone does to it has neither linear nor angular momentum. All of its particles have mass 1; it neither rises nor tilts.
+class FreeMotion {
+public:
+    /// At rest, at these places.
+    explicit FreeMotion(std::vector<Eigen::Vector3d> places);
+
+    /// Where its particles are, and with what velocities they go to where they will be in so long, s, if its shape is `shape`
+    /// then, in any frame. The same frame must serve all calls.
+    const std::vector<Eigen::Vector3d>& places() const { return places_; }
+    std::vector<Eigen::Vector3d> set_off(const std::vector<Eigen::Vector3d>& shape, double time);
+    /// Goes there; `forces` on the particles, mean over the way, change how it moves next.
+    void arrive(const std::vector<Eigen::Vector3d>& forces, double time);
+    /// From now on it turns so much faster about y than the forces make it, 1/s.
+    void steer(double rate) { steering_ = rate; }
+    /// Nothing else changes.
+    void shift(const Eigen::Vector3d& by);
+
+    Eigen::Vector3d centre() const;
+    const Eigen::Vector3d& velocity() const { return velocity_; }
+    double angle() const { return angle_; }  ///< by which the shapes' frame is turned about y, from x away from z
+
+private:
+    std::vector<Eigen::Vector3d> shape_, places_, next_;  ///< shape_: in the frame of set_off; empty before it
+    double angle_ = 0;                                    ///< of that frame about y
+    Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero(), acceleration_ = Eigen::Vector3d::Zero();
+    double angular_momentum_ = 0, moment_ = 0;  ///< about the centre, along y
+    double steering_ = 0;
+};
+
+}  // namespace natator::bench
