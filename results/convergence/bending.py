@@ -50,10 +50,10 @@ def bending(simulator, creature, cluster, spring, refinement, substeps, iteratio
 
 def main():
     simulator, output = sys.argv[1:3]
-    steps = [(4, 8), (8, 8), (16, 8), (32, 8), (8, 32), (32, 32)]
+    steps = [(4, 8), (4, 64), (8, 8), (16, 8), (32, 8), (8, 32), (32, 32)]
     cases = [(creature, cluster, spring, 1, *step) for creature in GAITS
              for cluster, spring in ((0.6, 0.4), (0.9, 1), (0.2, 1)) for step in steps]
-    cases += [(creature, 0.6, 0.4, 2, *step) for creature in GAITS for step in ((8, 8), (16, 8), (8, 32))]
+    cases += [(creature, 0.6, 0.4, 2, *step) for creature in GAITS for step in ((4, 64), (8, 8), (16, 8), (8, 32))]
     with concurrent.futures.ThreadPoolExecutor(int(sys.argv[3]) if len(sys.argv) > 3 else 1) as pool:
         degrees = pool.map(lambda case: bending(simulator, *case), cases)
         with open(output, "w", newline="") as file:

@@ -73,5 +73,8 @@ for seconds, off, name, support in points:
 for seconds, off, name, _ in front(points):
     x, y = place(seconds, off)
     parts.append(text(x + 6, y - 6, name))
+for k, (support, colour) in enumerate(colours.items()):
+    parts.append(f'<circle cx="{left + width - 110}" cy="{top + 18 + 16 * k}" r="4" fill="{colour}"/>')
+    parts.append(text(left + width - 100, top + 22 + 16 * k, f"support {support}"))
 print(f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + 40}" height="{top + height + 50}" '
       'font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="white"/>' + "\n".join(parts) + "</svg>")
