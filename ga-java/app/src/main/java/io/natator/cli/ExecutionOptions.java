@@ -6,6 +6,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import java.time.Duration;
+import java.util.List;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
@@ -17,6 +18,12 @@ final class ExecutionOptions {
             + "process (one for each), resident (processes kept alive) or batch (a generation at once). The results are "
             + "the same. Default: batch with --backend cuda, else process.")
     private SimulatorMode mode;
+
+    @Option(names = "--simulator-command", paramLabel = "COMMAND", description = "A command line that starts a program "
+            + "like natator-sim serve, say \"ssh host natator-sim serve\". Several, each with its own option, share the "
+            + "evaluations; --workers says how many at once over all of them. They must have this machine's "
+            + "instruction set, or all the same NATATOR_ISA. Default: the native program here.")
+    private List<String> commands = List.of();
 
     @Option(names = "--backend", paramLabel = "BACKEND",
             description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: cpu; of a run that is "
@@ -53,10 +60,10 @@ final class ExecutionOptions {
             Limits.checkSeconds("--timeout", timeoutSeconds);
         }
         Backend chosen = backend != null ? backend : otherwise;
-        return new ExecutionSettings(simulator.path(),
-                mode != null ? mode : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS, chosen,
-                device, workers != null ? workers : Runtime.getRuntime().availableProcessors(),
+        SimulatorMode usual = !commands.isEmpty() ? SimulatorMode.RESIDENT
+                : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
+        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, device, workers != null ? workers : Runtime.getRuntime().availableProcessors(),
                 timeoutSeconds == null ? null
-                        : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null);
+                        : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null, commands);
     }
 }

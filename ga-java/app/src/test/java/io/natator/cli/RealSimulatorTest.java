@@ -1,12 +1,14 @@
 package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assumptions.assumeThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Json;
+import io.natator.simulator.ProgramInfo;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
@@ -65,6 +67,24 @@ class RealSimulatorTest {
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
+    }
+
+    @Test
+    void commandsSwimAsTheProgramDoesOrAreRefused() throws InterruptedException {
+        String[] swim = {"evaluate", "--scene", "pool/creature-1", "--duration", "0.1", "--gait", "1.5", "0.6", "0.69", "0.5"};
+        List<String> elsewhere = new ArrayList<>(List.of(swim));
+        elsewhere.addAll(List.of("--simulator-command", "exec " + SIMULATOR + " serve"));
+        assertThat(natator(swim)).as(err.toString()).isZero();
+        String here = out.toString();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator(elsewhere.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(out.toString()).isEqualTo(here);
+
+        assumeThat(ProgramInfo.of(SIMULATOR).instructionSet()).isNotEqualTo("portable");
+        elsewhere.set(elsewhere.size() - 1, "NATATOR_ISA=portable exec " + SIMULATOR + " serve");
+        assertThat(natator(elsewhere.toArray(String[]::new))).isEqualTo(2);
+        assertThat(err.toString()).contains("swims otherwise than this program", "NATATOR_ISA").containsOnlyOnce("\n");
     }
 
     /** In the pool, whose scheme has no clamp; half a second is too short to swim, so only what was run is looked at. */

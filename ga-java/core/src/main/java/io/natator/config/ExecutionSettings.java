@@ -2,6 +2,7 @@ package io.natator.config;
 
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.List;
 
 /**
  * How evaluations are carried out; only the backend (and the GPU's model) changes the outcome, in the last digits.
@@ -13,9 +14,11 @@ import java.time.Duration;
  * @param workers   evaluations at the same time, from 1 to {@link Limits#AT_ONCE}; in mode batch the program decides
  * @param timeout   longest time for one attempt at an evaluation, or null to derive it from the scene's cost
  * @param cache     folder of evaluations that need not be done again, or null for none
+ * @param commands  command lines for {@code /bin/sh}, each of which starts a program that speaks the protocol of
+ *                  {@code natator-sim serve}, maybe on another machine; evaluations are spread over them. None: {@code simulator}
  */
 public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
-        Duration timeout, Path cache) {
+        Duration timeout, Path cache, List<String> commands) {
 
     /**
      * Checks the ranges.
@@ -23,7 +26,19 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
      * @throws InvalidInputException naming the setting that is out of range
      */
     public ExecutionSettings {
+        commands = List.copyOf(commands);
         Limits.checkCount("workers", workers, Limits.AT_ONCE);
+        if (commands.stream().anyMatch(String::isBlank)) {
+            throw new InvalidInputException("simulator command is blank; expected a command line");
+        }
+        if (!commands.isEmpty() && mode == SimulatorMode.PROCESS) {
+            throw new InvalidInputException("simulator commands keep running; expected simulator mode resident or batch, "
+                    + "not process");
+        }
+        if (commands.size() > 1 && mode == SimulatorMode.BATCH) {
+            throw new InvalidInputException("simulator mode batch gives whole generations to one program; expected one "
+                    + "simulator command, not " + commands.size());
+        }
         if (device < 0) {
             throw new InvalidInputException("device is " + device + "; expected a whole number from 0");
         }
@@ -31,6 +46,12 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
             throw new InvalidInputException("timeout is " + timeout.toMillis() / 1000.0
                     + "; expected a number of seconds above 0");
         }
+    }
+
+    /** Settings that start the program itself. */
+    public ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
+            Duration timeout, Path cache) {
+        this(simulator, mode, backend, device, workers, timeout, cache, List.of());
     }
 
     /** A process for each evaluation, on the processor, without a cache. */
@@ -48,23 +69,28 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         return mode == SimulatorMode.BATCH ? population : Math.min(workers, Runtime.getRuntime().availableProcessors());
     }
 
+    /** These settings with other commands, see {@link #commands}. */
+    public ExecutionSettings withCommands(List<String> newCommands) {
+        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, cache, newCommands);
+    }
+
     /** These settings in another mode. */
     public ExecutionSettings withMode(SimulatorMode newMode) {
-        return new ExecutionSettings(simulator, newMode, backend, device, workers, timeout, cache);
+        return new ExecutionSettings(simulator, newMode, backend, device, workers, timeout, cache, commands);
     }
 
     /** These settings on another backend. */
     public ExecutionSettings withBackend(Backend newBackend) {
-        return new ExecutionSettings(simulator, mode, newBackend, device, workers, timeout, cache);
+        return new ExecutionSettings(simulator, mode, newBackend, device, workers, timeout, cache, commands);
     }
 
     /** These settings with a time limit. */
     public ExecutionSettings withTimeout(Duration newTimeout) {
-        return new ExecutionSettings(simulator, mode, backend, device, workers, newTimeout, cache);
+        return new ExecutionSettings(simulator, mode, backend, device, workers, newTimeout, cache, commands);
     }
 
     /** These settings with another cache, or null for none. */
     public ExecutionSettings withCache(Path newCache) {
-        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, newCache);
+        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, newCache, commands);
     }
 }

@@ -64,7 +64,7 @@ public final class ControlRuns {
 
     /** The same runs on another backend. */
     private SwimSample onOther(Gait gait, Backend backend) throws InterruptedException {
-        ExecutionSettings elsewhere = execution.withBackend(backend)
+        ExecutionSettings elsewhere = execution.withCommands(List.of()).withBackend(backend)
                 .withMode(backend == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.RESIDENT);
         try (Evaluator evaluator = EvolutionRun.open(elsewhere)) {
             return again.sample(runs(again.requests(gait, starts, null), evaluator), gait, 1);

@@ -36,6 +36,7 @@ public final class BatchSimulator implements Evaluator {
     private static final int MOST_FAILURES = 24;
 
     private final ExecutionSettings settings;
+    private final ServeCommands commands;
     private final ProcessGroup group = new ProcessGroup();
     private final BlockingQueue<Job> waiting = new LinkedBlockingQueue<>();
     private final Thread dispatcher = new Thread(this::dispatch, "batches");
@@ -73,6 +74,7 @@ public final class BatchSimulator implements Evaluator {
      */
     public BatchSimulator(ExecutionSettings settings) {
         this.settings = settings;
+        this.commands = new ServeCommands(settings);
         dispatcher.setDaemon(true);
         dispatcher.start();
     }
@@ -186,7 +188,7 @@ public final class BatchSimulator implements Evaluator {
             endProcess();
         }
         if (process == null) {
-            process = new ServeProcess(group, settings);
+            process = commands.start(group, null, jobs.get(0).request);
         }
         process.send(lines.toString());
         while (!open.isEmpty()) {

@@ -16,6 +16,7 @@ public final class ResidentSimulator implements Simulator {
     private static final Logger LOG = LoggerFactory.getLogger(ResidentSimulator.class);
 
     private final ExecutionSettings settings;
+    private final ServeCommands commands;
     private final ProcessGroup group = new ProcessGroup();
     private final Deque<ServeProcess> idle = new ConcurrentLinkedDeque<>();
 
@@ -26,15 +27,17 @@ public final class ResidentSimulator implements Simulator {
      */
     public ResidentSimulator(ExecutionSettings settings) {
         this.settings = settings;
+        this.commands = new ServeCommands(settings);
     }
 
     @Override
     public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
         String input = Json.line(request) + "\n";
         String reason = "";
+        ServeCommands.Command[] tried = {null};
         for (int attempt = 1; attempt <= ProcessSimulator.ATTEMPTS; attempt++) {
             try {
-                return attempt(request, input);
+                return attempt(request, input, tried);
             } catch (SimulatorFailure e) {
                 reason = e.getMessage();
                 LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ProcessSimulator.ATTEMPTS,
@@ -46,9 +49,11 @@ public final class ResidentSimulator implements Simulator {
         return SimulationResult.failed(request.id(), reason);
     }
 
-    private SimulationResult attempt(SimulationRequest request, String input)
+    /** {@code tried} holds what was last tried, to be avoided now. */
+    private SimulationResult attempt(SimulationRequest request, String input, ServeCommands.Command[] tried)
             throws SimulatorFailure, InterruptedException {
-        ServeProcess process = take();
+        ServeProcess process = take(tried[0], request);
+        tried[0] = process.command();
         boolean reusable = false;
         try {
             process.send(input);
@@ -66,19 +71,22 @@ public final class ResidentSimulator implements Simulator {
                 idle.push(process);
             } else {
                 process.close();
+                commands.ended(process.command(), !reusable);
             }
         }
     }
 
     /** An idle process, or a new one. One that died or talks to itself while idle costs no attempt. */
-    private ServeProcess take() throws SimulatorFailure, InterruptedException {
+    private ServeProcess take(ServeCommands.Command avoided, SimulationRequest request)
+            throws SimulatorFailure, InterruptedException {
         for (ServeProcess process = idle.poll(); process != null; process = idle.poll()) {
             if (process.isReady()) {
                 return process;
             }
             process.close();
+            commands.ended(process.command(), true);
         }
-        return new ServeProcess(group, settings);
+        return commands.start(group, avoided, request);
     }
 
     @Override

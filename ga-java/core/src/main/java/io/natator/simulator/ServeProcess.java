@@ -1,6 +1,5 @@
 package io.natator.simulator;
 
-import io.natator.config.ExecutionSettings;
 import java.io.BufferedInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
@@ -30,6 +29,7 @@ final class ServeProcess implements AutoCloseable {
     private static final long GRACE_MILLISECONDS = 5000;
 
     private final ProcessGroup group;
+    private final ServeCommands.Command command;
     private final Process process;
     private final BlockingQueue<Line> answers = new ArrayBlockingQueue<>(QUEUED_LINES);
     private final BlockingQueue<byte[]> requests = new LinkedBlockingQueue<>();
@@ -44,14 +44,15 @@ final class ServeProcess implements AutoCloseable {
     /**
      * Starts the program.
      *
-     * @param group to which its process belongs
+     * @param group   to which its process belongs
+     * @param command that starts it
      * @throws SimulatorFailure     if it does not start
      * @throws InterruptedException if the group was stopped
      */
-    ServeProcess(ProcessGroup group, ExecutionSettings settings) throws SimulatorFailure, InterruptedException {
+    ServeProcess(ProcessGroup group, ServeCommands.Command command) throws SimulatorFailure, InterruptedException {
         this.group = group;
-        this.process = group.start(List.of(settings.simulator().toString(), "serve", "--backend",
-                settings.backend().argument(), "--device", "" + settings.device()));
+        this.command = command;
+        this.process = group.start(ServeCommands.words(command));
         this.errors = new ErrorTail(process.getErrorStream());
         this.threads = List.of(new Thread(this::write, "serve-input"), new Thread(this::read, "serve-output"),
                 new Thread(errors, "serve-errors"));
@@ -59,6 +60,11 @@ final class ServeProcess implements AutoCloseable {
             thread.setDaemon(true);
             thread.start();
         }
+    }
+
+    /** What it was started by. */
+    ServeCommands.Command command() {
+        return command;
     }
 
     /** Whether it runs and has said nothing that it was not asked. */

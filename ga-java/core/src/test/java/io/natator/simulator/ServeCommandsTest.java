@@ -1,0 +1,117 @@
+package io.natator.simulator;
+
+import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.SimulatorMode;
+import io.natator.simulator.SimulationResult.Status;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.stream.LongStream;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.EnumSource;
+
+@Timeout(value = 30, unit = TimeUnit.MINUTES)
+class ServeCommandsTest {
+
+    @TempDir
+    private Path folder;
+    private Path fake;
+
+    @BeforeEach
+    void fakeSimulator() {
+        fake = FakeSimulator.in(folder);
+    }
+
+    private ExecutionSettings settings(SimulatorMode mode, String... commands) {
+        return new ExecutionSettings(fake, mode, Backend.CPU, 0, 2, Duration.ofMinutes(5), null, List.of(commands));
+    }
+
+    /** A command that leaves a line in the file `name` when it is started. */
+    private String marked(String name) {
+        return "echo started >>" + folder.resolve(name) + "; exec " + fake + " serve";
+    }
+
+    private static List<SimulationResult> evaluate(ExecutionSettings settings, int requests)
+            throws InterruptedException {
+        List<SimulationResult> results = new ArrayList<>();
+        try (Evaluator evaluator = Evaluator.open(settings)) {
+            evaluator.evaluateInOrder(LongStream.range(0, requests)
+                    .mapToObj(id -> FakeSimulator.request(id, "thesis/creature-1")).toList(), results::add);
+        }
+        assertThatNoChildIsLeft();
+        return results;
+    }
+
+    @Test
+    void commandsShareTheEvaluations() throws InterruptedException, IOException {
+        Files.writeString(folder.resolve("slow"), "0.2");  // so that one is still at work when the next request comes
+
+        List<SimulationResult> results = evaluate(settings(SimulatorMode.RESIDENT, marked("a"), marked("b")), 6);
+
+        assertThat(results).allSatisfy(result -> assertThat(result.distance()).isEqualTo(-1.3925)).hasSize(6);
+        assertThat(Files.readAllLines(folder.resolve("a"))).hasSize(1);
+        assertThat(Files.readAllLines(folder.resolve("b"))).hasSize(1);
+    }
+
+    @Test
+    void aBatchGoesToTheCommand() throws InterruptedException, IOException {
+        assertThat(evaluate(settings(SimulatorMode.BATCH, marked("a")), 5)).extracting(SimulationResult::status)
+                .containsOnly(Status.OK).hasSize(5);
+        assertThat(Files.readAllLines(folder.resolve("a"))).hasSize(1);
+    }
+
+    @Test
+    void aMachineThatIsAwayHarmsNothing() throws InterruptedException, IOException {
+        String away = "echo tried >>" + folder.resolve("away") + "; echo no route to host >&2; exit 255";
+
+        assertThat(evaluate(settings(SimulatorMode.RESIDENT, away, marked("a")), 20)).extracting(SimulationResult::status)
+                .containsOnly(Status.OK).hasSize(20);
+        assertThat(Files.readAllLines(folder.resolve("away"))).as("attempts there").hasSizeBetween(1, 2);
+    }
+
+    @Test
+    void withoutAnyMachineResultsSayWhy() throws InterruptedException {
+        assertThat(evaluate(settings(SimulatorMode.RESIDENT, "echo no route to host >&2; exit 255"), 1)).singleElement()
+                .satisfies(result -> {
+                    assertThat(result.status()).isEqualTo(Status.FAILED);
+                    assertThat(result.error()).contains("exit status 255", "no route to host");
+                });
+    }
+
+    @ParameterizedTest
+    @EnumSource(value = SimulatorMode.class, names = {"RESIDENT", "BATCH"})
+    void aProgramThatSwimsOtherwiseIsRefused(SimulatorMode mode) {
+        String other = fake + " serve | sed -u 's/\"hash\":\"./\"hash\":\"f/'";
+
+        assertThatThrownBy(() -> evaluate(settings(mode, other), 1))
+                .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isTrue())
+                .hasMessageMatching("--simulator-command \".*\" swims otherwise than this program \\(hash f.*, not 0.*, "
+                        + "after 0.05 s\\): another version, instruction set .NATATOR_ISA. or kind of GPU");
+    }
+
+    @Test
+    void settingsThatDoNotGoTogetherAreRefused() {
+        assertThatThrownBy(() -> settings(SimulatorMode.PROCESS, "ssh a natator-sim serve"))
+                .isInstanceOf(InvalidInputException.class)
+                .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not process");
+        assertThatThrownBy(() -> settings(SimulatorMode.BATCH, "a", "b")).isInstanceOf(InvalidInputException.class)
+                .hasMessage("simulator mode batch gives whole generations to one program; expected one simulator "
+                        + "command, not 2");
+        assertThatThrownBy(() -> settings(SimulatorMode.RESIDENT, " ")).isInstanceOf(InvalidInputException.class)
+                .hasMessage("simulator command is blank; expected a command line");
+    }
+}
