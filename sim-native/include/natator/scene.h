@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,10 +30,14 @@ struct FluidBlock {
     int disorder = 20;                           ///< seed of the places off the lattice that scheme `conserving` begins from
 };
 
-/// One cross-section of a body: a grid of height x width particles in (y, z).
+/// One cross-section of a body: rows of particles in (y, z), all in the middle of the body's left and right.
 struct Slice {
-    int height = 1;  ///< particles along y
-    int width = 1;   ///< particles along z
+    int height = 1;              ///< rows, along y
+    int width = 1;               ///< particles along z of the widest row
+    std::vector<int> rows = {};  ///< particles of each row from the lowest up, all odd or all even; empty: `width` each
+
+    int row(int iy) const { return rows.empty() ? width : rows[static_cast<std::size_t>(iy)]; }
+    int particles() const { return rows.empty() ? height * width : std::accumulate(rows.begin(), rows.end(), 0); }
 };
 
 /// A soft body of slices along x (thesis 2.2). Slice 0 is the head; the head faces +x, the top +y, the right side +z.
@@ -42,9 +48,12 @@ struct Creature {
     std::vector<int> joints;           ///< indices of the slices shared by neighbouring clusters, ascending
     std::vector<int> muscle_slices;    ///< slices that muscles run between, ascending; empty = the joints (thesis 2.4)
     double spacing = 0.075;            ///< distance of neighbouring particles at rest, length
+    bool of_profile = false;           ///< whether slices and joints were made of curves: `profile` in the JSON
     double cluster_stiffness = 0.2;    ///< shape-matching stiffness of every cluster, [0, 1]
+    std::vector<double> cluster_stiffnesses;  ///< of each cluster from the head on; empty = `cluster_stiffness` for all
     double particle_mass = 1.0;        ///< m_s
     double spring_stiffness = 1.0;     ///< stiffness of every muscle spring, [0, 1]
+    std::vector<double> spring_stiffnesses;   ///< of each actuator's springs; empty = `spring_stiffness` for all
     int springs_per_particle = 4;      ///< springs that each connected particle gives (thesis 2.4)
     Eigen::Vector3d rear_centre{0.45, 0.6, 0.6};  ///< start of the centre of the last slice
     /// n: each particle described here is made of n x n x n, on a lattice n times as fine (model_builder.h).
@@ -52,6 +61,12 @@ struct Creature {
 
     const std::vector<int>& muscle_ends() const { return muscle_slices.empty() ? joints : muscle_slices; }
     int actuators() const { return muscle_ends().empty() ? 0 : static_cast<int>(muscle_ends().size()) - 1; }
+    double stiffness_of_cluster(int cluster) const {
+        return cluster_stiffnesses.empty() ? cluster_stiffness : cluster_stiffnesses[static_cast<std::size_t>(cluster)];
+    }
+    double stiffness_of_springs(int actuator) const {
+        return spring_stiffnesses.empty() ? spring_stiffness : spring_stiffnesses[static_cast<std::size_t>(actuator)];
+    }
     /// Particles that one described here is made of.
     int parts() const { return refinement * refinement * refinement; }
 };

@@ -17,11 +17,11 @@ void TrajectoryCsv::add_frame(double time, const std::vector<Eigen::Vector3d>& b
         for (std::size_t i = 0; i < body_positions.size(); ++i) add_row(time, i, body_positions[i]);
     } else {
         int described = 0;
-        for (const Slice& slice : slices_) described += slice.height * slice.width;
+        for (const Slice& slice : slices_) described += slice.particles();
         const int parts = described > 0 ? static_cast<int>(body_positions.size()) / described : 1;
         auto particle = body_positions.begin();
         for (std::size_t i = 0; i < slices_.size(); ++i) {
-            const int count = slices_[i].height * slices_[i].width * parts;
+            const int count = slices_[i].particles() * parts;
             Eigen::Vector3d sum = Eigen::Vector3d::Zero();
             for (int k = 0; k < count; ++k) sum += *particle++;
             add_row(time, i, sum / count);

@@ -14,8 +14,8 @@ void add_slice(const Creature& creature, const BodyLayout& layout, int slice, Mo
 
     std::vector<int> members;
     for (int iy = 0; iy < shape.height; ++iy) {
-        for (int iz = 0; iz < shape.width; ++iz) {
-            const Eigen::Vector3d offset(0, iy - (shape.height - 1) / 2.0, iz - (shape.width - 1) / 2.0);
+        for (int iz = 0; iz < shape.row(iy); ++iz) {
+            const Eigen::Vector3d offset(0, iy - (shape.height - 1) / 2.0, iz - (shape.row(iy) - 1) / 2.0);
             members.push_back(layout.index(slice, iy, iz));
             model.position.push_back(centre + creature.spacing * offset);
             model.velocity.push_back(Eigen::Vector3d::Zero());
@@ -37,9 +37,12 @@ Cluster cluster_of_slices(const Model& model, int front, int rear, double stiffn
 
 }  // namespace
 
-BodyLayout::BodyLayout(const Creature& creature) : slices_(creature.slices) {
+BodyLayout::BodyLayout(const Creature& creature) {
     first_.push_back(0);
-    for (const Slice& slice : slices_) first_.push_back(first_.back() + slice.height * slice.width);
+    for (const Slice& slice : creature.slices) {
+        first_row_.push_back(static_cast<int>(first_.size()) - 1);
+        for (int iy = 0; iy < slice.height; ++iy) first_.push_back(first_.back() + slice.row(iy));
+    }
 }
 
 void add_body(const Creature& creature, const BodyLayout& layout, Model& model) {
@@ -47,12 +50,12 @@ void add_body(const Creature& creature, const BodyLayout& layout, Model& model) 
     for (int slice = 0; slice <= last; ++slice) add_slice(creature, layout, slice, model);
     model.body.length = last * creature.spacing;
 
-    int front = 0;
+    int front = 0, cluster = 0;
     for (const int joint : creature.joints) {
-        model.clusters.push_back(cluster_of_slices(model, front, joint, creature.cluster_stiffness));
+        model.clusters.push_back(cluster_of_slices(model, front, joint, creature.stiffness_of_cluster(cluster++)));
         front = joint;
     }
-    model.clusters.push_back(cluster_of_slices(model, front, last, creature.cluster_stiffness));
+    model.clusters.push_back(cluster_of_slices(model, front, last, creature.stiffness_of_cluster(cluster)));
 }
 
 }  // namespace natator

@@ -11,11 +11,11 @@ public:
     explicit BodyLayout(const Creature& creature);
 
     int particles() const { return first_.back(); }
-    int index(int slice, int iy, int iz) const { return first_[slice] + iy * slices_[slice].width + iz; }
+    int index(int slice, int iy, int iz) const { return first_[first_row_[slice] + iy] + iz; }
 
 private:
-    const std::vector<Slice>& slices_;
-    std::vector<int> first_;  ///< first particle of each slice, and one past the last
+    std::vector<int> first_;      ///< first particle of each row of all slices, and one past the last
+    std::vector<int> first_row_;  ///< place in `first_` of each slice's lowest row
 };
 
 /// Adds the creature's particles, slices and clusters to a model without particles (thesis 2.2).

@@ -26,13 +26,14 @@ void check_size(const Scene& scene) {
     std::int64_t particles = 0;
     if (scene.creature) {
         for (const Slice& slice : scene.creature->slices)
-            particles += std::int64_t{slice.height} * slice.width * scene.creature->parts();
+            particles += std::int64_t{slice.particles()} * scene.creature->parts();
     }
     if (scene.fluid) {
         const auto count = scene.fluid->count.cast<std::int64_t>();
         particles += count.x() * count.y() * count.z();
     }
-    const std::string found = std::to_string(particles) + " particles (fluid.count and creature.slices together)";
+    const char* body = scene.creature && scene.creature->of_profile ? "creature.profile" : "creature.slices";
+    const std::string found = std::to_string(particles) + " particles (fluid.count and " + body + " together)";
     if (particles == 0) refuse(scene, "0 particles: needs a creature or fluid");
     if (particles > limits::particles) refuse(scene, found + ": must be at most " + std::to_string(limits::particles));
 }
@@ -41,7 +42,7 @@ void check_size(const Scene& scene) {
 void check_springs(const Scene& scene) {
     const Creature& creature = *scene.creature;
     const std::vector<int>& ends = creature.muscle_ends();
-    const auto size = [&](int slice) { return std::int64_t{creature.slices[slice].height} * creature.slices[slice].width; };
+    const auto size = [&](int slice) { return std::int64_t{creature.slices[slice].particles()}; };
     std::int64_t springs = 0;
     for (int i = 0; i < creature.actuators(); ++i)
         springs += std::min(size(ends[i]), size(ends[i + 1])) * creature.springs_per_particle * creature.parts();
@@ -69,8 +70,11 @@ void check_muscles(const Scene& scene, const Model& model) {
         if (count[i] > 0) continue;
         const std::vector<int>& ends = scene.creature->muscle_ends();
         std::ostringstream text;
-        text << (scene.creature->muscle_slices.empty() ? "creature.joints[" : "creature.muscleSlices[") << i << "], ["
-             << i + 1 << "] = " << ends[i] << ", " << ends[i + 1] << ": no muscle fits between these slices (actuator " << i
+        text << (!scene.creature->muscle_slices.empty() ? "creature.muscleSlices["
+                 : scene.creature->of_profile           ? "creature.profile.joints["
+                                                        : "creature.joints[")
+             << i << "], [" << i + 1 << "] = " << (scene.creature->of_profile ? "slices " : "") << ends[i] << ", "
+             << ends[i + 1] << ": no muscle fits between these slices (actuator " << i
              << "); both must be at least 2 wide and the slices between them not thinner";
         refuse(scene, text.str());
     }

@@ -20,18 +20,27 @@ struct Pair {
 };
 
 Place place_in(const Slice& shape, int slice, int iy, int iz) {
-    return {slice, iy, iz, 2 * iy - (shape.height - 1), 2 * iz - (shape.width - 1)};
+    return {slice, iy, iz, 2 * iy - (shape.height - 1), 2 * iz - (shape.row(iy) - 1)};
 }
 
 std::vector<Place> places(const Creature& creature, int slice) {
     const Slice& shape = creature.slices[slice];
     std::vector<Place> result;
     for (int iy = 0; iy < shape.height; ++iy) {
-        for (int iz = 0; iz < shape.width; ++iz) {
+        for (int iz = 0; iz < shape.row(iy); ++iz) {
             result.push_back(place_in(shape, slice, iy, iz));
         }
     }
     return result;
+}
+
+/// Width of a slice, a stack of rows one spacing high, at y = `y` / `whole` half spacings: of two rows that meet there the
+/// lesser; 0 on its outline and beyond.
+int width_at(const Slice& shape, int y, int whole) {
+    const int above = y + shape.height * whole;  // from the lowest row's lower side
+    if (above <= 0 || above >= 2 * shape.height * whole) return 0;
+    const int row = above / (2 * whole);
+    return above % (2 * whole) == 0 ? std::min(shape.row(row - 1), shape.row(row)) : shape.row(row);
 }
 
 /// Whether the segment from `a` to `b` stays inside every slice strictly between them.
@@ -43,7 +52,7 @@ bool inside_between(const Creature& creature, const Place& a, const Place& b) {
         const Slice& shape = creature.slices[front.slice + part];
         const int y = front.y * (whole - part) + rear.y * part;  // times `whole`
         const int z = front.z * (whole - part) + rear.z * part;
-        if (std::abs(y) >= shape.height * whole || std::abs(z) >= shape.width * whole) return false;
+        if (std::abs(z) >= width_at(shape, y, whole) * whole) return false;
     }
     return true;
 }
@@ -67,7 +76,7 @@ std::vector<Place> partners(const Creature& creature, const Place& giver, int sl
     const int dz = std::abs(own.width - other.width) % 2;
     std::vector<Place> result;
     for (const int iy : at_distance(other.height, giver.y, dy)) {
-        for (const int iz : at_distance(other.width, giver.z, dz)) {
+        for (const int iz : at_distance(other.row(iy), giver.z, dz)) {
             const Place candidate = place_in(other, slice, iy, iz);
             const bool same_side = giver.z * candidate.z > 0;
             if (same_side && inside_between(creature, giver, candidate)) result.push_back(candidate);
@@ -117,7 +126,7 @@ void add_muscles(const Creature& creature, const BodyLayout& layout, Model& mode
             const double z_m = (lateral(creature, pair.front) + lateral(creature, pair.rear)) / 2;
             for (int i = 0; i < pair.springs; ++i) {
                 model.muscles.push_back({static_cast<int>(model.springs.size()), actuator, z_m});
-                model.springs.push_back({a, b, length, creature.spring_stiffness});
+                model.springs.push_back({a, b, length, creature.stiffness_of_springs(actuator)});
             }
         }
     }

@@ -10,7 +10,8 @@ namespace natator {
 /// - they lie equally far from the axis sideways, or half a spacing apart if the two widths differ by an odd number;
 ///   likewise up and down with the heights;
 /// - both lie on the same side, neither on the lateral middle;
-/// - the segment between them stays inside the cross-section of every slice in between (width x height spacings).
+/// - the segment between them stays inside the cross-section of every slice in between: its rows, each a spacing high and as
+///   many spacings wide as it has particles.
 ///
 /// The particles of the slice with fewer particles (of equal ones: the front slice) give `springs_per_particle` springs
 /// each, shared evenly among their 1, 2 or 4 partners; what does not divide goes one by one to the partners nearest the

@@ -1,3 +1,4 @@
+#include "curve.h"
 #include "io/strict_json.h"
 #include "readers.h"
 
@@ -12,9 +13,7 @@ const std::vector<Field<Creature>>& creature_fields() {
         {"name", &C::name},
         {"description", &C::description},
         {"spacing", &C::spacing, {0, 1000, true, "length"}},
-        {"clusterStiffness", &C::cluster_stiffness, {0, 1}},
         {"particleMass", &C::particle_mass, {1e-6, 1e6, false, "mass"}},
-        {"springStiffness", &C::spring_stiffness, {0, 1}},
         {"springsPerParticle", &C::springs_per_particle, {1, 64}},
         {"rearCentre", &C::rear_centre, {-10000, 10000, false, "length"}},
         {"refinement", &C::refinement, {1, 8}},
@@ -67,21 +66,61 @@ std::vector<int> read_ascending(const json& value, const Place& place, int first
     return chosen;
 }
 
+constexpr Range stiffness{0, 1};
+
+/// A curve's values halfway between the ends of each stretch of the body. `ends` are slices.
+std::vector<double> halfway(const Curve& curve, const std::vector<int>& ends, std::size_t slices) {
+    std::vector<double> values;
+    for (std::size_t i = 1; i < ends.size(); ++i)
+        values.push_back(curve.at(((ends[i - 1] + ends[i]) / 2.0 + 0.5) / static_cast<double>(slices)));
+    return values;
+}
+
+/// A stiffness: one number for all stretches, or a curve along the body.
+void read_stiffness(const json& creature, const Place& place, const char* key, const std::vector<int>& ends,
+                    std::size_t slices, double& all, std::vector<double>& each) {
+    const auto found = creature.find(key);
+    if (found == creature.end()) return;
+    if (found->is_number())
+        read(*found, place.key(key), stiffness, all);
+    else
+        each = halfway(read_curve(*found, place.key(key), stiffness), ends, slices);
+}
+
+void read_slices_and_joints(const json& value, const Place& place, Creature& creature) {
+    creature.slices = read_slices(required(value, place, "slices"), place.key("slices"));
+    creature.joints = read_ascending(required(value, place, "joints"), place.key("joints"), 1,
+                                     static_cast<int>(creature.slices.size()) - 2,
+                                     "slice index, ascending, neither first nor last slice");
+}
+
 }  // namespace
 
 Creature read_creature(const json& value, const Place& place) {
     Creature creature;
-    read_object(value, place, creature_fields(), {"slices", "joints", "muscleSlices"}, creature);
-    creature.slices = read_slices(required(value, place, "slices"), place.key("slices"));
+    read_object(value, place, creature_fields(),
+                {"slices", "joints", "muscleSlices", "profile", "clusterStiffness", "springStiffness"}, creature);
+    if (value.contains("profile")) {
+        for (const char* key : {"slices", "joints"})
+            if (value.contains(key)) refuse(place.key(key), value.at(key), "left out beside profile, which makes them");
+        read_profile(value.at("profile"), place.key("profile"), creature);
+    } else {
+        read_slices_and_joints(value, place, creature);
+    }
     const auto last = static_cast<int>(creature.slices.size()) - 1;
-    creature.joints = read_ascending(required(value, place, "joints"), place.key("joints"), 1, last - 1,
-                                     "slice index, ascending, neither first nor last slice");
     if (value.contains("muscleSlices")) {
         creature.muscle_slices =
             read_ascending(value.at("muscleSlices"), place.key("muscleSlices"), 0, last, "slice index, ascending");
         if (creature.muscle_slices.size() == 1)
             refuse(place.key("muscleSlices"), value.at("muscleSlices"), "two slices or more, or left out");
     }
+    std::vector<int> ends = creature.joints;
+    ends.insert(ends.begin(), 0);
+    ends.push_back(last);
+    read_stiffness(value, place, "clusterStiffness", ends, creature.slices.size(), creature.cluster_stiffness,
+                   creature.cluster_stiffnesses);
+    read_stiffness(value, place, "springStiffness", creature.muscle_ends(), creature.slices.size(),
+                   creature.spring_stiffness, creature.spring_stiffnesses);
     return creature;
 }
 

@@ -29,11 +29,12 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     return merged;
 }
 
-/// Merges a scene's `creature` onto the creature file that its `name` names, unless it brings its own `slices`.
+/// Merges a scene's `creature` onto the creature file that its `name` names, unless it brings its own `slices`, or a
+/// `profile` and no name. A `profile` takes the place of the slices that the file may have.
 void resolve_creature(json& scene, const Place& place, const std::filesystem::path& data) {
     if (!scene.contains("creature") || !scene.at("creature").is_object()) return;
     json& creature = scene.at("creature");
-    if (creature.contains("slices")) return;
+    if (creature.contains("slices") || (creature.contains("profile") && !creature.contains("name"))) return;
     const json name = fields::required(creature, place, "name");
     if (!name.is_string()) fields::refuse(place.key("name"), name, "the name of a creature");
     json merged;
@@ -43,6 +44,8 @@ void resolve_creature(json& scene, const Place& place, const std::filesystem::pa
         fields::refuse(place.key("name"), error.what());
     }
     if (!merged.is_object()) fields::refuse(place.key("name"), merged, "the name of a file that holds an object");
+    if (creature.contains("profile") && !merged.contains("profile"))
+        for (const char* key : {"slices", "joints", "muscleSlices"}) merged.erase(key);
     merged.merge_patch(creature);
     creature = std::move(merged);
 }

@@ -10,4 +10,7 @@ SolverParameters read_solver(const json& value, const Place& place);
 FluidBlock read_fluid(const json& value, const Place& place);
 Creature read_creature(const json& value, const Place& place);
 
+/// Gives a creature whose spacing is known the slices and joints of a profile.
+void read_profile(const json& value, const Place& place, Creature& creature);
+
 }  // namespace natator::fields

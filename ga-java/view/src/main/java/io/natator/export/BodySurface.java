@@ -7,8 +7,9 @@ import java.util.Comparator;
 import java.util.List;
 
 /**
- * The skin of a body whose slices are grids in (y, z): triangles between the rims of neighbouring slices, and the first
- * and the last slice. Seen from outside, the corners of a triangle go round counter-clockwise.
+ * The skin of a body whose slices are rows of particles in (y, z), one above the other and each as far to the left as to
+ * the right: triangles between the rims of neighbouring slices, and the first and the last slice. Seen from outside, the
+ * corners of a triangle go round counter-clockwise.
  */
 final class BodySurface {
 
@@ -27,7 +28,7 @@ final class BodySurface {
     }
 
     /**
-     * The surface of a scene's body; without triangles if it has none or its slices are no grids.
+     * The surface of a scene's body; without triangles if it has none or its slices are no such rows.
      *
      * @param position x, y, z of every particle at rest
      */
@@ -51,7 +52,7 @@ final class BodySurface {
         return surface;
     }
 
-    /** Rows from the bottom to the top, each from the left to the right; null if the slice is not such a grid. */
+    /** Rows from the bottom to the top, each from the left to the right; null if the slice does not consist of such. */
     private static int[][] grid(List<Integer> slice, float[] position, double gap) {
         List<Integer> upwards = new ArrayList<>(slice);
         upwards.sort(Comparator.comparingDouble(particle -> position[3 * particle + 1]));
@@ -65,20 +66,32 @@ final class BodySurface {
                 from = to;
             }
         }
-        boolean complete = !rows.isEmpty() && rows.stream().allMatch(row -> row.length == rows.get(0).length);
-        return complete ? rows.toArray(int[][]::new) : null;
+        int[][] grid = rows.toArray(int[][]::new);
+        return isRounded(grid) ? grid : null;
+    }
+
+    /** Whether rows widen to the middle and narrow again, as far below as above it, if they differ at all. */
+    private static boolean isRounded(int[][] grid) {
+        for (int r = 0; r < grid.length; r++) {
+            boolean widens = r == 0 || r > (grid.length - 1) / 2 || grid[r].length >= grid[r - 1].length;
+            boolean even = (grid[r].length - grid[0].length) % 2 == 0;
+            if (!widens || !even || grid[r].length != grid[grid.length - 1 - r].length) {
+                return false;
+            }
+        }
+        return grid.length > 0;
     }
 
     /** Along the bottom to the right, up, along the top to the left, and down. */
     private static List<RimPoint> rim(int[][] grid) {
         int rows = grid.length;
-        int columns = grid[0].length;
+        int columns = grid[0].length;  // of the highest row too
         List<RimPoint> rim = new ArrayList<>();
         for (int c = 0; c < columns - 1; c++) {
             rim.add(new RimPoint(c / (columns - 1.0), grid[0][c]));
         }
         for (int r = 0; r < rows - 1; r++) {
-            rim.add(new RimPoint(1 + r / (rows - 1.0), grid[r][columns - 1]));
+            rim.add(new RimPoint(1 + r / (rows - 1.0), grid[r][grid[r].length - 1]));
         }
         for (int c = columns - 1; c > 0; c--) {
             rim.add(new RimPoint(2 + (columns - 1 - c) / (columns - 1.0), grid[rows - 1][c]));
@@ -114,13 +127,37 @@ final class BodySurface {
 
     private void cap(int[][] grid, boolean front) {
         for (int r = 0; r + 1 < grid.length; r++) {
-            for (int c = 0; c + 1 < grid[0].length; c++) {
-                int low = front ? grid[r][c + 1] : grid[r][c];
-                int lowNext = front ? grid[r][c] : grid[r][c + 1];
-                int high = front ? grid[r + 1][c + 1] : grid[r + 1][c];
-                int highNext = front ? grid[r + 1][c] : grid[r + 1][c + 1];
+            for (int c = 0; c + 1 < Math.min(grid[r].length, grid[r + 1].length); c++) {
+                int below = c + beyond(grid[r], grid[r + 1]);
+                int above = c + beyond(grid[r + 1], grid[r]);
+                int low = front ? grid[r][below + 1] : grid[r][below];
+                int lowNext = front ? grid[r][below] : grid[r][below + 1];
+                int high = front ? grid[r + 1][above + 1] : grid[r + 1][above];
+                int highNext = front ? grid[r + 1][above] : grid[r + 1][above + 1];
                 add(low, lowNext, highNext);
                 add(low, highNext, high);
+            }
+            fan(grid[r], grid[r + 1], !front);
+            fan(grid[r + 1], grid[r], front);
+        }
+    }
+
+    /** Particles of a row that are further left, or further right, than all of another. */
+    private static int beyond(int[] row, int[] other) {
+        return Math.max(0, (row.length - other.length) / 2);
+    }
+
+    /** Triangles from the ends of a row to what a wider one has beyond them, along that one to the right or to the left. */
+    private void fan(int[] wide, int[] row, boolean right) {
+        int beyond = beyond(wide, row);
+        for (int c = 0; c < beyond; c++) {
+            int end = wide.length - 1 - c;
+            if (right) {
+                add(row[0], wide[c], wide[c + 1]);
+                add(row[row.length - 1], wide[end - 1], wide[end]);
+            } else {
+                add(row[0], wide[c + 1], wide[c]);
+                add(row[row.length - 1], wide[end], wide[end - 1]);
             }
         }
     }

@@ -10,6 +10,7 @@ import io.natator.stream.StreamReader;
 import io.natator.stream.StreamScene;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
+import java.util.Arrays;
 import java.util.HashMap;
 import java.util.Map;
 import org.assertj.core.data.Offset;
@@ -23,7 +24,7 @@ class BodySurfaceTest {
 
     private float[] position;
 
-    /** A body of slices given as width x height, from the head on, each around the same axis. */
+    /** A body of slices from the head on, each around the same axis: width x height, or 2-4-4-2, the rows from below. */
     private StreamScene body(String... sizes) throws IOException {
         ObjectNode scene = StreamBytes.scene();
         ArrayNode slices = scene.putArray("slices");
@@ -31,14 +32,13 @@ class BodySurfaceTest {
         float[] places = new float[3000];
         int particle = 0;
         for (int i = 0; i < sizes.length; i++) {
-            int width = Integer.parseInt(sizes[i].split("x")[0]);
-            int height = Integer.parseInt(sizes[i].split("x")[1]);
+            int[] rows = rows(sizes[i]);
             ArrayNode slice = slices.addArray();
-            for (int y = 0; y < height; y++) {
-                for (int z = 0; z < width; z++) {
+            for (int y = 0; y < rows.length; y++) {
+                for (int z = 0; z < rows[y]; z++) {
                     places[3 * particle] = -i * SPACING;
-                    places[3 * particle + 1] = (y - (height - 1) / 2f) * SPACING;
-                    places[3 * particle + 2] = (z - (width - 1) / 2f) * SPACING;
+                    places[3 * particle + 1] = (y - (rows.length - 1) / 2f) * SPACING;
+                    places[3 * particle + 2] = (z - (rows[y] - 1) / 2f) * SPACING;
                     body.add(particle);
                     slice.add(particle++);
                 }
@@ -57,6 +57,15 @@ class BodySurfaceTest {
         StreamReader reader = new StreamReader(new ByteArrayInputStream(
                 new StreamBytes().json("SCEN", scene).toBytes()));
         return ((StreamMessage.Scene) reader.next()).scene();
+    }
+
+    private static int[] rows(String size) {
+        if (!size.contains("x")) {
+            return Arrays.stream(size.split("-")).mapToInt(Integer::parseInt).toArray();
+        }
+        int[] rows = new int[Integer.parseInt(size.split("x")[1])];
+        Arrays.fill(rows, Integer.parseInt(size.split("x")[0]));
+        return rows;
     }
 
     private int[] corners(StreamScene scene) {
@@ -78,8 +87,9 @@ class BodySurfaceTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"3x5 3x5 3x5, 16", "2x6 2x6, 5", "2x2 2x2 2x2 2x2, 3"})
-    void aCuboidIsEnclosedExactly(String slices, double cells) throws IOException {
+    @CsvSource({"3x5 3x5 3x5, 16", "2x6 2x6, 5", "2x2 2x2 2x2 2x2, 3", "2-4-4-2 2-4-4-2, 7", "1-3-5-3-1 1-3-5-3-1, 8",
+        "1-5-1 1-5-1 1-5-1, 8"})
+    void aPrismIsEnclosedExactly(String slices, double cells) throws IOException {
         StreamScene scene = body(slices.split(" "));
 
         assertThat(volume(corners(scene))).isCloseTo(cells * Math.pow(SPACING, 3), Offset.offset(1e-7));
@@ -87,7 +97,8 @@ class BodySurfaceTest {
 
     /** Every edge is gone along once in each direction: nothing is open. Flat slices and points are shapes too. */
     @ParameterizedTest
-    @CsvSource({"1x3 2x4 3x5 3x6 2x5 1x3", "4x4 1x1", "1x1 3x2 1x2", "1x4 1x4", "5x1 5x1 2x1", "2x2 3x3 5x5 4x4"})
+    @CsvSource({"1x3 2x4 3x5 3x6 2x5 1x3", "4x4 1x1", "1x1 3x2 1x2", "1x4 1x4", "5x1 5x1 2x1", "2x2 3x3 5x5 4x4",
+        "2x2 2-4-4-2 1-3-5-5-3-1 3x4 1x6", "1-3-1 1-5-1"})
     void everyShapeIsClosed(String slices) throws IOException {
         int[] corners = corners(body(slices.split(" ")));
 
@@ -119,6 +130,9 @@ class BodySurfaceTest {
         position[3 * 14 + 1] += 0.06f;
 
         assertThat(corners(scene)).isEmpty();
+        for (String slice : new String[] {"2-3-2", "4-2-4", "2-4", "2-4-2-2"}) {
+            assertThat(corners(body("3x5", slice))).as(slice).isEmpty();
+        }
     }
 
     @Test
