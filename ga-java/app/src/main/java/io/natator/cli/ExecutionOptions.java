@@ -62,7 +62,8 @@ final class ExecutionOptions {
         Backend chosen = backend != null ? backend : otherwise;
         SimulatorMode usual = !commands.isEmpty() ? SimulatorMode.RESIDENT
                 : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
-        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, device, workers != null ? workers : Runtime.getRuntime().availableProcessors(),
+        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, device,
+                workers != null ? workers : Runtime.getRuntime().availableProcessors(),
                 timeoutSeconds == null ? null
                         : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null, commands);
     }

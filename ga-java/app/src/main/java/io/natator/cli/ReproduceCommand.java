@@ -30,8 +30,8 @@ final class ReproduceCommand implements Callable<Integer> {
     enum Phase { EVOLVE, MEASURE, REPORT, ALL }
 
     private static final double NANOSECONDS = 1e9;
-    private static final List<String> WITHOUT_OUTCOME = List.of("--stop-after", "--simulator-path", "--simulator-command", "--workers",
-            "--timeout", "--phase", "--runs-at-once", "--compact", "--device");
+    private static final List<String> WITHOUT_OUTCOME = List.of("--stop-after", "--simulator-path",
+            "--simulator-command", "--workers", "--timeout", "--phase", "--runs-at-once", "--compact", "--device");
 
     @Spec
     private CommandSpec spec;

@@ -3,6 +3,7 @@ package io.natator.evolution;
 import io.natator.simulator.Effort;
 import java.util.ArrayList;
 import java.util.Collection;
+import java.util.IntSummaryStatistics;
 import java.util.List;
 import java.util.SortedMap;
 import java.util.TreeMap;
@@ -79,6 +80,16 @@ public final class EliteMap {
     /** The same without the kind that gets nowhere. */
     public SortedMap<Cell, Individual> moving() {
         return elites.headMap(Cell.NOWHERE);
+    }
+
+    /** The columns that these are in. */
+    public IntSummaryStatistics beats() {
+        return moving().keySet().stream().mapToInt(Cell::beats).summaryStatistics();
+    }
+
+    /** The rows that these are in. */
+    public IntSummaryStatistics costs() {
+        return moving().keySet().stream().mapToInt(Cell::cost).summaryStatistics();
     }
 
     List<Individual> individuals() {

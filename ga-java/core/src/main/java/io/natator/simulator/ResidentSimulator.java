@@ -34,10 +34,12 @@ public final class ResidentSimulator implements Simulator {
     public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
         String input = Json.line(request) + "\n";
         String reason = "";
-        ServeCommands.Command[] tried = {null};
+        ServeCommands.Command tried = null;
         for (int attempt = 1; attempt <= ProcessSimulator.ATTEMPTS; attempt++) {
             try {
-                return attempt(request, input, tried);
+                ServeProcess process = take(tried, request);
+                tried = process.command();
+                return attempt(process, request, input);
             } catch (SimulatorFailure e) {
                 reason = e.getMessage();
                 LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ProcessSimulator.ATTEMPTS,
@@ -49,11 +51,8 @@ public final class ResidentSimulator implements Simulator {
         return SimulationResult.failed(request.id(), reason);
     }
 
-    /** {@code tried} holds what was last tried, to be avoided now. */
-    private SimulationResult attempt(SimulationRequest request, String input, ServeCommands.Command[] tried)
+    private SimulationResult attempt(ServeProcess process, SimulationRequest request, String input)
             throws SimulatorFailure, InterruptedException {
-        ServeProcess process = take(tried[0], request);
-        tried[0] = process.command();
         boolean reusable = false;
         try {
             process.send(input);

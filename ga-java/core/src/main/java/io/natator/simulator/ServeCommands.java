@@ -37,6 +37,10 @@ final class ServeCommands {
             this.words = words;
             this.given = given;
         }
+
+        List<String> words() {
+            return words;
+        }
     }
 
     ServeCommands(ExecutionSettings settings) {
@@ -86,10 +90,6 @@ final class ServeCommands {
             command.running--;
             command.failures += failed ? 1 : 0;
         }
-    }
-
-    static List<String> words(Command command) {
-        return command.words;
     }
 
     private void compare(ServeProcess process, Command command, SimulationRequest request)

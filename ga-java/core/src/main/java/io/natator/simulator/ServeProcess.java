@@ -52,7 +52,7 @@ final class ServeProcess implements AutoCloseable {
     ServeProcess(ProcessGroup group, ServeCommands.Command command) throws SimulatorFailure, InterruptedException {
         this.group = group;
         this.command = command;
-        this.process = group.start(ServeCommands.words(command));
+        this.process = group.start(command.words());
         this.errors = new ErrorTail(process.getErrorStream());
         this.threads = List.of(new Thread(this::write, "serve-input"), new Thread(this::read, "serve-output"),
                 new Thread(errors, "serve-errors"));

@@ -30,8 +30,8 @@ final class EliteMapPlot {
     static Path draw(EliteMap map, Path file) throws IOException {
         HeatMapChart chart = new HeatMapChartBuilder().width(800).height(640).title("the best gait of each kind, by its worth")
                 .xAxisTitle("beats per body length, from").yAxisTitle("cost of transport (mass · length/s²), from").build();
-        IntSummaryStatistics beats = map.moving().keySet().stream().mapToInt(EliteMap.Cell::beats).summaryStatistics();
-        IntSummaryStatistics costs = map.moving().keySet().stream().mapToInt(EliteMap.Cell::cost).summaryStatistics();
+        IntSummaryStatistics beats = map.beats();
+        IntSummaryStatistics costs = map.costs();
         List<Number[]> cells = new ArrayList<>();
         map.moving().forEach((cell, elite) -> cells.add(
                 new Number[] {cell.beats() - beats.getMin(), cell.cost() - costs.getMin(), elite.score()}));

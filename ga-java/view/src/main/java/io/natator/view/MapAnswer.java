@@ -42,8 +42,8 @@ record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elit
         if (map == null || map.moving().isEmpty()) {
             return null;
         }
-        IntSummaryStatistics beats = map.moving().keySet().stream().mapToInt(EliteMap.Cell::beats).summaryStatistics();
-        IntSummaryStatistics costs = map.moving().keySet().stream().mapToInt(EliteMap.Cell::cost).summaryStatistics();
+        IntSummaryStatistics beats = map.beats();
+        IntSummaryStatistics costs = map.costs();
         Encoding encoding = run.settings().encoding().forActuators(run.settings().actuators());
         List<Elite> elites = map.moving().entrySet().stream().map(entry -> {
             Individual one = entry.getValue();

@@ -16,28 +16,19 @@ const MOST_COLUMN = 48;
 const MOST_LABELS = 7;
 
 /** Columns by beats for a body length, rows by cost of transport, colours by worth. */
-export class EliteMap {
+export class EliteMap extends GaitPlot {
   #svg = byId('elites');
-  #plot;
 
   /** See `GaitPlot`. */
   constructor(onWatch, onLook) {
-    this.#plot = new GaitPlot(this.#svg, onWatch, onLook);
-  }
-
-  get items() {
-    return this.#plot.items;
-  }
-
-  mark(gait) {
-    this.#plot.mark(gait);
+    super(byId('elites'), onWatch, onLook);
   }
 
   /** Shows a map (MapAnswer.java), or nothing of a run that has none. */
   show(map) {
     byId('elites-figure').hidden = map === null;
     if (map === null) {
-      this.#plot.fill([], []);
+      this.fill([], []);
       return;
     }
     const columns = map.beats.length - 1;
@@ -64,7 +55,7 @@ export class EliteMap {
             + `${map.worth.split(',')[0]} ${short(elite.worth)}`
             + ` (${elite.runs === 1 ? 'one run' : `${elite.runs} runs`})`};
     });
-    this.#plot.fill([
+    this.fill([
       draw('rect', {class: 'paper', x: LEFT, y: TOP, width: columns * width, height: rows * height}),
       ...this.#marks(map.beats, i => [LEFT + i * width, bottom + 18], 'middle', MOST_LABELS),
       ...this.#marks(map.costs, i => [LEFT - 5, bottom - i * height + 4], 'end', Math.floor(rows * height / 14)),

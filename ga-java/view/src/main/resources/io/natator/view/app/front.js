@@ -12,15 +12,14 @@ const TOP = 24;
 const RIGHT = 12;
 
 /** To the right the first objective, upwards one of the others. */
-export class ParetoPlot {
+export class ParetoPlot extends GaitPlot {
   #svg = byId('front');
-  #plot;
   #front = null;
   #onShown;
 
   /** See `GaitPlot`; `onShown()` is told when another objective is shown. */
   constructor(onWatch, onLook, onShown) {
-    this.#plot = new GaitPlot(this.#svg, onWatch, onLook);
+    super(byId('front'), onWatch, onLook);
     this.#onShown = onShown;
     byId('front-other').addEventListener('change', () => {
       this.#draw(Number(byId('front-other').value));
@@ -28,20 +27,12 @@ export class ParetoPlot {
     });
   }
 
-  get items() {
-    return this.#plot.items;
-  }
-
-  mark(gait) {
-    this.#plot.mark(gait);
-  }
-
   /** Shows gaits (FrontAnswer.java), or nothing of a run with a single objective. */
   show(front) {
     byId('front-figure').hidden = front === null;
     this.#front = front;
     if (front === null) {
-      this.#plot.fill([], []);
+      this.fill([], []);
       return;
     }
     fillSelect(byId('front-other'), front.goals.slice(1).map((goal, i) => [i + 1, goal.name]));
@@ -66,7 +57,7 @@ export class ParetoPlot {
     });
     const front = points.filter(point => point.isBest).map(place).sort((a, b) => a[0] - b[0]);
     this.#svg.setAttribute('viewBox', `0 0 ${WIDTH} ${HEIGHT}`);
-    this.#plot.fill([
+    this.fill([
       draw('rect', {class: 'paper', x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM}),
       ...x.marks.map(mark => draw('text', {x: right(mark), y: HEIGHT - BOTTOM + 18, 'text-anchor': 'middle'}, axisText(mark, x.step))),
       ...y.marks.map(mark => draw('text', {x: LEFT - 5, y: up(mark) + 4, 'text-anchor': 'end'}, axisText(mark, y.step))),

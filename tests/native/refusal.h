@@ -1,0 +1,30 @@
+// What a scene's bad input must be answered with.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "natator/error.h"
+#include "natator/model_builder.h"
+#include "scene/scene_json.h"
+
+namespace natator {
+
+/// The scene with these overrides is refused in one line that says which, where, and what was expected.
+inline void expect_refused(const std::string& scene, const nlohmann::json& overrides, const std::string& where,
+                           const std::string& expected) {
+    try {
+        build_model(load_scene(scene, overrides));
+        FAIL() << "accepted " << overrides;
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find("scene \"" + scene + "\": "), 0u) << message;
+        EXPECT_NE(message.find(where), std::string::npos) << message;
+        EXPECT_NE(message.find(expected), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+
+}  // namespace natator
