@@ -38,11 +38,14 @@ Model affordable(const Scene& scene) {
 template <class Real>
 struct LiveSimulation<Real>::Run {
     Run(Scene of, const Execution& execution)
-        : scene(std::move(of)), model(affordable(scene)), solver(model, execution) {}
+        : scene(std::move(of)), model(affordable(scene)), solver(model, execution) {
+        if (scene.moving_tank) follower.emplace(scene, model);
+    }
 
     Scene scene;
     Model model;
     Solver<Real> solver;
+    std::optional<TankFollower> follower;
 };
 
 template <class Real>
@@ -84,6 +87,7 @@ bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
             base_frame_ = frames_;
             base_time_ = state_.time;
         }
+        if (run->follower) run->follower->stand_at(state_.origin);
         run_ = std::move(run);
         updated_ = false;
     } else {
@@ -106,7 +110,17 @@ bool LiveSimulation<Real>::frame() {
     if (instability_) return false;
     ++frames_;
     state_.time = base_time_ + (frames_ - base_frame_) * scene().time_step;  // free of summed rounding
+    if (run_->follower) follow(*run_->follower);
     return true;
+}
+
+/// As SwimRecord does it.
+template <class Real>
+void LiveSimulation<Real>::follow(TankFollower& follower) {
+    follower.drift(scene().time_step);
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const int particle : model().body.particles) centre += state_.position[particle].template cast<double>();
+    follower.follow(centre / static_cast<double>(model().body.particles.size()), state_);
 }
 
 template <class Real>
@@ -121,7 +135,7 @@ const Model& LiveSimulation<Real>::model() const {
 
 template <class Real>
 double LiveSimulation<Real>::distance() const {
-    return mean_x(model().body, state_) - start_x_;
+    return mean_x(model().body, state_) + state_.origin.x() - start_x_;
 }
 
 template <class Real>
@@ -141,6 +155,7 @@ void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
     State<Real> state = settled_start(next.model, next.scene.settling, next.solver, execution_.starts, instability);
     if (run) run_ = std::move(run);
     state_ = std::move(state);
+    if (next.follower) next.follower->stand_at(state_.origin);
     instability_ = std::move(instability);
     updated_ = false;
     frames_ = base_frame_ = 0;
