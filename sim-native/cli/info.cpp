@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <sstream>
 
@@ -57,8 +58,10 @@ ordered_json describe_scene(const Scene& scene) {
     info["creature"] = scene.creature ? ordered_json(scene.creature->name) : ordered_json();
     info["actuators"] = model.actuators;
     info["particles"] = model.particles();
-    info["fluidParticles"] = static_cast<std::size_t>(model.particles()) - body;
+    info["fluidParticles"] = std::count_if(model.phase.begin(), model.phase.end(), [](auto phase) { return phase & phase::fluid; });
     info["bodyParticles"] = body;
+    if (!model.companions.empty()) info["companions"] = model.companions.size();
+    if (!scene.obstacles.empty()) info["obstacles"] = scene.obstacles.size();
     info["bodyLength"] = model.body.length;
     info["springs"] = model.springs.size();
     info["clusters"] = model.clusters.size();

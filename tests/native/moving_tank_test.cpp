@@ -49,7 +49,7 @@ TEST(MovingTank, MovesByAStepWithWaterAtRestInFront) {
     State<double> state = initial_state<double>(model);
     for (Vector3<double>& velocity : state.velocity) velocity = {0.5, -0.25, 1};
     const State<double> before = state;
-    const Pose rest = pose_of(model, body_places(model.body, state));
+    const Pose rest = pose_of(model, model.body, body_places(model.body, state));
 
     EXPECT_FALSE(follower.is_due(rest.centre + Eigen::Vector3d(0.049, 0, 0)));
     ASSERT_TRUE(follower.is_due(rest.centre + Eigen::Vector3d(0.051, 0, 0)));
@@ -86,7 +86,7 @@ TEST(MovingTank, GoesBackWithASwimmerThatDoes) {
     const Model model = build_model(scene);
     TankFollower follower(scene, model);
     State<float> state = initial_state<float>(model);
-    const Eigen::Vector3d centre = pose_of(model, body_places(model.body, state)).centre;
+    const Eigen::Vector3d centre = pose_of(model, model.body, body_places(model.body, state)).centre;
     follower.follow(centre - Eigen::Vector3d(0.06, 0, 0), state);
     EXPECT_NEAR(state.origin.x(), -0.05, 1e-15);
     for (const Vector3<float>& position : state.position) {

@@ -18,7 +18,7 @@ void check_gait(const Gait& gait, int actuators);
 std::vector<double> drive(const Model& model, const Gait& gait, double time);
 
 /// Sets the rest length of every muscle for `time` (s): l = l_rest (1 + 1/2 z_m (o + a u)), thesis (2.7) and (2.8).
-/// The gait must fit the model (check_gait).
+/// The gait must fit the model (check_gait). The muscles of companions follow their own gaits.
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state);
 

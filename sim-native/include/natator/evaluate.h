@@ -46,6 +46,13 @@ struct ConservationErrors {
     double density_error_max = 0;
 };
 
+/// How a swimmer beside the evaluated one did.
+struct CompanionResult {
+    std::string creature;
+    double distance = 0;  ///< change of its mean x, length
+    Course course;
+};
+
 /// What one evaluation of a gait in a scene gives.
 struct Evaluation {
     StopReason stopped = StopReason::completed;
@@ -62,6 +69,7 @@ struct Evaluation {
     std::optional<Course> course;  ///< of a body
     std::vector<GoalResult> goals;          ///< of the scene's goals, in their order
     std::optional<WaterRenewal> renewal;    ///< of a moving tank
+    std::vector<CompanionResult> companions;  ///< of the scene's companions, in their order
 
     /// What a gait is worth: the weighted sum of the scores of the scene's goals; without goals, the distance.
     double fitness() const;

@@ -18,8 +18,8 @@ struct Pose {
     double roll = 0;                   ///< of its back about its heading, from the vertical towards its right, rad
 };
 
-/// `places`: of the body's particles, in the order of Body::particles. A body of fewer than three has no rotation.
-Pose pose_of(const Model& model, const std::vector<Eigen::Vector3d>& places);
+/// `places`: of a body's particles, in the order of Body::particles. A body of fewer than three has no rotation.
+Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
 
 /// Places over ground of the body's particles, in the order of Body::particles.
 template <class Real>

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "natator/gait.h"
 #include "natator/goal.h"
 #include "natator/parameters.h"
 
@@ -85,6 +86,28 @@ struct Stopping {
     double no_progress_after = 2.0;  ///< s without gain in mean x; 0 = never
 };
 
+/// A swimmer beside the one that is evaluated, with a gait of its own.
+struct Companion {
+    Creature creature;
+    Gait gait;
+};
+
+/// Something that water and bodies can't enter and that stays where it is: particles of infinite mass.
+struct Obstacle {
+    enum class Shape { sphere, box };
+    Shape shape = Shape::sphere;
+    Eigen::Vector3d centre{0, 0, 0};  ///< length
+    double radius = 0;                ///< of a sphere, length
+    Eigen::Vector3d size{0, 0, 0};    ///< edges of a box, length
+    double spacing = 0.075;           ///< of its particles, length
+
+    /// Whether a place is within it.
+    bool holds(const Eigen::Vector3d& place) const {
+        const Eigen::Vector3d way = place - centre;
+        return shape == Shape::sphere ? way.norm() <= radius : (way.cwiseAbs().array() <= size.array() / 2).all();
+    }
+};
+
 /// A tank without an end: it goes along with its swimmer. Where the swimmer has come `step` on from where it began, the
 /// water of that length behind it is taken away, as much is put in front at rest, and all is moved back by `step`.
 struct MovingTank {
@@ -108,6 +131,8 @@ struct Scene {
     Settling settling;
     Stopping stopping;
     std::optional<MovingTank> moving_tank;
+    std::vector<Companion> companions;
+    std::vector<Obstacle> obstacles;
     std::vector<Goal> goals;  ///< none: the distance along x
 
     /// Of a way over ground that took so many seconds, what was swum through the water along x, length.

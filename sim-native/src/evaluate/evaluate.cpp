@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "companions.h"
 #include "conservation_errors.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
@@ -60,6 +61,7 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
     State<Real> state = settled_start(start, scene.settling, solver, starts, result.instability);
     if (!result.instability) observe(model.body, state, options.on_frame);
 
+    const State<Real> begin = model.companions.empty() ? State<Real>{} : state;
     bool snapshot_due = static_cast<bool>(snapshot.take);
     const bool stops_at_planes = scene.stopping.plane_contact;
     record.start(frame_of(model, state, false, record.needs_body()));
@@ -86,7 +88,8 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
         result.swimming = swimming_numbers(
             model, gait, scene.through_water(result.distance, result.simulated), result.simulated, record.tail());
         if (has_muscle_work(model)) result.work = solver.muscle_work();
-        if (!model.body.particles.empty()) result.course = course_of(model, state, result.distance);
+        if (!model.body.particles.empty()) result.course = course_of(model, model.body, state, result.distance);
+        result.companions = companion_results(scene, model, begin, state);
         record.tell(result);
     }
     result.hash = state_hash(state);

@@ -38,6 +38,8 @@ TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(mode
     if (scene.scheme != Scheme::conserving) refuse(scene, "works in scheme conserving only");
     if (!scene.fluid) refuse(scene, "needs fluid");
     if (model.body.particles.empty()) refuse(scene, "needs a creature to follow");
+    if (!scene.companions.empty() || !scene.obstacles.empty())
+        refuse(scene, "has no room for companions and obstacles, which would be left behind");
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (const int i : model.body.particles) centre += model.position[i];
     centre /= static_cast<double>(model.body.particles.size());

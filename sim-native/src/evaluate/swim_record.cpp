@@ -16,7 +16,7 @@ void SwimRecord::note(const Frame& frame) {
     path_.push_back(frame.mean_x + origin().x());
     tail_.push_back(frame.tail_z + origin().z());
     if (!needs_body()) return;
-    pose_ = pose_of(model_, frame.body);
+    pose_ = pose_of(model_, model_.body, frame.body);
     centre_ = pose_.centre;
     pose_.centre += origin();
 }

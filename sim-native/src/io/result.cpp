@@ -26,6 +26,17 @@ ordered_json goals_json(const std::vector<GoalResult>& goals) {
     return list;
 }
 
+ordered_json course_json(const Course& course) {
+    return {{"forward", course.forward}, {"yaw", course.yaw}, {"roll", course.roll}};
+}
+
+ordered_json companions_json(const std::vector<CompanionResult>& companions) {
+    ordered_json list = ordered_json::array();
+    for (const CompanionResult& one : companions)
+        list.push_back({{"creature", one.creature}, {"distance", one.distance}, {"course", course_json(one.course)}});
+    return list;
+}
+
 ordered_json renewal_json(const WaterRenewal& renewal) {
     const Eigen::Vector3d& momentum = renewal.momentum;
     return {{"times", renewal.times},
@@ -58,8 +69,9 @@ ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation,
         if (evaluation.swimming) result["swimming"] = swimming_json(*evaluation.swimming);
         if (evaluation.work) result["work"] = *evaluation.work;
         if (const auto& course = evaluation.course)
-            result["course"] = {{"forward", course->forward}, {"yaw", course->yaw}, {"roll", course->roll}};
+            result["course"] = course_json(*course);
         if (!evaluation.goals.empty()) result["goals"] = goals_json(evaluation.goals);
+        if (!evaluation.companions.empty()) result["companions"] = companions_json(evaluation.companions);
         if (evaluation.renewal) result["renewal"] = renewal_json(*evaluation.renewal);
     } else {
         const Instability& where = *evaluation.instability;

@@ -7,11 +7,11 @@
 namespace natator {
 namespace {
 
-Eigen::Matrix3d rotation_of(const Model& model, const std::vector<Eigen::Vector3d>& places) {
+Eigen::Matrix3d rotation_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
     const auto count = static_cast<Eigen::Index>(places.size());
     Eigen::Matrix3Xd rest(3, count), now(3, count);
     for (Eigen::Index i = 0; i < count; ++i) {
-        rest.col(i) = model.position[model.body.particles[i]];
+        rest.col(i) = model.position[body.particles[i]];
         now.col(i) = places[i];
     }
     return Eigen::umeyama(rest, now, false).template topLeftCorner<3, 3>();
@@ -19,14 +19,14 @@ Eigen::Matrix3d rotation_of(const Model& model, const std::vector<Eigen::Vector3
 
 }  // namespace
 
-Pose pose_of(const Model& model, const std::vector<Eigen::Vector3d>& places) {
+Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
     Pose pose;
     if (places.empty()) return pose;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& place : places) sum += place;
     pose.centre = sum / static_cast<double>(places.size());
     if (places.size() < 3) return pose;
-    const Eigen::Matrix3d rotation = rotation_of(model, places);
+    const Eigen::Matrix3d rotation = rotation_of(model, body, places);
     const Eigen::Vector3d back = rotation.col(1);
     pose.heading = rotation.col(0);
     pose.yaw = std::atan2(pose.heading.z(), pose.heading.x());

@@ -31,9 +31,10 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
 
 /// Merges a scene's `creature` onto the creature file that its `name` names, unless it brings its own `slices`, or a
 /// `profile` and no name. A `profile` takes the place of the slices that the file may have.
-void resolve_creature(json& scene, const Place& place, const std::filesystem::path& data) {
-    if (!scene.contains("creature") || !scene.at("creature").is_object()) return;
-    json& creature = scene.at("creature");
+/// `holder`: the scene, or one of its companions.
+void resolve_creature(json& holder, const Place& place, const std::filesystem::path& data) {
+    if (!holder.contains("creature") || !holder.at("creature").is_object()) return;
+    json& creature = holder.at("creature");
     if (creature.contains("slices") || (creature.contains("profile") && !creature.contains("name"))) return;
     const json name = fields::required(creature, place, "name");
     if (!name.is_string()) fields::refuse(place.key("name"), name, "the name of a creature");
@@ -58,6 +59,12 @@ json scene_definition(const std::string& name, const json& overrides, const std:
     json document = with_bases(name, data, 0);
     document.merge_patch(overrides);
     resolve_creature(document, place.key("creature"), data);
+    if (document.contains("companions") && document.at("companions").is_array()) {
+        json& companions = document.at("companions");
+        for (std::size_t k = 0; k < companions.size(); ++k)
+            if (companions[k].is_object())
+                resolve_creature(companions[k], place.key("companions").item(k).key("creature"), data);
+    }
     return document;
 }
 

@@ -118,7 +118,8 @@ Scene scene_from_json(const json& document, const std::string& name) {
     Scene scene;
     scene.name = name;
     fields::read_object(document, place, scene_fields(),
-                        {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping", "movingTank", "goals"},
+                        {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping", "movingTank", "goals",
+                         "companions", "obstacles"},
                         scene);
     if (document.contains("scheme")) {
         scene.scheme = fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"),
@@ -136,6 +137,10 @@ Scene scene_from_json(const json& document, const std::string& name) {
     if (document.contains("stopping")) {
         fields::read_object(document.at("stopping"), place.key("stopping"), stopping_fields(), {}, scene.stopping);
     }
+    if (document.contains("companions"))
+        scene.companions = fields::read_companions(document.at("companions"), place.key("companions"));
+    if (document.contains("obstacles"))
+        scene.obstacles = fields::read_obstacles(document.at("obstacles"), place.key("obstacles"));
     if (has(document, "movingTank"))
         scene.moving_tank = fields::read_moving_tank(document.at("movingTank"), place.key("movingTank"));
     if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));

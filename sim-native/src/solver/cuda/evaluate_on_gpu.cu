@@ -196,7 +196,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     const bool in_double = options.precision == Precision::double_precision;
-    if (options.whole_gpu || !scene.goals.empty() || model.scheme != Scheme::flex || model.particles() > cuda::most_particles_of_a_block)
+    if (options.whole_gpu || !scene.goals.empty() || !scene.companions.empty() || model.scheme != Scheme::flex || model.particles() > cuda::most_particles_of_a_block)
         return in_double ? cuda::evaluate_large<double>(scene, model, members, options.times)
                          : cuda::evaluate_large<float>(scene, model, members, options.times);
     if (in_double) {

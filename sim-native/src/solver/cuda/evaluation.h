@@ -37,7 +37,7 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
         evaluation.swimming = swimming_numbers(model, *gait, scene.through_water(evaluation.distance, evaluation.simulated),
                                                 evaluation.simulated, tail);
     if (has_muscle_work(model)) evaluation.work = progress.muscle_work;
-    if (!model.body.particles.empty()) evaluation.course = course_of(model, end, evaluation.distance);
+    if (!model.body.particles.empty()) evaluation.course = course_of(model, model.body, end, evaluation.distance);
     return evaluation;
 }
 

@@ -194,7 +194,7 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     cuda::choose_device(options.device);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
-    const bool small = model.particles() <= cuda::most_particles_of_a_block;
+    const bool small = model.particles() <= cuda::most_particles_of_a_block && model.companions.empty();
     if (path == GpuPath::by_size)
         path = model.scheme == Scheme::flex && small ? GpuPath::block : GpuPath::whole_gpu;
     if (path == GpuPath::block && model.scheme != Scheme::flex)

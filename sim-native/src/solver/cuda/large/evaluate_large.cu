@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "evaluate/companions.h"
 #include "evaluate/perturb.h"
 #include "evaluate/swim_record.h"
 #include "large_runner.h"
@@ -86,7 +87,10 @@ public:
                 scene_, company_.model, runner_.model().particle_of(), progress_[k],
                 settled[k].stopped >= 0 ? nullptr : &members[k].gait, record.path().data(), record.tail(), end,
                 std::vector<Real>(own, own + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : fluid))));
-            if (!evaluations.back().instability) record.tell(evaluations.back());
+            if (evaluations.back().instability) continue;
+            evaluations.back().companions =
+                companion_results(scene_, company_.model, settled_.at(start_of(members[k], scene_)).first, end);
+            record.tell(evaluations.back());
         }
     }
 
