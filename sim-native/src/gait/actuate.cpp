@@ -13,7 +13,11 @@ std::vector<double> drive(const Model& model, const Gait& gait, double time) {
 
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state) {
-    const std::vector<double> driven = drive(model, gait, time);
+    actuate(model, drive(model, gait, time), state);
+}
+
+template <class Real>
+void actuate(const Model& model, const std::vector<double>& driven, State<Real>& state) {
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;
         const double length = physics::muscle_length(rest, muscle.lateral, driven[muscle.actuator]);
@@ -23,5 +27,7 @@ void actuate(const Model& model, const Gait& gait, double time, State<Real>& sta
 
 template void actuate(const Model&, const Gait&, double, State<float>&);
 template void actuate(const Model&, const Gait&, double, State<double>&);
+template void actuate(const Model&, const std::vector<double>&, State<float>&);
+template void actuate(const Model&, const std::vector<double>&, State<double>&);
 
 }  // namespace natator
