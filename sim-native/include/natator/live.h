@@ -96,7 +96,7 @@ private:
     int base_frame_ = 0;    ///< since when the time step is what it is
     double base_time_ = 0;  ///< s, of base_frame_
     double start_x_ = 0;
-    double earlier_work_ = 0;  ///< of the muscles, since the start, less what run_'s solver had counted by then
+    double earlier_work_ = 0;  ///< of the muscles, since the start, before run_'s solver
     Steering steering_;        ///< of the next frame
     Steering applied_;         ///< what the last frame ended with
     std::optional<Instability> instability_;

@@ -19,9 +19,9 @@ struct SkinPlace {
 
 /// What a swimmer is asked for beside its own pose.
 struct Sensing {
-    std::vector<SkinPlace> flow;            ///< 1000 at most
-    double within = 0;                      ///< of a place water counts, length; 0: solidRestDistance + fluidRestDistance
-    std::optional<Eigen::Vector3d> target;  ///< where it shall go, length
+    std::vector<SkinPlace> flow{};            ///< 1000 at most
+    double within = 0;                        ///< of a place water counts, length; 0: solidRestDistance + 2 fluidRestDistance
+    std::optional<Eigen::Vector3d> target{};  ///< where it shall go, length
 };
 
 /// Throws InputError unless the scene has a body, each place is on it, and `within` is 0 or a length up to 1000.

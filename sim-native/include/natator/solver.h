@@ -57,6 +57,8 @@ public:
     /// and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what the time
     /// step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
     double muscle_work() const;
+    /// Counts it anew from here.
+    void clear_muscle_work();
 
     /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids.
     std::vector<Real> densities();

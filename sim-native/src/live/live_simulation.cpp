@@ -216,7 +216,8 @@ void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
     frames_ = base_frame_ = 0;
     base_time_ = 0;
     start_x_ = mean_x(model().body, state_);
-    earlier_work_ = -run_->solver.muscle_work();
+    earlier_work_ = 0;
+    run_->solver.clear_muscle_work();  // not subtracted: each start gives the same bits
     steering_ = applied_ = no_steering(model().actuators);
 }
 

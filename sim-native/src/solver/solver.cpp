@@ -105,6 +105,7 @@ public:
     const Model& model() const { return model_; }
 
     double muscle_work() const { return muscle_work_; }
+    void clear_muscle_work() { muscle_work_ = 0; }
 
     std::vector<Real> densities() {
         return std::visit([](auto& stages) { return stages->densities(); }, stages_);
@@ -200,6 +201,11 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& 
 template <class Real>
 double Solver<Real>::muscle_work() const {
     return implementation_->muscle_work();
+}
+
+template <class Real>
+void Solver<Real>::clear_muscle_work() {
+    implementation_->clear_muscle_work();
 }
 
 template <class Real>
