@@ -186,7 +186,7 @@ TEST(StreamDriveTest, BadCommandsAreAnsweredInOneLineAndChangeNothing) {
         EXPECT_EQ(answer["error"].get<std::string>().find('\n'), std::string::npos);
     }
     EXPECT_EQ(state_of(client), state_of(untouched));
-    client.ask({{"do", "scene"}, {"scene", "thesis/small_tank"}});
+    client.ask({{"do", "scene"}, {"scene", "thesis/tank"}});
     EXPECT_NE(client.ask({{"do", "sense"}})["error"].get<std::string>().find("no creature"), std::string::npos);
     EXPECT_NE(client.ask({{"do", "step"}, {"sense", true}})["error"].get<std::string>().find("no creature"),
               std::string::npos);
