@@ -17,7 +17,7 @@ class Simulator:
     """
 
     def __init__(self, workers=None, arguments=(), program=None):
-        count = workers or len(os.sched_getaffinity(0))
+        count = workers or (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count())
         self._processes = []
         try:
             for _ in range(count):
