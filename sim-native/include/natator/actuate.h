@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "natator/gait.h"
@@ -22,7 +23,17 @@ std::vector<double> drive(const Model& model, const Gait& gait, double time);
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state);
 
+/// The same for muscles of the body that are driven by `driven`, one value in [-2, 2] for each actuator: o + a u, wherever it
+/// comes from.
+template <class Real>
+void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state);
+
+/// What drives each actuator's muscles at a time (s), as `drive` gives it for a gait.
+using Drive = std::function<std::vector<double>(double time)>;
+
 extern template void actuate(const Model&, const Gait&, double, State<float>&);
 extern template void actuate(const Model&, const Gait&, double, State<double>&);
+extern template void actuate(const Model&, std::vector<double>, double, State<float>&);
+extern template void actuate(const Model&, std::vector<double>, double, State<double>&);
 
 }  // namespace natator

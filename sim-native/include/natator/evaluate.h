@@ -38,6 +38,11 @@ struct Perturbation {
     std::uint64_t seed = 1;
 };
 
+/// Makes a scene begin from another of its many starts, as `start` of a request does: where the scheme disorders its water,
+/// from another arrangement of that, which becomes part of the scene; else from places that are all shifted by up to 0.001
+/// of fluidRestDistance, which is what is returned.
+Perturbation choose_start(int start, Scene& scene);
+
 /// How far the final state is from the laws of mechanics; all dimensionless.
 struct ConservationErrors {
     double linear_momentum = 0;   ///< |sum of m v| / sum of |m v| over the body; 0 for a body that internal forces move

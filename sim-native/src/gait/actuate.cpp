@@ -28,7 +28,11 @@ std::vector<double> drive(const Model& model, const Gait& gait, double time) {
 
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state) {
-    std::vector<double> driven = drive(model, gait, time);
+    actuate(model, drive(model, gait, time), time, state);
+}
+
+template <class Real>
+void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state) {
     for (const CompanionBody& companion : model.companions) add_drive(companion.gait, ramp_at(model, time), time, driven);
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;
@@ -39,5 +43,7 @@ void actuate(const Model& model, const Gait& gait, double time, State<Real>& sta
 
 template void actuate(const Model&, const Gait&, double, State<float>&);
 template void actuate(const Model&, const Gait&, double, State<double>&);
+template void actuate(const Model&, std::vector<double>, double, State<float>&);
+template void actuate(const Model&, std::vector<double>, double, State<double>&);
 
 }  // namespace natator

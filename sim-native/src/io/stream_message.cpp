@@ -6,7 +6,6 @@
 #include "io/protocol.h"
 #include "io/stream.h"
 #include "io/strict_json.h"
-#include "natator/actuate.h"
 #include "natator/instruction_set.h"
 #include "natator/measure.h"
 #include "natator/momentum.h"
@@ -133,6 +132,7 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     body["restarted"] = head.restarted;
     body["scene"] = setup.scene;
     body["overrides"] = overrides;
+    if (setup.start) body["start"] = *setup.start;
     body["gait"] = gait_json(simulation.gait());
     body["scheme"] = to_string(model.scheme);
     body["precision"] = to_string(precision_of<Real>);
@@ -187,7 +187,7 @@ std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHe
     message.add_numbers(std::initializer_list<double>{errors.linear_momentum, errors.angular_momentum,
                                                       errors.density_error_mean, errors.density_error_max});
     message.add(std::uint32_t{0});
-    message.add_numbers(drive(model, simulation.gait(), state.time));
+    message.add_numbers(simulation.driven());
     if (head.fields.position) message.add_vectors(state.position);
     if (head.fields.velocity) message.add_vectors(state.velocity);
     if (head.fields.density) message.add_numbers(densities);
