@@ -48,6 +48,27 @@ int particles_made_heavier(const Scene& scene, const Model& model) {
     return count;
 }
 
+/// Which actuators bend up and down; empty where none does.
+std::string describe_bends(const Creature& creature) {
+    int sideways = 0, vertical = 0;
+    for (const Actuator& one : creature.actuator_list()) ++(one.bend == Bend::sideways ? sideways : vertical);
+    const auto span = [](int first, int count) {
+        return std::to_string(first) + (count > 1 ? " to " + std::to_string(first + count - 1) : "");
+    };
+    if (vertical == 0) return "";
+    return (sideways > 0 ? span(0, sideways) + " sideways, " : "") + span(sideways, vertical) + " up and down";
+}
+
+ordered_json describe_skin(const Creature& creature, const Model& model) {
+    const Skin& skin = *creature.skin;
+    const double spacing = creature.spacing / creature.refinement;
+    const double particles = static_cast<double>(model.body.particles.size()) * spacing * spacing * spacing;
+    std::ostringstream text;
+    text << skin.file << ", " << skin.triangles.size() << " triangles, a unit is " << skin.unit << ", volume " << skin.volume
+         << ", of the particles " << particles;
+    return text.str();
+}
+
 ordered_json describe_scene(const Scene& scene) {
     const Model model = build_model(scene);
     const SwimRecord tasks(scene, model);  // refuses a moving tank and goals that can't be
@@ -63,6 +84,11 @@ ordered_json describe_scene(const Scene& scene) {
     if (!model.companions.empty()) info["companions"] = model.companions.size();
     if (!scene.obstacles.empty()) info["obstacles"] = scene.obstacles.size();
     info["bodyLength"] = model.body.length;
+    if (scene.creature) {
+        if (const std::string bends = describe_bends(*scene.creature); !bends.empty()) info["bends"] = bends;
+        if (scene.creature->joint == Joint::line) info["joint"] = "line";
+        if (scene.creature->skin) info["mesh"] = describe_skin(*scene.creature, model);
+    }
     info["springs"] = model.springs.size();
     info["clusters"] = model.clusters.size();
     info["planes"] = model.planes.size();

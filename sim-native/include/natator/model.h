@@ -38,8 +38,8 @@ struct Cluster {
 /// A spring that an actuator drives: rest length l = l_rest (1 + 1/2 z_m a u), thesis (2.7) and (2.8).
 struct Muscle {
     int spring = 0;
-    int actuator = 0;       ///< 0 = nearest the head of the body
-    double lateral = 0;     ///< z_m in [-1, 1], -1 = left edge, +1 = right edge
+    int actuator = 0;       ///< in the order of Creature::actuator_list; those of companions follow
+    double lateral = 0;     ///< z_m in [-1, 1], -1 = left edge, +1 = right edge; of one that bends up and down, lower and upper
 };
 
 /// Which particles make up the swimmer. Slice 0 is the head.

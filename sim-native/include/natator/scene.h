@@ -1,8 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
-#include <numeric>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,14 +33,57 @@ struct FluidBlock {
     int disorder = 20;                           ///< seed of the places off the lattice that scheme `conserving` begins from
 };
 
-/// One cross-section of a body: rows of particles in (y, z), all in the middle of the body's left and right.
+/// One cross-section of a body: rows of particles in (y, z). Places in it are in half spacings, which are whole numbers.
 struct Slice {
     int height = 1;              ///< rows, along y
-    int width = 1;               ///< particles along z of the widest row
+    int width = 1;               ///< particles along z of the widest row; of `columns` as many as reach as far
     std::vector<int> rows = {};  ///< particles of each row from the lowest up, all odd or all even; empty: `width` each
+    int lift = 0;                ///< of the middle row above the body's axis, half spacings
+    /// z of the particles of each row, ascending, half spacings: where they do not fill the row from one side to the other.
+    /// Empty: they do, as many to the left as to the right.
+    std::vector<std::vector<int>> columns = {};
 
-    int row(int iy) const { return rows.empty() ? width : rows[static_cast<std::size_t>(iy)]; }
-    int particles() const { return rows.empty() ? height * width : std::accumulate(rows.begin(), rows.end(), 0); }
+    int row(int iy) const {
+        const auto i = static_cast<std::size_t>(iy);
+        return !columns.empty() ? static_cast<int>(columns[i].size()) : rows.empty() ? width : rows[i];
+    }
+    int y(int iy) const { return 2 * iy - (height - 1) + lift; }  ///< of a row, from the axis, half spacings
+    /// From the middle of left and right, half spacings.
+    int z(int iy, int iz) const {
+        return columns.empty() ? 2 * iz - (row(iy) - 1) : columns[static_cast<std::size_t>(iy)][static_cast<std::size_t>(iz)];
+    }
+    int particles() const {
+        int sum = 0;
+        for (int iy = 0; iy < height; ++iy) sum += row(iy);
+        return sum;
+    }
+};
+
+/// Which way muscles bend a body.
+enum class Bend { sideways, vertical };
+
+/// What a gait drives by itself: the muscles between two neighbouring slices of muscle_ends() that bend one way.
+struct Actuator {
+    int gap = 0;  ///< 0 = between the first two of these slices
+    Bend bend = Bend::sideways;
+};
+
+/// How neighbouring clusters hang together.
+enum class Joint {
+    slice,  ///< by all particles of a slice (thesis 2.2)
+    line,   ///< by those of its particles that are nearest the line about which it bends (after thesis 4.4)
+};
+
+/// A closed surface that moves with a body.
+struct Skin {
+    std::string file;    ///< as the creature names it
+    std::string digest;  ///< of the file, 16 hexadecimal digits
+    double unit = 1;     ///< scene lengths of one unit of the file
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: which way of the file is forward, up, right
+    Eigen::Vector3d origin{0, 0, 0};                     ///< place in the file that is the centre of the last slice
+    std::vector<Eigen::Vector3d> vertices;               ///< at rest, from the centre of the last slice, length
+    std::vector<Eigen::Vector3i> triangles;              ///< corners go round counter-clockwise seen from outside
+    double volume = 0;                                   ///< inside, length^3
 };
 
 /// A soft body of slices along x (thesis 2.2). Slice 0 is the head; the head faces +x, the top +y, the right side +z.
@@ -51,23 +95,47 @@ struct Creature {
     std::vector<int> muscle_slices;    ///< slices that muscles run between, ascending; empty = the joints (thesis 2.4)
     double spacing = 0.075;            ///< distance of neighbouring particles at rest, length
     bool of_profile = false;           ///< whether slices and joints were made of curves: `profile` in the JSON
+    std::shared_ptr<const Skin> skin;  ///< the mesh that slices and joints were made of: `mesh` in the JSON; null: none
+    Joint joint = Joint::slice;
+    /// Ways in which the muscles of each gap between muscle_ends() bend; empty = sideways alone.
+    std::vector<std::vector<Bend>> bends;
     double cluster_stiffness = 0.2;    ///< shape-matching stiffness of every cluster, [0, 1]
     std::vector<double> cluster_stiffnesses;  ///< of each cluster from the head on; empty = `cluster_stiffness` for all
     double particle_mass = 1.0;        ///< m_s
     double spring_stiffness = 1.0;     ///< stiffness of every muscle spring, [0, 1]
-    std::vector<double> spring_stiffnesses;   ///< of each actuator's springs; empty = `spring_stiffness` for all
+    std::vector<double> spring_stiffnesses;   ///< of each gap's springs; empty = `spring_stiffness` for all
     int springs_per_particle = 4;      ///< springs that each connected particle gives (thesis 2.4)
     Eigen::Vector3d rear_centre{0.45, 0.6, 0.6};  ///< start of the centre of the last slice
     /// n: each particle described here is made of n x n x n, on a lattice n times as fine (model_builder.h).
     int refinement = 1;
 
     const std::vector<int>& muscle_ends() const { return muscle_slices.empty() ? joints : muscle_slices; }
-    int actuators() const { return muscle_ends().empty() ? 0 : static_cast<int>(muscle_ends().size()) - 1; }
+    int gaps() const { return muscle_ends().empty() ? 0 : static_cast<int>(muscle_ends().size()) - 1; }
+    bool bends_by(Bend bend, int gap) const {
+        if (bends.empty()) return bend == Bend::sideways;
+        const std::vector<Bend>& ways = bends[static_cast<std::size_t>(gap)];
+        return std::find(ways.begin(), ways.end(), bend) != ways.end();
+    }
+    /// Whether any muscle bends this way.
+    bool bends_by(Bend bend) const {
+        for (int gap = 0; gap < gaps(); ++gap)
+            if (bends_by(bend, gap)) return true;
+        return false;
+    }
+    /// In the order that a gait has them: those that bend sideways from the head on, then those that bend up and down.
+    std::vector<Actuator> actuator_list() const {
+        std::vector<Actuator> list;
+        for (const Bend bend : {Bend::sideways, Bend::vertical})
+            for (int gap = 0; gap < gaps(); ++gap)
+                if (bends_by(bend, gap)) list.push_back({gap, bend});
+        return list;
+    }
+    int actuators() const { return static_cast<int>(actuator_list().size()); }
     double stiffness_of_cluster(int cluster) const {
         return cluster_stiffnesses.empty() ? cluster_stiffness : cluster_stiffnesses[static_cast<std::size_t>(cluster)];
     }
-    double stiffness_of_springs(int actuator) const {
-        return spring_stiffnesses.empty() ? spring_stiffness : spring_stiffnesses[static_cast<std::size_t>(actuator)];
+    double stiffness_of_springs(int gap) const {
+        return spring_stiffnesses.empty() ? spring_stiffness : spring_stiffnesses[static_cast<std::size_t>(gap)];
     }
     /// Particles that one described here is made of.
     int parts() const { return refinement * refinement * refinement; }

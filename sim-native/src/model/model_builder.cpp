@@ -39,7 +39,10 @@ void check_size(const Scene& scene) {
         const auto count = scene.fluid->count.cast<std::int64_t>();
         particles += count.x() * count.y() * count.z();
     }
-    const char* body = scene.creature && scene.creature->of_profile ? "creature.profile" : "creature.slices";
+    const char* body = !scene.creature             ? "creature.slices"
+                       : scene.creature->skin      ? "creature.mesh"
+                       : scene.creature->of_profile ? "creature.profile"
+                                                    : "creature.slices";
     const std::string found = std::to_string(particles) + " particles (fluid.count and " + body + " together)";
     if (particles == 0) refuse(scene, "0 particles: needs a creature or fluid");
     if (particles > limits::particles) refuse(scene, found + ": must be at most " + std::to_string(limits::particles));
@@ -50,8 +53,8 @@ void check_springs(const Scene& scene, const Creature& creature, const std::stri
     const std::vector<int>& ends = creature.muscle_ends();
     const auto size = [&](int slice) { return std::int64_t{creature.slices[slice].particles()}; };
     std::int64_t springs = 0;
-    for (int i = 0; i < creature.actuators(); ++i)
-        springs += std::min(size(ends[i]), size(ends[i + 1])) * creature.springs_per_particle * creature.parts();
+    for (const Actuator& one : creature.actuator_list())
+        springs += std::min(size(ends[one.gap]), size(ends[one.gap + 1])) * creature.springs_per_particle * creature.parts();
     if (springs > limits::springs)
         refuse(scene, std::to_string(springs) + " springs (" + place + ".slices, joints and springsPerParticle together): " +
                           "must be at most " + std::to_string(limits::springs));
@@ -72,16 +75,21 @@ void check_clearance(const Scene& scene, int body_particles) {
 void check_muscles(const Scene& scene, const Creature& creature, const std::string& place, const Model& model) {
     std::vector<int> count(static_cast<std::size_t>(model.actuators));
     for (const Muscle& muscle : model.muscles) ++count[muscle.actuator];
+    const std::vector<Actuator> actuators = creature.actuator_list();
     for (int i = 0; i < model.actuators; ++i) {
         if (count[i] > 0) continue;
+        const auto [gap, bend] = actuators[static_cast<std::size_t>(i)];
         const std::vector<int>& ends = creature.muscle_ends();
+        const bool by_part = creature.of_profile || creature.skin;  // joints are given in parts of the length
         std::ostringstream text;
         text << place << (!creature.muscle_slices.empty() ? ".muscleSlices["
+                 : creature.skin                 ? ".mesh.joints["
                  : creature.of_profile           ? ".profile.joints["
-                                                        : ".joints[")
-             << i << "], [" << i + 1 << "] = " << (creature.of_profile ? "slices " : "") << ends[i] << ", "
-             << ends[i + 1] << ": no muscle fits between these slices (actuator " << i
-             << "); both must be at least 2 wide and the slices between them not thinner";
+                                                 : ".joints[")
+             << gap << "], [" << gap + 1 << "] = " << (by_part ? "slices " : "") << ends[gap] << ", " << ends[gap + 1]
+             << ": no muscle " << (bend == Bend::vertical ? "that bends up and down " : "")
+             << "fits between these slices (actuator " << i << "); both must be at least 2 "
+             << (bend == Bend::vertical ? "high" : "wide") << " and the slices between them not thinner";
         refuse(scene, text.str());
     }
 }

@@ -36,13 +36,13 @@ Obstacle read_obstacle(const json& value, const Place& place) {
 
 }  // namespace
 
-std::vector<Companion> read_companions(const json& value, const Place& place) {
+std::vector<Companion> read_companions(const json& value, const Place& place, const std::filesystem::path& data) {
     std::vector<Companion> companions;
     for (const json& one : checked_array(value, place, max_companions, "companions")) {
         const Place at = place.item(companions.size());
         check_keys(one, at, {"creature", "gait"});
         Companion companion;
-        companion.creature = read_creature(required(one, at, "creature"), at.key("creature"));
+        companion.creature = read_creature(required(one, at, "creature"), at.key("creature"), data);
         companion.gait = one.contains("gait") ? parse_gait(one.at("gait"), at.document + ": " + at.key("gait").path)
                                               : resting_gait(companion.creature.actuators());
         companions.push_back(std::move(companion));

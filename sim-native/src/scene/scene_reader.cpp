@@ -113,7 +113,7 @@ void check_water(const Scene& scene, const Place& place) {
 
 }  // namespace
 
-Scene scene_from_json(const json& document, const std::string& name) {
+Scene scene_from_json(const json& document, const std::string& name, const std::filesystem::path& data) {
     const Place place{"scene " + quoted(name), ""};
     Scene scene;
     scene.name = name;
@@ -129,7 +129,7 @@ Scene scene_from_json(const json& document, const std::string& name) {
     if (document.contains("planes")) scene.planes = read_planes(document.at("planes"), place.key("planes"));
     if (has(document, "fluid")) scene.fluid = fields::read_fluid(document.at("fluid"), place.key("fluid"));
     if (has(document, "creature")) {
-        scene.creature = fields::read_creature(document.at("creature"), place.key("creature"));
+        scene.creature = fields::read_creature(document.at("creature"), place.key("creature"), data);
     }
     if (document.contains("settling")) {
         fields::read_object(document.at("settling"), place.key("settling"), settling_fields(), {}, scene.settling);
@@ -138,7 +138,7 @@ Scene scene_from_json(const json& document, const std::string& name) {
         fields::read_object(document.at("stopping"), place.key("stopping"), stopping_fields(), {}, scene.stopping);
     }
     if (document.contains("companions"))
-        scene.companions = fields::read_companions(document.at("companions"), place.key("companions"));
+        scene.companions = fields::read_companions(document.at("companions"), place.key("companions"), data);
     if (document.contains("obstacles"))
         scene.obstacles = fields::read_obstacles(document.at("obstacles"), place.key("obstacles"));
     if (has(document, "movingTank"))
