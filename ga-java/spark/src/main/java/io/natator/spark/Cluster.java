@@ -26,6 +26,7 @@ final class Cluster {
      */
     private static final Map<String, String> SETTINGS = Map.ofEntries(
             Map.entry("spark.app.name", "natator"),
+            Map.entry("spark.log.level", "ERROR"),  // failed tasks are told of in one line each, see ExecutorNews
             Map.entry("spark.scheduler.mode", "FAIR"),
             Map.entry("spark.locality.wait", "0"),
             Map.entry("spark.ui.showConsoleProgress", "false"),
@@ -65,11 +66,7 @@ final class Cluster {
         if (present == null || present.context.sc().isStopped()) {
             SparkConf settings = settings(execution);
             try {
-                JavaSparkContext context = new JavaSparkContext(settings);
-                if (!settings.contains("spark.log.level")) {
-                    context.setLogLevel("ERROR");  // failed tasks are told of in one line each, see ExecutorNews
-                }
-                present = new Cluster(context);
+                present = new Cluster(new JavaSparkContext(settings));
             } catch (IOException e) {
                 throw new UncheckedIOException("cannot make a temporary folder: " + e.getMessage(), e);
             } catch (RuntimeException e) {
@@ -125,6 +122,15 @@ final class Cluster {
     /** Whether Spark has given up, as where the master is gone. */
     boolean isLost() {
         return context.sc().isStopped();
+    }
+
+    /** Ends the actions of a group. */
+    void cancel(String group) {
+        try {
+            context.cancelJobGroup(group);
+        } catch (IllegalStateException e) {
+            // Spark has ended, and all actions with it.
+        }
     }
 
     /**

@@ -24,13 +24,13 @@ final class ClusterJob implements AutoCloseable {
     private final SimpleFutureAction<BoxedUnit> action;
     private final BlockingQueue<String> results = new LinkedBlockingQueue<>();
 
-    /** Spark gave the action up; the message says why. */
+    /** Spark gave the action up; the message says why, in one line. */
     static final class FailedException extends RuntimeException {
 
         private static final long serialVersionUID = 1L;
 
         FailedException(Throwable cause) {
-            super(cause.getMessage(), cause);
+            super(String.valueOf(cause.getMessage()).lines().findFirst().orElse(""), cause);
         }
     }
 

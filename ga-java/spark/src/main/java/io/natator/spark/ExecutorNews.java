@@ -15,6 +15,7 @@ final class ExecutorNews extends SparkListener {
     private static final Logger LOG = LoggerFactory.getLogger(ExecutorNews.class);
 
     private final Set<String> told = ConcurrentHashMap.newKeySet();
+    private final Set<String> lost = ConcurrentHashMap.newKeySet();
     private volatile Refusal last;
 
     /**
@@ -46,6 +47,8 @@ final class ExecutorNews extends SparkListener {
 
     @Override
     public void onExecutorRemoved(SparkListenerExecutorRemoved removed) {
-        LOG.error("executor {} is lost: {}; others do its evaluations", removed.executorId(), removed.reason());
+        if (lost.add(removed.executorId())) {
+            LOG.error("executor {} is lost: {}; others do its evaluations", removed.executorId(), removed.reason());
+        }
     }
 }

@@ -147,8 +147,6 @@ final class SparkEvaluator implements Evaluator {
     @Override
     public void close() {
         closed = true;
-        if (!cluster.isLost()) {
-            cluster.context().cancelJobGroup(name);
-        }
+        cluster.cancel(name);
     }
 }
