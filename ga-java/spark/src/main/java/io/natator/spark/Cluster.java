@@ -97,6 +97,8 @@ final class Cluster {
         if (instructionSet != null) {
             settings.setIfMissing("spark.executorEnv.NATATOR_ISA", instructionSet);
         }
+        // Also of a few evaluations by themselves, that of a machine which hangs is begun again elsewhere.
+        settings.setIfMissing("spark.speculation.task.duration.threshold", execution.timeout().toMillis() + "ms");
         if (execution.backend() == Backend.CUDA && settings.contains(GPUS)) {
             settings.setIfMissing("spark.task.resource.gpu.amount", "1");
         }

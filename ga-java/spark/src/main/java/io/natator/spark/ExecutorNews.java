@@ -9,7 +9,7 @@ import org.apache.spark.scheduler.SparkListenerTaskEnd;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** Tells of executors that are lost or unfit, each in one line, and remembers why the last one was unfit. */
+/** Tells of executors that are lost or unfit, of each reason in one line, and remembers why the last one was unfit. */
 final class ExecutorNews extends SparkListener {
 
     private static final Logger LOG = LoggerFactory.getLogger(ExecutorNews.class);
@@ -47,7 +47,7 @@ final class ExecutorNews extends SparkListener {
 
     @Override
     public void onExecutorRemoved(SparkListenerExecutorRemoved removed) {
-        if (lost.add(removed.executorId())) {
+        if (lost.add(removed.executorId()) && told.add(removed.reason())) {
             LOG.error("executor {} is lost: {}; others do its evaluations", removed.executorId(), removed.reason());
         }
     }

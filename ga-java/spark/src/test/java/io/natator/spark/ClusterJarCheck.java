@@ -7,6 +7,7 @@ import io.natator.simulator.FakeSimulator;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
+import java.io.Writer;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -120,8 +121,9 @@ class ClusterJarCheck {
     @Test
     void theRealSimulatorGivesTheSameBits() throws IOException, InterruptedException {
         Path scene = folder.resolve("mine.json");
-        Files.writeString(scene, "{\"base\":\"thesis/creature-1\",\"duration\":0.05}");
-        String[] settings = {"--scene", scene.toString(), "--starts", "1", "--population", "5", "--generations", "1", "--seed", "7"};
+        Files.writeString(scene, "{\"base\":\"thesis/creature-1\"}");
+        String[] settings = {"--scene", scene.toString(), "--duration", "0.05", "--starts", "1", "--population", "8",
+            "--generations", "1", "--seed", "7"};
         alone(REAL, folder.resolve("alone"), settings);
 
         assertSucceeds(evolve(REAL, folder.resolve("run"), List.of(), settings));
@@ -188,27 +190,51 @@ class ClusterJarCheck {
         assertSame(run, folder.resolve("alone"));
     }
 
-    /** One worker answers nonsense, one has no room for files: both are told of, the others do the work. */
+    /** One worker answers nonsense, one has no room for files, one hangs: the others do the work. */
     @Test
     void machinesThatCannotAreLeftOut() throws IOException, InterruptedException {
         String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations", "1", "--seed", "3"};
         Path simulator = script("if [[ -n $TEST_NONSENSE && $1 != info ]]; then echo nonsense; exit; fi\n"
+                + "if [[ -n $TEST_HANG && $1 = serve ]]; then sleep 3600; fi\n"
                 + "exec FOLDER/fake-simulator.sh \"$@\"");
         alone(simulator, folder.resolve("alone"), settings);
         Files.writeString(folder.resolve("slow"), "0.03");
         Process nonsense = cluster.addWorker(Map.of("TEST_NONSENSE", "1"), List.of(), "");
         Process full = cluster.addWorker(Map.of(), List.of(), "ulimit -f 4000;");
+        Process hanging = cluster.addWorker(Map.of("TEST_HANG", "1"), List.of(), "");
         try {
-            assertSucceeds(evolve(simulator, folder.resolve("run"), List.of(), settings));
+            assertSucceeds(evolve(simulator, folder.resolve("run"), List.of("spark.speculation.minTaskRuntime=500ms",
+                    "spark.speculation.task.duration.threshold=500ms"), settings));
         } finally {
-            nonsense.destroy();
-            full.destroy();
+            List.of(nonsense, full, hanging).forEach(Process::destroy);
         }
 
         assertSame(folder.resolve("run"), folder.resolve("alone"));
-        assertThat(Files.readString(log)).containsPattern("executor \\d+ on 127.0.0.1: swims otherwise than the driver "
+        assertThat(Files.readString(log)).containsPattern("executor \\d+ on 127.0.0.\\d: swims otherwise than the driver "
                 + "\\(hash none: no valid result: .*; it gets no more work, others do its evaluations")
                 .containsPattern("executor \\d+ .*: .*File too large");
+    }
+
+    /** As many as the study has, in no order. */
+    @Test
+    void evolutionsAtTheSameTimeShareTheCluster() throws IOException, InterruptedException {
+        List<String> settings = List.of("--no-cache", "--simulator-path", fake.toString(), "--optimizers", "random,jgap-corrected",
+                "--seeds", "2", "--evaluations", "30", "--creatures", "1", "--output-dir");
+        List<String> arguments = new ArrayList<>(List.of("compare-optimizers", "--simulator", "process"));
+        arguments.addAll(settings);
+        arguments.add(folder.resolve("alone").toString());
+        assertThat(Main.commandLine().setOut(new PrintWriter(Writer.nullWriter())).setErr(new PrintWriter(Writer.nullWriter()))
+                .execute(arguments.toArray(String[]::new))).isZero();
+        arguments = new ArrayList<>(List.of("compare-optimizers"));
+        arguments.addAll(settings);
+        arguments.add(folder.resolve("run").toString());
+
+        assertSucceeds(cluster.submit(log, List.of(), arguments.toArray(String[]::new)));
+
+        for (String name : List.of("random/seed-1", "random/seed-2", "jgap-corrected/seed-1", "jgap-corrected/seed-2")) {
+            assertSame(folder.resolve("run/creature-1").resolve(name), folder.resolve("alone/creature-1").resolve(name));
+        }
+        assertThat(folder.resolve("run/fresh.csv")).hasSameBinaryContentAs(folder.resolve("alone/fresh.csv"));
     }
 
     @Test
@@ -220,7 +246,7 @@ class ClusterJarCheck {
         assertThat(driver.waitFor()).as(Files.readString(log)).isEqualTo(2);
 
         assertThat(Files.readAllLines(log)).filteredOn(line -> line.startsWith("natator evolve: ")).singleElement().asString()
-                .matches("natator evolve: simulator: no executor can do it; executor \\d on 127.0.0.1: instruction set is "
+                .matches("natator evolve: simulator: no executor can do it; executor \\d on 127.0.0.\\d: instruction set is "
                         + "portable, the driver's is .*: last digits would differ; set NATATOR_ISA for all to what all have");
     }
 

@@ -6,6 +6,7 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.regex.Matcher;
@@ -43,7 +44,7 @@ final class TestCluster implements AutoCloseable {
     }
 
     /**
-     * Adds a worker with one core.
+     * Adds a worker with one core, at a loopback address of its own: to Spark a machine by itself.
      *
      * @param environment in addition to this program's
      * @param options     of the virtual machine
@@ -52,11 +53,14 @@ final class TestCluster implements AutoCloseable {
     Process addWorker(Map<String, String> environment, List<String> options, String before)
             throws IOException, InterruptedException {
         String name = "worker-" + workers.size();
+        String host = "127.0.0." + (2 + workers.size());
         Path log = folder.resolve(name + ".log");
         List<String> command = new ArrayList<>(List.of("bash", "-c", before + " exec \"$@\"", name));
-        command.addAll(java(options, "org.apache.spark.deploy.worker.Worker", "--host", "127.0.0.1", "--port", "0", "--webui-port",
+        command.addAll(java(options, "org.apache.spark.deploy.worker.Worker", "--host", host, "--port", "0", "--webui-port",
                 "0", "--cores", "1", "--memory", "600m", "--work-dir", folder.resolve(name).toString(), master));
-        Process worker = run(log, environment, command);
+        Map<String, String> all = new HashMap<>(environment);
+        all.put("SPARK_LOCAL_IP", host);
+        Process worker = run(log, all, command);
         processes.add(worker);
         workers.add(worker);
         await(name, () -> Files.readString(log).contains("Successfully registered with master"));
@@ -100,10 +104,10 @@ final class TestCluster implements AutoCloseable {
 
     private static Process run(Path log, Map<String, String> environment, List<String> command) throws IOException {
         ProcessBuilder builder = new ProcessBuilder(command).redirectErrorStream(true).redirectOutput(log.toFile());
-        builder.environment().putAll(environment);
         builder.environment().put("SPARK_HOME", HOME.toString());
         builder.environment().put("SPARK_SCALA_VERSION", "2.13");
         builder.environment().put("SPARK_LOCAL_IP", "127.0.0.1");
+        builder.environment().putAll(environment);
         return builder.start();
     }
 
