@@ -40,7 +40,7 @@ import picocli.CommandLine.Spec;
 final class CompareOptimizersCommand implements Callable<Integer> {
 
     private static final List<String> WITHOUT_OUTCOME =
-            List.of("--stop-after", "--simulator-path", "--simulator-command", "--workers", "--timeout", "--no-cache",
+            List.of("--stop-after", "--simulator-path", "--simulator-command", "--master", "--workers", "--timeout", "--no-cache",
                     "--compact");
 
     @Spec

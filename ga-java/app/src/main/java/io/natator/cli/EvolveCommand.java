@@ -43,7 +43,7 @@ final class EvolveCommand implements Callable<Integer> {
     /** Options that do not change what a run computes, so that they may be given when it is continued. */
     private static final List<String> WITH_RESUME =
             List.of("--resume", "--stop-after", "--simulator", "--backend", "--device", "--workers", "--timeout",
-                    "--simulator-path", "--simulator-command", "--no-cache");
+                    "--simulator-path", "--simulator-command", "--master", "--no-cache");
 
     @Spec
     private CommandSpec spec;

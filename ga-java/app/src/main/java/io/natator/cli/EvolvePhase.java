@@ -4,7 +4,6 @@ import io.natator.checkpoint.CompactRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Scheme;
-import io.natator.config.SimulatorMode;
 import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import io.natator.study.thesis.EvolutionPlan;
@@ -85,6 +84,6 @@ final class EvolvePhase {
             }
         }
         out.printf("about %s, with %s%n", ProgressEstimate.readable(Math.round(seconds)),
-                execution.mode() == SimulatorMode.BATCH ? "batches of " + together : together + " at once");
+                execution.inBatches() ? "batches of " + together : together + " at once");
     }
 }

@@ -14,9 +14,12 @@ import picocli.CommandLine.Option;
 @Section(Topic.COMPUTING)
 final class ExecutionOptions {
 
+    /** Set by spark-submit. */
+    private static final String SUBMITTED = "spark.master";
+
     @Option(names = "--simulator", paramLabel = "MODE", description = "How evaluations reach the native program: "
-            + "process (one for each), resident (processes kept alive) or batch (a generation at once). The results are "
-            + "the same. Default: batch with --backend cuda, else process.")
+            + "process (one for each), resident (processes kept alive), batch (a generation at once) or spark (a cluster). The "
+            + "results are the same. Default: batch with --backend cuda, else process; spark where spark-submit started this.")
     private SimulatorMode mode;
 
     @Option(names = "--simulator-command", paramLabel = "COMMAND", description = "A command line that starts a program "
@@ -24,6 +27,10 @@ final class ExecutionOptions {
             + "evaluations; the workers are those of all of them together. They must have this machine's "
             + "instruction set, or all the same NATATOR_ISA. Default: the native program here.")
     private List<String> commands = List.of();
+
+    @Option(names = "--master", paramLabel = "URL", description = "With --simulator spark: the cluster's master, as "
+            + "spark://host:7077 or local[4]. Default: what spark-submit was told.")
+    private String master;
 
     @Option(names = "--backend", paramLabel = "BACKEND",
             description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: cpu; of a run that is "
@@ -61,10 +68,11 @@ final class ExecutionOptions {
         }
         Backend chosen = backend != null ? backend : otherwise;
         SimulatorMode usual = !commands.isEmpty() ? SimulatorMode.RESIDENT
+                : master != null || System.getProperty(SUBMITTED) != null ? SimulatorMode.SPARK
                 : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
         return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, device,
                 workers != null ? workers : Runtime.getRuntime().availableProcessors(),
                 timeoutSeconds == null ? null
-                        : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null, commands);
+                        : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null, commands, master);
     }
 }

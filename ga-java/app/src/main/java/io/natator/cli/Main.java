@@ -39,8 +39,16 @@ public final class Main implements Callable<Integer> {
      * @param arguments the command line
      */
     public static void main(String[] arguments) {
+        run(commandLine(), arguments);
+    }
+
+    /**
+     * The same with a command line that may have been changed.
+     *
+     * @param command see {@link #commandLine}
+     */
+    public static void run(CommandLine command, String[] arguments) {
         System.setProperty("java.awt.headless", "true");
-        CommandLine command = commandLine();
         if (Charset.defaultCharset().equals(StandardCharsets.US_ASCII)) {
             // A container without a locale: terminals show UTF-8 there too, and the signs in texts (±) are no question marks.
             command.setOut(new PrintWriter(System.out, true, StandardCharsets.UTF_8));
@@ -57,7 +65,8 @@ public final class Main implements Callable<Integer> {
         }
     }
 
-    static CommandLine commandLine() {
+    /** All commands. */
+    public static CommandLine commandLine() {
         CommandLine command = new CommandLine(new Main())
                 .setParameterExceptionHandler(OneLineErrors::badUsage)
                 .setExecutionExceptionHandler(OneLineErrors::failure);

@@ -15,12 +15,12 @@ import picocli.CommandLine.Option;
 final class QueueOptions {
 
     private static final int AT_ONCE = 2;
-    private static final int AT_ONCE_IN_BATCHES = 32;
+    private static final int AT_ONCE_SHARED = 32;
 
     @Section(Topic.COMPUTING)
     @Option(names = "--runs-at-once", paramLabel = "N", description = "Runs under way at the same time; their "
-            + "generations share a batch. Default: " + AT_ONCE_IN_BATCHES + " with --simulator batch, else " + AT_ONCE
-            + ".")
+            + "generations share a batch. Default: " + AT_ONCE_SHARED + " with --simulator batch or spark, else "
+            + AT_ONCE + ".")
     private Integer runsAtOnce;
 
     @Section(Topic.EXTENT)
@@ -36,7 +36,7 @@ final class QueueOptions {
     /** Runs under way at the same time. */
     int atOnce(ExecutionSettings execution) {
         int atOnce = runsAtOnce != null ? runsAtOnce
-                : execution.mode() == SimulatorMode.BATCH ? AT_ONCE_IN_BATCHES : AT_ONCE;
+                : execution.mode() == SimulatorMode.BATCH || execution.mode() == SimulatorMode.SPARK ? AT_ONCE_SHARED : AT_ONCE;
         Limits.checkCount("--runs-at-once", atOnce, Limits.AT_ONCE);
         return atOnce;
     }
@@ -65,7 +65,7 @@ final class QueueOptions {
             StudyProgress progress = new StudyProgress(runs, finished, evaluations, recorded, err) {
                 @Override
                 public EvolutionListener forRun() {
-                    return execution.mode() == SimulatorMode.BATCH ? shutdown.beforeLateGenerations()
+                    return execution.inBatches() ? shutdown.beforeLateGenerations()
                             : new EvolutionListener() { };
                 }
             };

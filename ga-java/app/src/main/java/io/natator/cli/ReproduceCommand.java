@@ -31,7 +31,7 @@ final class ReproduceCommand implements Callable<Integer> {
 
     private static final double NANOSECONDS = 1e9;
     private static final List<String> WITHOUT_OUTCOME = List.of("--stop-after", "--simulator-path",
-            "--simulator-command", "--workers", "--timeout", "--phase", "--runs-at-once", "--compact", "--device");
+            "--simulator-command", "--master", "--workers", "--timeout", "--phase", "--runs-at-once", "--compact", "--device");
 
     @Spec
     private CommandSpec spec;

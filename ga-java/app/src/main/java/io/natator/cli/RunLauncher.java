@@ -2,7 +2,6 @@ package io.natator.cli;
 
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.SimulatorMode;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionStoppedException;
 import io.natator.report.FitnessPlot;
@@ -48,7 +47,7 @@ final class RunLauncher {
         try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().size(), err,
                 System.console() != null ? System.err : null)) {
             List<EvolutionListener> listeners = new ArrayList<>(List.of(progress));
-            if (execution.mode() == SimulatorMode.BATCH) {
+            if (execution.inBatches()) {
                 listeners.add(shutdown.beforeLateGenerations());
             }
             outcome = new EvolutionRun(folder).run(execution, evaluator, listeners.toArray(EvolutionListener[]::new));

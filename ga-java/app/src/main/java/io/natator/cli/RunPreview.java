@@ -44,7 +44,8 @@ final class RunPreview {
         out.printf("  evaluations %s%n", estimate.total());
         out.printf(Locale.ROOT, "  simulator   %s, %s, time limit %s each%n",
                 execution.mode().name().toLowerCase(Locale.ROOT), execution.mode() == SimulatorMode.BATCH
-                        ? "a generation at once" : execution.workers() + " at once",
+                        ? "a generation at once" : execution.mode() == SimulatorMode.SPARK ? "as many at once as the cluster can"
+                        : execution.workers() + " at once",
                 ProgressEstimate.readable(limited.timeout().toSeconds()));
         out.printf("  run folder  %s%n", folder);
         printTime(limited, duration, estimate.expected(), out);

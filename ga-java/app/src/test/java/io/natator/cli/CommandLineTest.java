@@ -479,7 +479,7 @@ class CommandLineTest {
         "--judge max|expected mean, median or lower-quartile but was 'max'",
         "--starts 4 --evaluations 3|evaluations is 3; expected at least the 4 starts of one gait",
         "--stop-after 0|--stop-after is 0.0",
-        "--simulator thread|expected process, resident or batch but was 'thread'",
+        "--simulator thread|expected process, resident, batch or spark but was 'thread'",
         "--backend opencl|expected cpu, cuda or auto but was 'opencl'",
         "--optimizer cma|expected jgap, cma-es, random, nsga2 or map-elites but was 'cma'; did you mean cma-es?",
         "--fitness speed|expected distance or net",

@@ -99,6 +99,10 @@ class ThirdPartyJarCheck {
         assertThat(text(META + "NOTICE").lines().limit(2)).containsExactly("Natator", "Copyright 2026 the Natator maintainers");
         assertThat(text(META + "NOTICE")).contains("# Jackson JSON processor");
         assertThat(text(META + "NOTICE.txt")).contains("Copyright 2016-2018 The Hipparchus project");
+    }
+
+    @Test
+    void theNoticesOfTheWebServerAreThere() throws IOException {
         assertThat(text(META + "NOTICE.md")).contains("# Notices for Jakarta Annotations", "# Notices for Jakarta Transactions");
     }
 }

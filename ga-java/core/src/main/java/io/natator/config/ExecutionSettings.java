@@ -16,9 +16,10 @@ import java.util.List;
  * @param cache     folder of evaluations that need not be done again, or null for none
  * @param commands  command lines for {@code /bin/sh}, each of which starts a program that speaks the protocol of
  *                  {@code natator-sim serve}, maybe on another machine; evaluations are spread over them. None: {@code simulator}
+ * @param master    URL of the Spark master in mode spark, or null for the one that the program was submitted to
  */
 public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
-        Duration timeout, Path cache, List<String> commands) {
+        Duration timeout, Path cache, List<String> commands, String master) {
 
     /**
      * Checks the ranges.
@@ -31,9 +32,17 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         if (commands.stream().anyMatch(String::isBlank)) {
             throw new InvalidInputException("simulator command is blank; expected a command line");
         }
-        if (!commands.isEmpty() && mode == SimulatorMode.PROCESS) {
+        if (!commands.isEmpty() && (mode == SimulatorMode.PROCESS || mode == SimulatorMode.SPARK)) {
             throw new InvalidInputException("simulator commands keep running; expected simulator mode resident or batch, "
-                    + "not process");
+                    + "not " + Json.name(mode));
+        }
+        if (master != null && mode != SimulatorMode.SPARK) {
+            throw new InvalidInputException("master is " + master + "; expected simulator mode spark with it, not "
+                    + Json.name(mode));
+        }
+        if (mode == SimulatorMode.SPARK && backend == Backend.AUTO) {
+            throw new InvalidInputException("backend is auto; expected cpu or cuda in simulator mode spark, the same on "
+                    + "all machines");
         }
         if (commands.size() > 1 && mode == SimulatorMode.BATCH) {
             throw new InvalidInputException("simulator mode batch gives whole generations to one program; expected one "
@@ -46,6 +55,12 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
             throw new InvalidInputException("timeout is " + timeout.toMillis() / 1000.0
                     + "; expected a number of seconds above 0");
         }
+    }
+
+    /** Settings for these processors, or what the commands reach. */
+    public ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
+            Duration timeout, Path cache, List<String> commands) {
+        this(simulator, mode, backend, device, workers, timeout, cache, commands, null);
     }
 
     /** Settings that start the program itself. */
@@ -66,31 +81,42 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
      * @param population evaluations of a batch
      */
     public int trials(int population) {
-        return mode == SimulatorMode.BATCH ? population : Math.min(workers, Runtime.getRuntime().availableProcessors());
+        return inBatches() ? population : Math.min(workers, Runtime.getRuntime().availableProcessors());
+    }
+
+    /** Whether many evaluations are computed together, so that most of a generation comes at once. */
+    public boolean inBatches() {
+        return mode == SimulatorMode.BATCH || mode == SimulatorMode.SPARK && backend == Backend.CUDA;
+    }
+
+    /** Whether it is this machine that computes, or one that has shown the same bits. A GPU elsewhere may be of any kind. */
+    public boolean isKnownHere() {
+        return mode != SimulatorMode.SPARK || backend == Backend.CPU;
     }
 
     /** These settings with other commands, see {@link #commands}. */
     public ExecutionSettings withCommands(List<String> newCommands) {
-        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, cache, newCommands);
+        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, cache, newCommands, master);
     }
 
     /** These settings in another mode. */
     public ExecutionSettings withMode(SimulatorMode newMode) {
-        return new ExecutionSettings(simulator, newMode, backend, device, workers, timeout, cache, commands);
+        return new ExecutionSettings(simulator, newMode, backend, device, workers, timeout, cache, commands,
+                newMode == SimulatorMode.SPARK ? master : null);
     }
 
     /** These settings on another backend. */
     public ExecutionSettings withBackend(Backend newBackend) {
-        return new ExecutionSettings(simulator, mode, newBackend, device, workers, timeout, cache, commands);
+        return new ExecutionSettings(simulator, mode, newBackend, device, workers, timeout, cache, commands, master);
     }
 
     /** These settings with a time limit. */
     public ExecutionSettings withTimeout(Duration newTimeout) {
-        return new ExecutionSettings(simulator, mode, backend, device, workers, newTimeout, cache, commands);
+        return new ExecutionSettings(simulator, mode, backend, device, workers, newTimeout, cache, commands, master);
     }
 
     /** These settings with another cache, or null for none. */
     public ExecutionSettings withCache(Path newCache) {
-        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, newCache, commands);
+        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, newCache, commands, master);
     }
 }

@@ -12,5 +12,8 @@ public enum SimulatorMode {
     RESIDENT,
     /** One process that is given all evaluations of a generation together, for a GPU. */
     @JsonProperty("batch")
-    BATCH
+    BATCH,
+    /** The executors of an Apache Spark cluster; only in the program for it. */
+    @JsonProperty("spark")
+    SPARK
 }

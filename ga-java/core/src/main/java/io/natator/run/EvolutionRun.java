@@ -72,7 +72,8 @@ public final class EvolutionRun {
     }
 
     /**
-     * The evaluator that the settings ask for, with their cache. Several runs can share it.
+     * The evaluator that the settings ask for, with their cache; without it where the GPUs are other machines'. Several
+     * runs can share it.
      *
      * @param execution with a time limit
      * @throws io.natator.config.InvalidInputException if the simulator cannot be run
@@ -80,7 +81,7 @@ public final class EvolutionRun {
      */
     public static Evaluator open(ExecutionSettings execution) throws InterruptedException {
         Evaluator evaluator = Evaluator.open(execution);
-        if (execution.cache() == null) {
+        if (execution.cache() == null || !execution.isKnownHere()) {
             return evaluator;
         }
         try {

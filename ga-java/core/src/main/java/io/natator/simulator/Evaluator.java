@@ -57,12 +57,14 @@ public interface Evaluator extends AutoCloseable {
      * The evaluator that these settings ask for.
      *
      * @param execution with a time limit
+     * @throws io.natator.config.InvalidInputException if this program cannot do it, or a cluster is not to be had
      */
     static Evaluator open(ExecutionSettings execution) {
         return switch (execution.mode()) {
             case PROCESS -> new WorkerPool(new ProcessSimulator(execution), execution.workers());
             case RESIDENT -> new WorkerPool(new ResidentSimulator(execution), execution.workers());
             case BATCH -> new BatchSimulator(execution);
+            case SPARK -> ClusterEvaluators.open(execution);
         };
     }
 }

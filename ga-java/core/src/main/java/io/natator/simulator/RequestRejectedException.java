@@ -7,7 +7,12 @@ public class RequestRejectedException extends RuntimeException {
 
     private final boolean badInput;
 
-    RequestRejectedException(String message, boolean badInput) {
+    /**
+     * A refusal.
+     *
+     * @param badInput whether the fault lies in the request
+     */
+    public RequestRejectedException(String message, boolean badInput) {
         super(message);
         this.badInput = badInput;
     }

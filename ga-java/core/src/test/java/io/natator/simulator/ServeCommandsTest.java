@@ -114,4 +114,24 @@ class ServeCommandsTest {
         assertThatThrownBy(() -> settings(SimulatorMode.RESIDENT, " ")).isInstanceOf(InvalidInputException.class)
                 .hasMessage("simulator command is blank; expected a command line");
     }
+
+    @Test
+    void settingsForAClusterThatDoNotGoTogetherAreRefused() {
+        assertThatThrownBy(() -> settings(SimulatorMode.SPARK, "ssh a natator-sim serve")).isInstanceOf(InvalidInputException.class)
+                .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not spark");
+        assertThatThrownBy(() -> settings(SimulatorMode.SPARK).withBackend(Backend.AUTO)).isInstanceOf(InvalidInputException.class)
+                .hasMessage("backend is auto; expected cpu or cuda in simulator mode spark, the same on all machines");
+        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CPU, 0, 1, null, null, List.of(),
+                "local[2]")).isInstanceOf(InvalidInputException.class)
+                .hasMessage("master is local[2]; expected simulator mode spark with it, not batch");
+        assertThat(new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CPU, 0, 1, null, null, List.of(), "local[2]")
+                .withMode(SimulatorMode.RESIDENT).master()).isNull();
+    }
+
+    @Test
+    void aProgramWithoutSparkSaysWhichOneHasIt() {
+        assertThatThrownBy(() -> Evaluator.open(settings(SimulatorMode.SPARK))).isInstanceOf(InvalidInputException.class)
+                .hasMessage("this program has no simulator mode spark; expected natator-spark.jar, started by spark-submit "
+                        + "(ga-java/docs/cluster.md)");
+    }
 }

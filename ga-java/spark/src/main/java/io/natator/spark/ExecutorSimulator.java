@@ -1,0 +1,158 @@
+package io.natator.spark;
+
+import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.SimulatorMode;
+import io.natator.simulator.BatchSimulator;
+import io.natator.simulator.ProcessSimulator;
+import io.natator.simulator.ProgramInfo;
+import io.natator.simulator.RequestRejectedException;
+import io.natator.simulator.ResidentSimulator;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Objects;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+
+/**
+ * The native program of an executor: processes that stay alive for all its tasks, of one kind of mission on one device. Gets
+ * no work before it was seen to do as the driver's.
+ */
+final class ExecutorSimulator {
+
+    private static final Map<Key, ExecutorSimulator> ALL = new ConcurrentHashMap<>();
+
+    private final Path program;
+    private final ExecutionSettings settings;
+    private final ResidentSimulator resident;
+    private final BatchSimulator batches;
+    /** Samples that came out as they should. */
+    private final Set<String> done = ConcurrentHashMap.newKeySet();
+    private ProgramInfo info;
+
+    /** What missions have in common that can share processes. */
+    private record Key(Path program, Backend backend, int device, long timeout) {
+    }
+
+    /** What a GPU is called and how it swims. */
+    record Kind(String gpu, String hash) {
+    }
+
+    private ExecutorSimulator(Key key) {
+        this.program = key.program;
+        boolean alone = key.backend == Backend.CPU;
+        this.settings = new ExecutionSettings(key.program, alone ? SimulatorMode.RESIDENT : SimulatorMode.BATCH, key.backend,
+                key.device, 1, Duration.ofMillis(key.timeout), null);
+        this.resident = alone ? new ResidentSimulator(settings) : null;
+        this.batches = alone ? null : new BatchSimulator(settings);
+    }
+
+    /**
+     * The one for a mission on a device; the same for all tasks of this virtual machine.
+     *
+     * @throws UnfitExecutorException if this executor does otherwise than the driver
+     */
+    static ExecutorSimulator of(Mission mission, int device) throws UnfitExecutorException, InterruptedException {
+        ExecutorSimulator simulator = ALL.computeIfAbsent(
+                new Key(SentFile.get(mission.program()), mission.backend(), device, mission.timeout()), ExecutorSimulator::new);
+        simulator.check(mission, false);
+        return simulator;
+    }
+
+    /** One check at a time: what one task finds out the others need not. */
+    private synchronized void check(Mission mission, boolean again) throws UnfitExecutorException, InterruptedException {
+        if (info == null) {
+            try {
+                info = ProgramInfo.of(program);
+            } catch (InvalidInputException e) {
+                throw new UnfitExecutorException("the native program does not run: " + e.getMessage(), e);
+            }
+        }
+        if (mission.instructionSet() != null && !mission.instructionSet().equals(info.instructionSet())) {
+            throw new UnfitExecutorException("instruction set is " + info.instructionSet() + ", the driver's is "
+                    + mission.instructionSet() + ": last digits would differ; set NATATOR_ISA for all to what all have");
+        }
+        if (mission.gpu() != null && !mission.gpu().equals(gpu())) {
+            throw new UnfitExecutorException("GPU is " + gpu() + ", the first was " + mission.gpu()
+                    + ": last digits would differ");
+        }
+        if (mission.hash() != null && (again || !done.contains(mission.hash()))) {
+            String hash = swim(mission.sample());
+            if (!mission.hash().equals(hash)) {
+                throw new UnfitExecutorException("swims otherwise than " + (mission.backend() == Backend.CPU ? "the driver"
+                        : "the first GPU") + " (hash " + hash + ", not " + mission.hash() + ", after "
+                        + mission.sample().duration() + " s)");
+            }
+            done.add(mission.hash());
+        }
+    }
+
+    /** What the others are to be like. */
+    Kind kind(Mission mission) throws UnfitExecutorException, InterruptedException {
+        return new Kind(gpu(), mission.sample() == null ? null : swim(mission.sample()));
+    }
+
+    /** The name without the number, or null on the processor. */
+    private String gpu() {
+        return settings.backend() == Backend.CPU ? null : info.devices().stream()
+                .filter(device -> device.startsWith(settings.device() + ":"))
+                .map(device -> device.substring(device.indexOf(':') + 1).strip()).findFirst().orElse("none");
+    }
+
+    private String swim(SimulationRequest sample) throws UnfitExecutorException, InterruptedException {
+        SimulationRequest here = located(sample);
+        try (ProcessSimulator single = new ProcessSimulator(settings)) {
+            SimulationResult result = single.evaluate(here);
+            return Objects.requireNonNullElse(result.hash(), "none: " + result.error());
+        } catch (RequestRejectedException e) {
+            throw new UnfitExecutorException(e.getMessage(), e);
+        }
+    }
+
+    private static SimulationRequest located(SimulationRequest request) throws UnfitExecutorException {
+        return SceneFiles.withScene(request, SentFile.get(request.scene()).toString());
+    }
+
+    /**
+     * Evaluates all, up to the first that the program refuses. An evaluation that fails is believed to be at fault itself
+     * only if this executor still swims as it should.
+     *
+     * @throws UnfitExecutorException if it is this executor that fails
+     */
+    List<SimulationResult> evaluate(List<SimulationRequest> requests, Mission mission)
+            throws UnfitExecutorException, InterruptedException {
+        List<SimulationResult> results = new ArrayList<>();
+        List<SimulationRequest> here = new ArrayList<>();
+        for (SimulationRequest request : requests) {
+            here.add(located(request));
+        }
+        try {
+            if (batches != null) {
+                batches.evaluateAll(here, results::add);
+            } else {
+                for (SimulationRequest request : here) {
+                    results.add(resident.evaluate(request));
+                }
+            }
+        } catch (RequestRejectedException e) {
+            if (!e.isBadInput()) {
+                throw new UnfitExecutorException(e.getMessage(), e);
+            }
+            results.add(refused(here.get(0).id(), e.getMessage()));
+        }
+        if (results.stream().anyMatch(result -> result.status() == SimulationResult.Status.FAILED)) {
+            check(mission, true);
+        }
+        return results;
+    }
+
+    private static SimulationResult refused(long id, String reason) {
+        return new SimulationResult(id, SimulationResult.Status.ERROR, null, null, null, null, null, null, null, null, reason);
+    }
+}

@@ -1,0 +1,152 @@
+package io.natator.spark;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.Json;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.ProcessSimulator;
+import io.natator.simulator.ProgramInfo;
+import io.natator.simulator.RequestRejectedException;
+import io.natator.simulator.Sha256;
+import io.natator.simulator.SimulationRequest;
+import io.natator.simulator.SimulationResult;
+import io.natator.simulator.SimulationResult.Status;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+import java.util.UUID;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Consumer;
+
+/**
+ * Spreads evaluations over a cluster. A call is one action of Spark; results come as soon as a part is done. What an
+ * executor does not finish another one does again, with the same bits.
+ */
+final class SparkEvaluator implements Evaluator {
+
+    /** Simulated time of the swim that executors are compared by, s. */
+    private static final double SAMPLE = 0.05;
+    /** Parts of a generation for each evaluation that the cluster does at once; as a rule a part is one evaluation. */
+    private static final int PARTS = 256;
+    private static final long POLL_MILLISECONDS = 100;
+
+    private final Cluster cluster;
+    private final ExecutionSettings execution;
+    private final SceneFiles scenes;
+    private final String name = "natator-" + UUID.randomUUID();
+    private Mission mission;
+    private volatile boolean closed;
+
+    /** An evaluator whose executors get the program when they first need it. */
+    SparkEvaluator(Cluster cluster, ExecutionSettings execution) {
+        this.cluster = cluster;
+        this.execution = execution;
+        this.scenes = new SceneFiles(cluster, execution.simulator());
+    }
+
+    @Override
+    public void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
+            throws InterruptedException {
+        if (requests.isEmpty()) {
+            return;
+        }
+        failIfClosed();
+        List<String> lines = new ArrayList<>();
+        Set<Long> open = new HashSet<>();
+        for (SimulationRequest request : requests) {
+            lines.add(Json.line(scenes.sent(request)));
+            open.add(request.id());
+        }
+        int slots = cluster.slots(execution.backend());
+        int parts = execution.backend() == Backend.CPU ? Math.min(lines.size(), PARTS * slots) : Math.min(lines.size(), slots);
+        carryOut(lines, parts, missionFor(requests.get(0)), line -> {
+            SimulationResult result = read(line, SimulationResult.class);
+            if (result.status() == Status.ERROR) {
+                throw new RequestRejectedException(result.error(), true);
+            }
+            if (!open.remove(result.id())) {
+                throw new IllegalStateException("result " + result.id() + " came twice, or was not asked for");
+            }
+            whenDone.accept(result);
+        });
+    }
+
+    private void carryOut(List<String> lines, int parts, Mission given, Consumer<String> whenDone) throws InterruptedException {
+        try (ClusterJob job = new ClusterJob(cluster, name, lines, parts, new Partition(Json.line(given)))) {
+            for (int left = lines.size(); left > 0;) {
+                failIfClosed();
+                String line = job.next(POLL_MILLISECONDS, TimeUnit.MILLISECONDS);
+                if (line != null) {
+                    whenDone.accept(line);
+                    left--;
+                } else if (job.hasEnded() && !job.hasResults()) {
+                    throw new IllegalStateException(left + " of " + lines.size() + " results did not come");
+                }
+            }
+        } catch (ClusterJob.FailedException e) {
+            failIfClosed();
+            throw failure(e);
+        }
+    }
+
+    private void failIfClosed() throws InterruptedException {
+        if (closed || ClusterJob.isProgramEnding()) {
+            throw new InterruptedException("evaluations were stopped");
+        }
+    }
+
+    /** What to tell the user: why executors refused, if they did. */
+    private RequestRejectedException failure(ClusterJob.FailedException failed) {
+        ExecutorNews.Refusal refusal = cluster.news().last();
+        String text = cluster.isLost() ? "the cluster is lost: " + failed.getMessage()
+                : refusal != null ? "no executor can do it; " + refusal.reason() : failed.getMessage();
+        return new RequestRejectedException(text, !cluster.isLost() && refusal != null && refusal.differs());
+    }
+
+    /** What executors are told, found out once. */
+    private synchronized Mission missionFor(SimulationRequest request) throws InterruptedException {
+        if (mission == null) {
+            boolean here = execution.backend() == Backend.CPU;
+            SimulationRequest cut = new SimulationRequest(request.id(), request.scene(), request.gait(), SAMPLE,
+                    request.scheme(), request.overrides(), request.perturbation(), request.start());
+            String hash = here ? swim(cut) : null;
+            Mission first = new Mission(cluster.send("natator-sim", execution.simulator()), Sha256.of(execution.simulator()),
+                    here ? ProgramInfo.of(execution.simulator()).instructionSet() : null, execution.backend(),
+                    execution.device(), execution.timeout().toMillis(), here && hash == null ? null : scenes.sent(cut), hash,
+                    null);
+            mission = here ? first : like(first);
+        }
+        return mission;
+    }
+
+    /** The hash of the end of the swim on this machine; null if it has no end that others can be compared with. */
+    private String swim(SimulationRequest sample) throws InterruptedException {
+        try (ProcessSimulator own = new ProcessSimulator(execution)) {
+            return own.evaluate(sample).hash();
+        }
+    }
+
+    /** The mission with the kind of the GPU that answers first. */
+    private Mission like(Mission first) throws InterruptedException {
+        List<ExecutorSimulator.Kind> kinds = new ArrayList<>();
+        carryOut(List.of(Json.line(first.sample())), 1, first,
+                line -> kinds.add(read(line, ExecutorSimulator.Kind.class)));
+        return first.like(kinds.get(0).hash(), kinds.get(0).gpu());
+    }
+
+    private static <T> T read(String line, Class<T> type) {
+        try {
+            return Json.parse(line, type);
+        } catch (JsonProcessingException e) {
+            throw new IllegalStateException("no answer of an executor: " + Json.reason(e), e);
+        }
+    }
+
+    @Override
+    public void close() {
+        closed = true;
+        cluster.cancel(name);
+    }
+}
