@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "commit.h"
+#include "evaluate/swim_record.h"
 #include "io/strict_json.h"
 #include "natator/batch.h"
 #include "natator/error.h"
@@ -48,6 +49,7 @@ int particles_made_heavier(const Scene& scene, const Model& model) {
 
 ordered_json describe_scene(const Scene& scene) {
     const Model model = build_model(scene);
+    const SwimRecord tasks(scene, model);  // refuses a moving tank and goals that can't be
     const auto body = model.body.particles.size();
     ordered_json info;
     info["scene"] = scene.name;
@@ -61,6 +63,11 @@ ordered_json describe_scene(const Scene& scene) {
     info["springs"] = model.springs.size();
     info["clusters"] = model.clusters.size();
     info["planes"] = model.planes.size();
+    if (scene.moving_tank) info["movingTank"] = scene.moving_tank->along_z ? "along x and z" : "along x";
+    if (!scene.goals.empty()) {
+        info["goals"] = ordered_json::array();
+        for (const Goal& goal : scene.goals) info["goals"].push_back(to_string(goal.measure));
+    }
     info["duration"] = scene.duration;
     info["timeStep"] = scene.time_step;
     info["scheme"] = to_string(scene.scheme);

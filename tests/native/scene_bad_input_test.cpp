@@ -95,6 +95,17 @@ const BadScene bad_scenes[] = {
     {R"({"creature":{"slices":[{"height":5,"width":3}]}})", "creature.joints", "missing"},
     {R"({"settling":{"updates":-1}})", "settling.updates = -1", "[0, 1e+06]"},
     {R"({"stopping":{"noProgressAfter":-1}})", "stopping.noProgressAfter = -1", "[0, 1e+06] (s)"},
+    // Moving tanks and goals.
+    {R"({"movingTank":{"step":0}})", "movingTank.step = 0", "[1e-06, 10000] (length)"},
+    {R"({"movingTank":{"along":"y"}})", "movingTank.along = \"y\"", "\"x\" or \"xz\""},
+    {R"({"movingTank":{"current":[0,0.1,0]}})", "movingTank.current[1] = 0.1", "a current is horizontal"},
+    {R"({"goals":{}})", "goals = {}", "an array of at most 16 goals"},
+    {R"({"goals":[{"measure":"fly"}]})", "goals[0].measure = \"fly\"", "\"distance\" or \"forward\" or \"turn\""},
+    {R"({"goals":[{"measure":"turn"}]})", "goals[0].target", "missing"},
+    {R"({"goals":[{"measure":"turn","target":3}]})", "goals[0].target = 3", "farther than `within`, 5"},
+    {R"({"goals":[{"measure":"reach","target":1}]})", "goals[0].target = 1", "array"},
+    {R"({"goals":[{"measure":"hold","target":1}]})", "goals[0].target", "unknown"},
+    {R"({"goals":[{"measure":"depth","target":0.3,"within":0}]})", "goals[0].within = 0", "(0, 10000]"},
     // Joints.
     {R"({"creature":{"joints":[8,4,12]}})", "creature.joints[1] = 4", "[9, 15]"},
     {R"({"creature":{"joints":[4,4,12]}})", "creature.joints[1] = 4", "[5, 15]"},

@@ -9,6 +9,8 @@
 #include "natator/course.h"
 #include "natator/execution.h"
 #include "natator/gait.h"
+#include "natator/goal.h"
+#include "natator/moving_tank.h"
 #include "natator/scene.h"
 #include "natator/snapshot.h"
 #include "natator/solver.h"
@@ -20,10 +22,10 @@ namespace natator {
 enum class Precision { single_precision, double_precision };
 
 /// Why an evaluation ended.
-enum class StopReason { completed, touched_plane, no_progress, unstable };
+enum class StopReason { completed, touched_plane, no_progress, unstable, reached };
 
 /// As they are in requests and results: "flex", "conserving"; "float", "double"; "completed", "touched-plane",
-/// "no-progress", "unstable".
+/// "no-progress", "unstable", "reached".
 const char* to_string(Scheme scheme);
 const char* to_string(Precision precision);
 const char* to_string(StopReason reason);
@@ -63,6 +65,11 @@ struct Evaluation {
     /// `flex`, which has no forces, and without muscles.
     std::optional<double> work;
     std::optional<Course> course;  ///< of a body
+    std::vector<GoalResult> goals;          ///< of the scene's goals, in their order
+    std::optional<WaterRenewal> renewal;    ///< of a moving tank
+
+    /// What a gait is worth: the weighted sum of the scores of the scene's goals; without goals, the distance.
+    double fitness() const;
 };
 
 /// One body position per frame, for callers that want a trajectory.

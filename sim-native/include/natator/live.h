@@ -9,6 +9,7 @@
 #include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/model.h"
+#include "natator/moving_tank.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
 #include "natator/state.h"
@@ -74,7 +75,7 @@ public:
     std::vector<double> driven() const;
     /// Work that the muscles did since the start (Solver::muscle_work), mass length^2/s^2.
     double muscle_work() const;
-    /// Change of the body's mean x since the start, length.
+    /// Change of the body's mean x over ground since the start, length.
     double distance() const;
     /// Density of each particle in the present state, in units of rest density; 0 for solids.
     std::vector<Real> densities();
@@ -84,6 +85,7 @@ private:
     struct Run;
 
     std::unique_ptr<Run> make_run(const LiveSetup& setup) const;
+    void follow(TankFollower& follower);
     void start(std::unique_ptr<Run> run);  ///< null: the present one anew
     Drive next_drive() const;
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "natator/goal.h"
 #include "natator/parameters.h"
 
 namespace natator {
@@ -84,6 +85,15 @@ struct Stopping {
     double no_progress_after = 2.0;  ///< s without gain in mean x; 0 = never
 };
 
+/// A tank without an end: it goes along with its swimmer. Where the swimmer has come `step` on from where it began, the
+/// water of that length behind it is taken away, as much is put in front at rest, and all is moved back by `step`.
+struct MovingTank {
+    bool along_z = false;  ///< aside too, not only along x
+    double step = 0.4;     ///< length
+    /// Velocity of all the water over ground, length/s, horizontal. Distances are over ground; the tank is the water's.
+    Eigen::Vector3d current{0, 0, 0};
+};
+
 /// Everything that defines an experiment, as read from scene JSON.
 struct Scene {
     std::string name;
@@ -97,6 +107,13 @@ struct Scene {
     std::optional<Creature> creature;
     Settling settling;
     Stopping stopping;
+    std::optional<MovingTank> moving_tank;
+    std::vector<Goal> goals;  ///< none: the distance along x
+
+    /// Of a way over ground that took so many seconds, what was swum through the water along x, length.
+    double through_water(double distance, double time) const {
+        return moving_tank ? distance - time * moving_tank->current.x() : distance;
+    }
 };
 
 }  // namespace natator

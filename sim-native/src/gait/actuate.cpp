@@ -7,7 +7,11 @@ namespace natator {
 std::vector<double> drive(const Model& model, const Gait& gait, double time) {
     std::vector<double> driven(static_cast<std::size_t>(model.actuators));
     const double ramp = model.scheme != Scheme::flex ? physics::start_ramp(time) : 1.0;
-    for (int i = 0; i < model.actuators; ++i) driven[i] = ramp * gait.amplitude[i] * activation(gait, i, time);
+    for (int i = 0; i < model.actuators; ++i) {
+        driven[i] = gait.amplitude[i] * activation(gait, i, time);
+        if (!gait.offset.empty()) driven[i] += gait.offset[i];
+        driven[i] *= ramp;
+    }
     return driven;
 }
 

@@ -58,10 +58,6 @@ private:
     std::string bytes_;
 };
 
-ordered_json gait_json(const Gait& gait) {
-    return {{"frequency", gait.frequency}, {"amplitude", gait.amplitude}, {"phase", gait.phase}, {"power", gait.power}};
-}
-
 ordered_json planes_json(const Model& model) {
     ordered_json planes = ordered_json::array();
     for (const Plane& plane : model.planes)

@@ -39,7 +39,9 @@ Model affordable(const Scene& scene) {
 template <class Real>
 struct LiveSimulation<Real>::Run {
     Run(Scene of, const Perturbation& by, const Execution& execution)
-        : scene(std::move(of)), perturbation(by), model(affordable(scene)), solver(model, execution) {}
+        : scene(std::move(of)), perturbation(by), model(affordable(scene)), solver(model, execution) {
+        if (scene.moving_tank) follower.emplace(scene, model);
+    }
 
     /// The start at rest; settled once. Sets `instability` if settling was unstable.
     State<Real> begin(const SettledStateCache* starts, std::optional<Instability>& instability) {
@@ -62,6 +64,7 @@ struct LiveSimulation<Real>::Run {
     Perturbation perturbation;
     Model model;
     Solver<Real> solver;
+    std::optional<TankFollower> follower;
     std::optional<State<Real>> settled;
 };
 
@@ -119,6 +122,7 @@ bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
             base_time_ = state_.time;
         }
         earlier_work_ += run_->solver.muscle_work();
+        if (run->follower) run->follower->stand_at(state_.origin);
         run_ = std::move(run);
         updated_ = false;
     } else {
@@ -174,7 +178,17 @@ bool LiveSimulation<Real>::frame() {
     applied_ = steering_;
     ++frames_;
     state_.time = base_time_ + (frames_ - base_frame_) * scene().time_step;  // free of summed rounding
+    if (run_->follower) follow(*run_->follower);
     return true;
+}
+
+/// As SwimRecord does it.
+template <class Real>
+void LiveSimulation<Real>::follow(TankFollower& follower) {
+    follower.drift(scene().time_step);
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const int particle : model().body.particles) centre += state_.position[particle].template cast<double>();
+    follower.follow(centre / static_cast<double>(model().body.particles.size()), state_);
 }
 
 template <class Real>
@@ -189,7 +203,7 @@ const Model& LiveSimulation<Real>::model() const {
 
 template <class Real>
 double LiveSimulation<Real>::distance() const {
-    return mean_x(model().body, state_) - start_x_;
+    return mean_x(model().body, state_) + state_.origin.x() - start_x_;
 }
 
 template <class Real>
@@ -211,6 +225,7 @@ void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
     State<Real> state = next.begin(execution_.starts, instability);
     if (run) run_ = std::move(run);
     state_ = std::move(state);
+    if (next.follower) next.follower->stand_at(state_.origin);
     instability_ = std::move(instability);
     updated_ = false;
     frames_ = base_frame_ = 0;

@@ -118,7 +118,8 @@ Scene scene_from_json(const json& document, const std::string& name) {
     Scene scene;
     scene.name = name;
     fields::read_object(document, place, scene_fields(),
-                        {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping"}, scene);
+                        {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping", "movingTank", "goals"},
+                        scene);
     if (document.contains("scheme")) {
         scene.scheme = fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"),
                                                    {{"flex", Scheme::flex}, {"conserving", Scheme::conserving}});
@@ -135,6 +136,9 @@ Scene scene_from_json(const json& document, const std::string& name) {
     if (document.contains("stopping")) {
         fields::read_object(document.at("stopping"), place.key("stopping"), stopping_fields(), {}, scene.stopping);
     }
+    if (has(document, "movingTank"))
+        scene.moving_tank = fields::read_moving_tank(document.at("movingTank"), place.key("movingTank"));
+    if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));
     check_frames(scene, place);
     check_water(scene, place);
     return scene;

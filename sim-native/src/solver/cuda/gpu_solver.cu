@@ -115,12 +115,14 @@ private:
         const auto row = [](double value) { return std::vector<double>{value}; };
         using Numbers = cuda::DeviceBuffer<double>;
         const Numbers frequency(row(gait ? gait->frequency : 0)), power(row(gait ? gait->power : 1)),
-            amplitude(gait ? gait->amplitude : row(0)), phase(gait ? gait->phase : row(0));
+            amplitude(gait ? gait->amplitude : row(0)), phase(gait ? gait->phase : row(0)),
+            offset(gait ? gait->offset : std::vector<double>{});
         cuda::BatchView<Real> batch = runner_.view_of(states_, 1);
         batch.start_time = state.time;
         batch.time_step = time_step;
         batch.substeps = substeps;
-        if (gait) batch.gait = {frequency.data(), power.data(), amplitude.data(), phase.data()};
+        if (gait) batch.gait = {frequency.data(), power.data(), amplitude.data(), phase.data(),
+                               gait->offset.empty() ? nullptr : offset.data()};
         cuda::DeviceBuffer<Real> density(view.fluid);
         cuda::DeviceBuffer<int> neighbours(view.particles);
         batch.density = density.data();
