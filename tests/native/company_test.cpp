@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-const Gait gait{1.861, {0.973, 0.69}, {0, 0.648}, 1}, other{1, {0.5, 0.25}, {0.25, 0.5}, 1};
+const Gait first_gait{1.861, {0.973, 0.69}, {0, 0.648}, 1}, second_gait{1, {0.5, 0.25}, {0.25, 0.5}, 1};
 
 json creature_1_at(double x, double z) {
     return {{"name", "creature-1"}, {"rearCentre", {x, 0.6, z}}};
@@ -56,9 +56,9 @@ TEST(Company, EachIsDrivenByItsOwnGait) {
     const Model pair = build_model(pair_in_vacuum(1));
     const Model alone = build_model(load_scene("thesis/creature-1-vacuum", json{{"scheme", "conserving"}}));
     State<double> both = initial_state<double>(pair), first = initial_state<double>(alone), second = first;
-    actuate(pair, gait, 0.4, both);
-    actuate(alone, gait, 0.4, first);
-    actuate(alone, other, 0.4, second);
+    actuate(pair, first_gait, 0.4, both);
+    actuate(alone, first_gait, 0.4, first);
+    actuate(alone, second_gait, 0.4, second);
     const std::size_t springs = first.spring_rest_length.size();
     for (std::size_t k = 0; k < springs; ++k) {
         EXPECT_EQ(both.spring_rest_length[k], first.spring_rest_length[k]);
@@ -69,11 +69,11 @@ TEST(Company, EachIsDrivenByItsOwnGait) {
 /// Two bodies far from each other in vacuum know nothing of each other.
 TEST(Company, FarApartEachMovesAsIfAlone) {
     const EvaluationOptions in_double{.precision = Precision::double_precision};
-    const Evaluation pair = evaluate(pair_in_vacuum(1, {{"solver", {{"gravity", {1, 0, 0}}}}}), gait, in_double);
+    const Evaluation pair = evaluate(pair_in_vacuum(1, {{"solver", {{"gravity", {1, 0, 0}}}}}), first_gait, in_double);
     const Evaluation alone =
         evaluate(load_scene("thesis/creature-1-vacuum",
                             json{{"scheme", "conserving"}, {"duration", 0.5}, {"solver", {{"gravity", {1, 0, 0}}}}}),
-                 gait, in_double);
+                 first_gait, in_double);
     EXPECT_NEAR(pair.distance, alone.distance, 1e-9);
     ASSERT_EQ(pair.companions.size(), 1u);
     EXPECT_EQ(pair.companions[0].creature, "creature-1");

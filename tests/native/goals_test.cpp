@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double radians = std::numbers::pi / 180;
+constexpr double degree_in_radians = std::numbers::pi / 180;
 
 /// Creature 2 in water without an end, asked for these goals.
 Scene asked_for(const char* goals, const char* more = "{}") {
@@ -34,7 +34,7 @@ public:
     bool to(const Eigen::Vector3d& centre, double yaw_degrees = 0) {
         Pose pose;
         pose.centre = centre;
-        pose.yaw = std::remainder(yaw_degrees, 360) * radians;
+        pose.yaw = std::remainder(yaw_degrees, 360) * degree_in_radians;
         return record_.add(pose, ++time_);
     }
     std::vector<GoalResult> results(double distance = 0, std::optional<double> work = {}) const {
@@ -115,7 +115,7 @@ TEST(Goals, FitnessIsTheWeightedSum) {
 }
 
 /// Refused with one line that holds all of `words`.
-void expect_refused(const Scene& scene, const std::vector<std::string>& words) {
+void expect_goal_refused(const Scene& scene, const std::vector<std::string>& words) {
     try {
         evaluate(scene, resting_gait(scene.creature ? scene.creature->actuators() : 0));
         ADD_FAILURE() << "accepted; expected a refusal with " << words.front();
@@ -126,11 +126,11 @@ void expect_refused(const Scene& scene, const std::vector<std::string>& words) {
 }
 
 TEST(Goals, PlacesThatNobodyCanReachAreRefused) {
-    expect_refused(asked_for(R"([{"measure":"depth","target":1.5}])"), {"goals[0]", "above the water", "1.6"});
-    expect_refused(asked_for(R"([{"measure":"hold"},{"measure":"depth","target":-1.5}])"), {"goals[1]", "beyond planes[0]"});
-    expect_refused(asked_for(R"([{"measure":"reach","target":[0,0,3]}])"), {"goals[0]", "beyond planes[4]"});
-    expect_refused(asked_for(R"([{"measure":"reach","target":[9,0,0]}])", R"({"movingTank":null})"), {"beyond planes[2]"});
-    expect_refused(asked_for(R"([{"measure":"economy"}])", R"({"creature":{"joints":[8]}})"), {"economy", "muscles"});
+    expect_goal_refused(asked_for(R"([{"measure":"depth","target":1.5}])"), {"goals[0]", "above the water", "1.6"});
+    expect_goal_refused(asked_for(R"([{"measure":"hold"},{"measure":"depth","target":-1.5}])"), {"goals[1]", "beyond planes[0]"});
+    expect_goal_refused(asked_for(R"([{"measure":"reach","target":[0,0,3]}])"), {"goals[0]", "beyond planes[4]"});
+    expect_goal_refused(asked_for(R"([{"measure":"reach","target":[9,0,0]}])", R"({"movingTank":null})"), {"beyond planes[2]"});
+    expect_goal_refused(asked_for(R"([{"measure":"economy"}])", R"({"creature":{"joints":[8]}})"), {"economy", "muscles"});
 }
 
 }  // namespace

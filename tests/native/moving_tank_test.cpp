@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 /// Creature 1 in a tank as small as it may be.
-json small_tank() {
+json small_moving_tank() {
     return json::parse(R"({
         "planes": [[0,1,0,0],[1,0,0,0],[-1,0,0,2.8],[0,0,1,0],[0,0,-1,1]],
         "fluid": {"count": [28, 8, 10]},
@@ -28,8 +28,8 @@ json small_tank() {
         "settling": {"updates": 5}})");
 }
 
-Scene scene_with(const char* overrides = "{}") {
-    json all = small_tank();
+Scene moving_scene(const char* overrides = "{}") {
+    json all = small_moving_tank();
     const json patch = json::parse(overrides);
     for (const auto& [key, value] : patch.items()) {
         if (value.is_object())
@@ -40,10 +40,10 @@ Scene scene_with(const char* overrides = "{}") {
     return load_scene("endless/creature-2", all);
 }
 
-const Gait gait{2, {0.8, 1}, {0, 0.75}, 1};
+const Gait tail_beat{2, {0.8, 1}, {0, 0.75}, 1};
 
 TEST(MovingTank, MovesByAStepWithWaterAtRestInFront) {
-    const Scene scene = scene_with();
+    const Scene scene = moving_scene();
     const Model model = build_model(scene);
     TankFollower follower(scene, model);
     State<double> state = initial_state<double>(model);
@@ -82,7 +82,7 @@ TEST(MovingTank, MovesByAStepWithWaterAtRestInFront) {
 }
 
 TEST(MovingTank, GoesBackWithASwimmerThatDoes) {
-    const Scene scene = scene_with();
+    const Scene scene = moving_scene();
     const Model model = build_model(scene);
     TankFollower follower(scene, model);
     State<float> state = initial_state<float>(model);
@@ -97,9 +97,9 @@ TEST(MovingTank, GoesBackWithASwimmerThatDoes) {
 
 /// As long as the tank stands still, a current is nothing but another place of the ground.
 TEST(MovingTank, ACurrentCarriesTheTankOverGround) {
-    const Scene still = scene_with(R"({"duration": 0.5, "movingTank": {"step": 0.1}})"),
-                flowing = scene_with(R"({"duration": 0.5, "movingTank": {"step": 0.1, "current": [-0.4, 0, 0.2]}})");
-    const Evaluation a = evaluate(still, gait), b = evaluate(flowing, gait);
+    const Scene still = moving_scene(R"({"duration": 0.5, "movingTank": {"step": 0.1}})"),
+                flowing = moving_scene(R"({"duration": 0.5, "movingTank": {"step": 0.1, "current": [-0.4, 0, 0.2]}})");
+    const Evaluation a = evaluate(still, tail_beat), b = evaluate(flowing, tail_beat);
     EXPECT_EQ(a.hash, b.hash);
     EXPECT_NEAR(b.distance, a.distance - 0.4 * 0.5, 1e-12);
     ASSERT_TRUE(a.swimming && b.swimming && a.swimming->reynolds && b.swimming->reynolds);
@@ -107,13 +107,13 @@ TEST(MovingTank, ACurrentCarriesTheTankOverGround) {
 }
 
 TEST(MovingTank, AStreamIsWhatAnEvaluationIs) {
-    json overrides = small_tank();
+    json overrides = small_moving_tank();
     overrides["movingTank"]["step"] = 0.002;
     overrides["duration"] = 0.25;
-    const Evaluation whole = evaluate(load_scene("endless/creature-2", overrides), gait);
+    const Evaluation whole = evaluate(load_scene("endless/creature-2", overrides), tail_beat);
     ASSERT_TRUE(whole.renewal);
     EXPECT_GT(whole.renewal->times, 0);
-    LiveSimulation<float> live({"endless/creature-2", overrides.dump(), gait});
+    LiveSimulation<float> live({"endless/creature-2", overrides.dump(), tail_beat});
     while (live.frames() < whole.frames) ASSERT_TRUE(live.frame());
     EXPECT_EQ(hash_text(state_hash(live.state())), hash_text(whole.hash));
     EXPECT_NEAR(live.distance(), whole.distance, 1e-6);  // of places that were rounded when they were moved
@@ -132,7 +132,7 @@ TEST(MovingTank, ScenesThatItCantFollowAreRefused) {
         {R"({"movingTank": {"step": 1}})", "along x; must be at least"},
     };
     for (const auto& bad : cases) {
-        const Scene scene = scene_with(bad.overrides);
+        const Scene scene = moving_scene(bad.overrides);
         try {
             evaluate(scene, resting_gait(scene.creature ? scene.creature->actuators() : 0));
             ADD_FAILURE() << "accepted " << bad.overrides;

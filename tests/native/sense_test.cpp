@@ -133,6 +133,21 @@ TEST(SenseTest, BendIsTheDriveThatTheMusclesFollow) {
     }
 }
 
+/// A moving tank's coordinates begin elsewhere: places are over ground, the water about the skin is the same.
+TEST(SenseTest, PlacesAreOverGround) {
+    Swimmer swimmer(rotated_by(0.3, {0, 1, 0}), {0.1, 0, 0}, {0.2, 0, 0}, {0, 0, 0});
+    swimmer.add_water(swimmer.state.position[0] + Vector3d(0, 0.1, 0), {0, 1, 0});
+    const Sensing sensing{.flow = {{0, Side::above}}, .target = Vector3d(9, 1, 2)};
+    const Senses here = swimmer.senses(sensing);
+    swimmer.state.origin = Vector3d(4, 0, -1);
+    const Senses there = swimmer.senses(sensing);
+    expect_near(there.centre, here.centre + swimmer.state.origin, "centre");
+    EXPECT_NEAR(there.target_distance, (Vector3d(9, 1, 2) - there.centre).norm(), 1e-12);
+    EXPECT_LT((there.axes - here.axes).norm(), 1e-9);
+    EXPECT_EQ(there.flow[0].particles, 1);
+    expect_near(there.flow[0].velocity, here.flow[0].velocity, "flow");
+}
+
 TEST(SenseTest, FloatsAreReadAsTheyAre) {
     const Swimmer swimmer(rotated_by(0.4, {0, 1, 0}), {0.1, 0.2, 0.3}, {0.5, 0, 0}, {0, 1, 0});
     State<float> state;

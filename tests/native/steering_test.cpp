@@ -164,9 +164,12 @@ TEST(SteeringTest, WhatCannotBeIsRefusedAndChangesNothing) {
     EXPECT_EQ(refusal_of([&] { simulation.steer({{1, 1}, {}}); }),
               "offset has length 0: must have length 2, one value per actuator of the creature");
     EXPECT_EQ(refusal_of([&] { simulation.steer({{2, 1}, {0.5, 0}}); }),
-              "scale[0] = 2 and offset[0] = 0.5: scale times the gait's amplitude, 0.973, plus |offset| must be at most "
+              "scale[0] = 2 and offset[0] = 0.5: scale times the gait's own largest drive, 0.973, plus |offset| must be at most "
               "2, is 2.446 (a muscle has no length below 0)");
     EXPECT_EQ(run_to(simulation, 3), run_to(other, 3));
+    Gait bent = steered_gait;
+    bent.offset = {0.9, 0};
+    EXPECT_NE(refusal_of([&] { check_steering({{1, 1}, {0.2, 0}}, bent, 2); }).find("drive, 1.873, plus"), std::string::npos);
 
     simulation.steer({{2, 2}, {0, 0}});
     Gait stronger = steered_gait;

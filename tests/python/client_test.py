@@ -29,6 +29,13 @@ class EvaluationTest(unittest.TestCase):
         self.assertEqual(result["hash"], evaluated(duration=0.1, start=2)["hash"])
         self.assertEqual(result["fitness"], result["distance"])
 
+    def test_a_gait_is_given_as_a_whole(self):
+        gait = natator.Gait(1.5, np.array([0.5, 0.6]), (0, 0.5), offset=[0.2, -0.1], power=2)
+        request = {"id": 1, "scene": TANK, "duration": 0.1, "gait": {
+            "frequency": 1.5, "amplitude": [0.5, 0.6], "phase": [0, 0.5], "offset": [0.2, -0.1], "power": 2}}
+        done = subprocess.run([simulator_path(), "evaluate"], input=json.dumps(request).encode(), capture_output=True)
+        self.assertEqual(natator.evaluate(TANK, gait, duration=0.1)["hash"], json.loads(done.stdout)["hash"])
+
     def test_many_come_in_order_whatever_the_number_of_workers(self):
         requests = [make_request(TANK, GAIT, duration=0.05 + 0.05 * (k % 3), start=k) for k in range(7)]
         with natator.Simulator(workers=1) as one, natator.Simulator(workers=3) as three:

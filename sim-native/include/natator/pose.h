@@ -18,6 +18,10 @@ struct Pose {
     double roll = 0;                   ///< of its back about its heading, from the vertical towards its right, rad
 };
 
+/// The rotation of a body from its rest shape that fits best: its columns are where its forward, up and right point.
+/// `places` as in pose_of; the identity for fewer than three.
+Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
+
 /// `places`: of a body's particles, in the order of Body::particles. A body of fewer than three has no rotation.
 Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
 

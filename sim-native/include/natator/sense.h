@@ -21,7 +21,7 @@ struct SkinPlace {
 struct Sensing {
     std::vector<SkinPlace> flow{};            ///< 1000 at most
     double within = 0;                        ///< of a place water counts, length; 0: solidRestDistance + 2 fluidRestDistance
-    std::optional<Eigen::Vector3d> target{};  ///< where it shall go, length
+    std::optional<Eigen::Vector3d> target{};  ///< where it shall go, length over ground
 };
 
 /// Throws InputError unless the scene has a body, each place is on it, and `within` is 0 or a length up to 1000.
@@ -37,11 +37,11 @@ struct SkinFlow {
 
 /// What a swimmer knows of itself and of the water. "Own axes" are forward, up and right of its body.
 struct Senses {
-    Eigen::Vector3d centre{0, 0, 0};  ///< mean of the body's particles, length
+    Eigen::Vector3d centre{0, 0, 0};  ///< mean of the body's particles, length over ground
     /// Own axes as columns: forward, up, right, each of length 1. Those of the rotation of all particles that fits best
     /// (Umeyama 1991), so that bends to both sides do not count.
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d velocity{0, 0, 0};   ///< of the centre of mass, along own axes, length/s
+    Eigen::Vector3d velocity{0, 0, 0};   ///< of the centre of mass, along own axes, length/s; in a moving tank less its current
     Eigen::Vector3d turn_rate{0, 0, 0};  ///< angular velocity about own axes, rad/s: angular momentum over inertia
     /// How each actuator's muscles are contracted, in units of its drive: what drive would ask for the lengths that they
     /// have, in the mean over them.

@@ -26,7 +26,7 @@ bool leaves_gait(const Steering& steering);
 void check_drive(const std::vector<double>& values, int actuators, const char* name = "drive");
 
 /// Throws InputError unless both lists have a value for each actuator, each within its range, and scale times the gait's
-/// amplitude plus |offset| is at most 2 for each: no muscle has a length below 0. The gait must fit (check_gait).
+/// own largest drive, amplitude plus |offset|, plus |offset| is at most 2 for each: no muscle has a length below 0. The gait must fit (check_gait).
 void check_steering(const Steering& steering, const Gait& gait, int actuators);
 
 /// What drives the actuators at a part (0 to 1) of the way from one steering to another, if the gait gives `driven`: all of

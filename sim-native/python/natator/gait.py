@@ -1,27 +1,29 @@
 """Gaits: how muscles are driven."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 
 @dataclass(frozen=True)
 class Gait:
-    """Actuator i is driven by amplitude[i] sin 2π(frequency t + phase[i]).
+    """Actuator i is driven by offset[i] + amplitude[i] sin 2π(frequency t + phase[i]).
 
     frequency in 1/s, (0, 60]; amplitude without unit, [0, 2] (1 shortens the outermost muscles by half); phase in turns,
-    [0, 1]; more keys of request.schema.json in `more`.
+    [0, 1]; offset without unit, 0 everywhere if None; power of request.schema.json, 1 = the plain sine.
     """
 
     frequency: float
     amplitude: list
     phase: list
-    more: dict = field(default_factory=dict)
+    offset: list = None
+    power: float = 1.0
 
     def to_json(self):
         """As a request has it."""
-        return {"frequency": float(self.frequency), "amplitude": numbers(self.amplitude), "phase": numbers(self.phase),
-                **self.more}
+        gait = {"frequency": float(self.frequency), "amplitude": numbers(self.amplitude), "phase": numbers(self.phase),
+                "power": float(self.power)}
+        return gait if self.offset is None else gait | {"offset": numbers(self.offset)}
 
 
 def wave(actuators, frequency=1.5, amplitude=0.8, waves=0.6):

@@ -51,11 +51,12 @@ void check_steering(const Steering& steering, const Gait& gait, int actuators) {
     check_values("scale", steering.scale, actuators, 0, most_scale);
     check_values("offset", steering.offset, actuators, -most_drive, most_drive);
     for (std::size_t i = 0; i < steering.scale.size(); ++i) {
-        const double most = steering.scale[i] * gait.amplitude[i] + std::abs(steering.offset[i]);
+        const double offset = gait.offset.empty() ? 0 : gait.offset[i], beat = gait.amplitude[i] + std::abs(offset);
+        const double most = steering.scale[i] * beat + std::abs(steering.offset[i]);
         if (most <= most_drive) continue;
         std::ostringstream text;
         text << "scale[" << i << "] = " << steering.scale[i] << " and offset[" << i << "] = " << steering.offset[i]
-             << ": scale times the gait's amplitude, " << gait.amplitude[i] << ", plus |offset| must be at most "
+             << ": scale times the gait's own largest drive, " << beat << ", plus |offset| must be at most "
              << most_drive << ", is " << most << " (a muscle has no length below 0)";
         throw InputError(text.str());
     }

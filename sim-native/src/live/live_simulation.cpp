@@ -121,8 +121,8 @@ bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
             base_frame_ = frames_;
             base_time_ = state_.time;
         }
-        if (run->follower) run->follower->stand_at(state_.origin);
         earlier_work_ += run_->solver.muscle_work();
+        if (run->follower) run->follower->stand_at(state_.origin);
         run_ = std::move(run);
         updated_ = false;
     } else {

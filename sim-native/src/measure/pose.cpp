@@ -5,9 +5,8 @@
 #include <cmath>
 
 namespace natator {
-namespace {
-
-Eigen::Matrix3d rotation_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
+Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
+    if (places.size() < 3) return Eigen::Matrix3d::Identity();
     const auto count = static_cast<Eigen::Index>(places.size());
     Eigen::Matrix3Xd rest(3, count), now(3, count);
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -17,8 +16,6 @@ Eigen::Matrix3d rotation_of(const Model& model, const Body& body, const std::vec
     return Eigen::umeyama(rest, now, false).template topLeftCorner<3, 3>();
 }
 
-}  // namespace
-
 Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
     Pose pose;
     if (places.empty()) return pose;
@@ -26,7 +23,7 @@ Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vect
     for (const Eigen::Vector3d& place : places) sum += place;
     pose.centre = sum / static_cast<double>(places.size());
     if (places.size() < 3) return pose;
-    const Eigen::Matrix3d rotation = rotation_of(model, body, places);
+    const Eigen::Matrix3d rotation = body_rotation(model, body, places);
     const Eigen::Vector3d back = rotation.col(1);
     pose.heading = rotation.col(0);
     pose.yaw = std::atan2(pose.heading.z(), pose.heading.x());

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "natator/error.h"
+#include "natator/pose.h"
 #include "physics/constants.h"
 
 namespace natator {
@@ -43,15 +44,6 @@ struct Cloud {
         mean_velocity /= mass.sum();
     }
 };
-
-Eigen::Matrix3d axes_of(const Model& model, const Cloud& cloud) {
-    const auto& particles = model.body.particles;
-    if (particles.size() < 3) return Eigen::Matrix3d::Identity();
-    Eigen::Matrix3Xd rest(3, cloud.place.cols());
-    for (std::size_t i = 0; i < particles.size(); ++i)
-        rest.col(static_cast<Eigen::Index>(i)) = model.position[particles[i]];
-    return Eigen::umeyama(rest, cloud.place, false).template topLeftCorner<3, 3>();
-}
 
 /// Angular velocity of a rigid body of the same angular momentum and inertia.
 Eigen::Vector3d turn_of(const Cloud& cloud) {
@@ -193,8 +185,8 @@ Senses sense(const Model& model, const State<Real>& state, const Sensing& sensin
     Senses senses;
     if (model.body.particles.empty()) return senses;
     const Cloud cloud(model, state);
-    senses.centre = cloud.mean;
-    senses.axes = axes_of(model, cloud);
+    senses.centre = cloud.mean + state.origin;
+    senses.axes = body_rotation(model, model.body, body_places(model.body, state));
     senses.velocity = senses.axes.transpose() * cloud.mean_velocity;
     senses.turn_rate = senses.axes.transpose() * turn_of(cloud);
     senses.bend = bend_of(model, state);
