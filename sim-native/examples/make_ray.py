@@ -6,8 +6,8 @@ and half heights of the rings are monotone cubics (PCHIP's rule) through the poi
 from math import cos, pi, sin
 
 LENGTH, RINGS, AROUND = 30.0, 24, 24
-HALF_WIDTH = [(0, 0.8), (0.1, 5.0), (0.35, 9.0), (0.6, 6.0), (0.75, 2.8), (1, 2.0)]
-HALF_HEIGHT = [(0, 1.2), (0.2, 3.0), (0.45, 3.2), (0.75, 2.4), (1, 2.0)]
+HALF_WIDTH = [(0, 1.5), (0.1, 5.0), (0.35, 9.0), (0.6, 6.0), (0.75, 3.6), (1, 3.0)]
+HALF_HEIGHT = [(0, 1.5), (0.2, 3.5), (0.45, 3.7), (0.75, 2.6), (1, 1.8)]
 
 
 def slopes(points):

@@ -39,6 +39,14 @@ void place_mesh(json& creature, const std::string& name) {
     if (file.is_relative()) mesh["file"] = ((folder.empty() ? "." : folder) / file).string();
 }
 
+/// Of unit and length a mesh has one: what the scene gives takes the place of what the file has.
+void replace_scale(json& of_file, const json& of_scene) {
+    for (const json* creature : {static_cast<const json*>(&of_file), &of_scene})
+        if (!creature->contains("mesh") || !creature->at("mesh").is_object()) return;
+    for (const auto& [given, other] : {std::pair{"unit", "length"}, std::pair{"length", "unit"}})
+        if (of_scene.at("mesh").contains(given) && !of_scene.at("mesh").contains(other)) of_file["mesh"].erase(other);
+}
+
 /// Merges a scene's `creature` onto the creature file that its `name` names, unless it brings its own `slices`, or a
 /// `profile` or `mesh` and no name. Each of these takes the place of the others that the file may have.
 /// `holder`: the scene, or one of its companions.
@@ -61,6 +69,7 @@ void resolve_creature(json& holder, const Place& place, const std::filesystem::p
         if (!creature.contains(kind) || merged.contains(kind)) continue;
         for (const char* key : {"slices", "joints", "muscleSlices", "profile", "mesh"}) merged.erase(key);
     }
+    replace_scale(merged, creature);
     merged.merge_patch(creature);
     creature = std::move(merged);
 }
