@@ -59,5 +59,49 @@ INSTANTIATE_TEST_SUITE_P(Swims, GpuSwimming,
                                          Swim{"thesis/creature-2-vacuum", Scheme::conserving, true, false},
                                          Swim{"thesis/creature-1-vacuum", Scheme::flex, false, false}));
 
+/// Scenes with more than one straight swim in a tank: what the host does between frames, and places of bodies.
+class GpuTasks : public OnGpu<testing::Test> {
+protected:
+    static void compare(const std::string& name, const nlohmann::json& overrides, const std::vector<double>& offset = {}) {
+        nlohmann::json all{{"duration", 0.15}, {"solver", {{"solidIterations", 3}}}, {"settling", {{"updates", 3}}}};
+        all.merge_patch(overrides);
+        const Scene scene = load_scene(name, all);
+        Gait gait = wave(scene);
+        gait.offset = offset;
+        const Evaluation cpu = evaluate(scene, gait, {.precision = Precision::double_precision});
+        const Evaluation gpu =
+            evaluate_on_gpu(scene, {{gait, {}}, {wave(scene), {}}}, {.precision = Precision::double_precision}).front();
+        constexpr double bound = 1e-6;
+        EXPECT_NEAR(gpu.distance, cpu.distance, bound);
+        EXPECT_EQ(gpu.stopped, cpu.stopped);
+        EXPECT_NEAR(gpu.fitness(), cpu.fitness(), 100 * bound);
+        ASSERT_EQ(gpu.goals.size(), cpu.goals.size());
+        ASSERT_EQ(gpu.companions.size(), cpu.companions.size());
+        for (std::size_t k = 0; k < cpu.companions.size(); ++k)
+            EXPECT_NEAR(gpu.companions[k].distance, cpu.companions[k].distance, bound);
+        ASSERT_EQ(gpu.renewal.has_value(), cpu.renewal.has_value());
+        if (!cpu.renewal) return;
+        EXPECT_GT(cpu.renewal->times, 0);
+        EXPECT_EQ(gpu.renewal->times, cpu.renewal->times);
+        EXPECT_EQ(gpu.renewal->particles, cpu.renewal->particles);
+        EXPECT_NEAR((gpu.renewal->momentum - cpu.renewal->momentum).norm(), 0, 1e-3);
+    }
+};
+
+TEST_F(GpuTasks, AMovingTankIsTheCpus) {
+    compare("endless/creature-2", {{"movingTank", {{"step", 0.0005}, {"current", {-0.3, 0, 0}}}}});
+}
+
+TEST_F(GpuTasks, GoalsAndOffsetsAreTheCpus) {
+    const std::vector<double> offset(8, -0.3);
+    compare("goals/turn", {{"movingTank", {{"step", 0.0005}}}}, offset);
+    compare("thesis/creature-2", {{"goals", {{{"measure", "turn"}, {"target", 90}}}}}, offset);
+}
+
+TEST_F(GpuTasks, CompanionsAndObstaclesAreTheCpus) {
+    compare("company/school", nlohmann::json::object());
+    compare("company/pillars", nlohmann::json::object());
+}
+
 }  // namespace
 }  // namespace natator::test

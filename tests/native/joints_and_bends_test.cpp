@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-Model model_of(json creature) {
+Model model_of_bent(json creature) {
     creature["rearCentre"] = {0, 0, 0};
     return build_model(scene_from_json({{"creature", creature}}, "test"));
 }
@@ -35,7 +35,7 @@ TEST(Bend, UpAndDownIsSidewaysOfTheTurnedBody) {
         {"height":5,"width":2,"count":5}],"joints":[2,6,10]})");
     json vertical = turned(creature);
     vertical["bend"] = "vertical";
-    const Model sideways = model_of(creature), up = model_of(vertical);
+    const Model sideways = model_of_bent(creature), up = model_of_bent(vertical);
     ASSERT_EQ(up.actuators, sideways.actuators);
     const auto springs = [](const Model& model, bool turn) {
         std::multiset<std::tuple<int, double, long, long, long, long>> all;
@@ -54,11 +54,11 @@ TEST(Bend, UpAndDownIsSidewaysOfTheTurnedBody) {
 
 TEST(Bend, ActuatorsThatBendSidewaysComeFirst) {
     json creature = json::parse(R"({"slices":[{"height":4,"width":4,"count":17}],"joints":[4,8,12]})");
-    const Model sideways = model_of(creature);
+    const Model sideways = model_of_bent(creature);
     creature["bend"] = "vertical";
-    const Model vertical = model_of(creature);
+    const Model vertical = model_of_bent(creature);
     creature["bend"] = "both";
-    const Model both = model_of(creature);
+    const Model both = model_of_bent(creature);
     ASSERT_EQ(both.actuators, 4);
     ASSERT_EQ(both.springs.size(), sideways.springs.size() + vertical.springs.size());
     for (std::size_t i = 0; i < both.muscles.size(); ++i) {
@@ -72,7 +72,7 @@ TEST(Bend, ActuatorsThatBendSidewaysComeFirst) {
     }
     creature["bend"] = {"vertical", "both"};
     creature["springStiffness"] = json::parse("[[0,0],[1,1]]");
-    const Model mixed = model_of(creature);  // sideways 4-8's neighbour 8-12, then both gaps up and down
+    const Model mixed = model_of_bent(creature);  // sideways 4-8's neighbour 8-12, then both gaps up and down
     ASSERT_EQ(mixed.actuators, 3);
     std::map<int, double> stiffness;
     for (const Muscle& muscle : mixed.muscles) stiffness[muscle.actuator] = mixed.springs[muscle.spring].stiffness;
@@ -82,9 +82,9 @@ TEST(Bend, ActuatorsThatBendSidewaysComeFirst) {
 
 TEST(Bend, SidewaysIsWhatABodyDoesWithoutAWord) {
     json creature = json::parse(R"({"slices":[{"height":5,"width":3,"count":17}],"joints":[4,8,12]})");
-    const Model plain = model_of(creature);
+    const Model plain = model_of_bent(creature);
     creature.update({{"bend", "sideways"}, {"joint", "slice"}});
-    const Model told = model_of(creature);
+    const Model told = model_of_bent(creature);
     ASSERT_EQ(told.springs.size(), plain.springs.size());
     for (std::size_t i = 0; i < plain.springs.size(); ++i) EXPECT_EQ(told.springs[i].a, plain.springs[i].a);
     for (std::size_t i = 0; i < plain.clusters.size(); ++i)
@@ -109,18 +109,18 @@ std::set<std::pair<long, long>> shared(const Model& model, int cluster) {
 TEST(JointLine, IsWhatIsNearestTheLineAboutWhichTheBodyBends) {
     json creature = json::parse(R"({"slices":[{"height":5,"width":3,"count":17}],"joints":[4,8,12],"joint":"line"})");
     using Places = std::set<std::pair<long, long>>;
-    const Model sideways = model_of(creature);
+    const Model sideways = model_of_bent(creature);
     std::set<int> all;
     for (const Cluster& cluster : sideways.clusters) all.insert(cluster.particles.begin(), cluster.particles.end());
     EXPECT_EQ(all.size(), sideways.body.particles.size());
     for (int i = 0; i < 3; ++i) EXPECT_EQ(shared(sideways, i), (Places{{-4, 0}, {-2, 0}, {0, 0}, {2, 0}, {4, 0}}));
     creature["bend"] = "vertical";
-    EXPECT_EQ(shared(model_of(creature), 0), (Places{{0, -2}, {0, 0}, {0, 2}}));
+    EXPECT_EQ(shared(model_of_bent(creature), 0), (Places{{0, -2}, {0, 0}, {0, 2}}));
     creature["bend"] = "both";
-    EXPECT_EQ(shared(model_of(creature), 0), (Places{{0, 0}}));
+    EXPECT_EQ(shared(model_of_bent(creature), 0), (Places{{0, 0}}));
     creature["bend"] = "sideways";
     creature["slices"][0]["width"] = 4;
-    EXPECT_EQ(shared(model_of(creature), 0).size(), 10u);  // the two columns beside the middle
+    EXPECT_EQ(shared(model_of_bent(creature), 0).size(), 10u);  // the two columns beside the middle
 }
 
 /// The thesis' creatures, a body from curves and one from a mesh take it alike: they bend, and go nowhere in vacuum.

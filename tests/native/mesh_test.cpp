@@ -139,7 +139,7 @@ protected:
     static json creature(const std::string& file) {
         return {{"mesh", {{"file", file}, {"joints", {0.3, 0.6}}}}, {"spacing", 0.1}, {"rearCentre", {0.5, 0.5, 0.5}}};
     }
-    static Model model_of(const json& creature) {
+    static Model model_of_mesh(const json& creature) {
         return build_model(scene_from_json({{"creature", creature}}, "test"));
     }
 
@@ -155,14 +155,14 @@ TEST_F(Mesh, IsTheSameFromEveryKindOfFile) {
         quads += line.str();
     }
     quads += "vn 0 0 1\nvt 0 0\no box\nf -8/1/1 -4//1 -2/1 -6\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
-    const Model whole = model_of(creature(write("quads.obj", quads)));
-    const Model cut = model_of(creature(write("box.obj", box({0, 0, 0}, {2, 0.5, 0.25}).obj())));
+    const Model whole = model_of_mesh(creature(write("quads.obj", quads)));
+    const Model cut = model_of_mesh(creature(write("box.obj", box({0, 0, 0}, {2, 0.5, 0.25}).obj())));
     EXPECT_EQ(whole.position, cut.position);
     EXPECT_EQ(whole.particles(), 20 * 5 * 2);
 
-    const Model obj = model_of(creature(write("a.obj", shape.obj())));
-    const Model text = model_of(creature(write("a.stl", shape.text_stl())));
-    const Model binary = model_of(creature(write("b.stl", shape.binary_stl())));
+    const Model obj = model_of_mesh(creature(write("a.obj", shape.obj())));
+    const Model text = model_of_mesh(creature(write("a.stl", shape.text_stl())));
+    const Model binary = model_of_mesh(creature(write("b.stl", shape.binary_stl())));
     EXPECT_GT(obj.particles(), 200);
     EXPECT_EQ(text.position, obj.position);
     EXPECT_EQ(binary.position, obj.position);
@@ -174,7 +174,7 @@ TEST_F(Mesh, OfABoxIsThatBoxOfSlices) {
     json mesh = creature(write("box.obj", box({3, -7, 4}, {5, -6.5, 4.4}).obj()));
     for (const char* bend : {"sideways", "vertical"}) {
         slices["bend"] = mesh["bend"] = bend;
-        const Model expected = model_of(slices), model = model_of(mesh);
+        const Model expected = model_of_mesh(slices), model = model_of_mesh(mesh);
         ASSERT_EQ(model.particles(), expected.particles());
         for (int i = 0; i < model.particles(); ++i) EXPECT_LT((model.position[i] - expected.position[i]).norm(), 1e-12);
         ASSERT_EQ(model.muscles.size(), expected.muscles.size());
@@ -196,12 +196,12 @@ TEST_F(Mesh, IsTurnedAndScaledAsTheCreatureSays) {
     json described = creature(write("turned.obj", turned.obj()));
     described["mesh"].update({{"forward", "-z"}, {"up", "x"}, {"unit", 0.01}});
     const json straight = creature(write("plain.obj", plain.obj()));
-    EXPECT_GT(model_of(straight).particles(), 20 * 5 * 4);
-    EXPECT_EQ(model_of(described).particles(), model_of(straight).particles());
+    EXPECT_GT(model_of_mesh(straight).particles(), 20 * 5 * 4);
+    EXPECT_EQ(model_of_mesh(described).particles(), model_of_mesh(straight).particles());
     described["mesh"].erase("unit");
     described["mesh"]["length"] = 2;
-    const Model model = model_of(described);
-    const Model expected = model_of(straight);
+    const Model model = model_of_mesh(described);
+    const Model expected = model_of_mesh(straight);
     for (int i = 0; i < model.particles(); ++i) EXPECT_LT((model.position[i] - expected.position[i]).norm(), 1e-9);
 }
 
@@ -241,7 +241,7 @@ TEST_F(Mesh, LeavesACavityEmpty) {
     hollow.add(box({0.5, 0.2, 0.2}, {1.3, 0.4, 0.4}).turned());
     const json solid = creature(write("solid.obj", box({0, 0, 0}, {2, 0.6, 0.6}).obj()));
     const json with_cavity = creature(write("hollow.obj", hollow.obj()));
-    const Model full = model_of(solid), empty = model_of(with_cavity);
+    const Model full = model_of_mesh(solid), empty = model_of_mesh(with_cavity);
     EXPECT_EQ(full.particles() - empty.particles(), 8 * 2 * 2);
     EXPECT_LT(empty.springs.size(), full.springs.size());
     for (const Spring& spring : empty.springs) {  // joints at 14 and 8 from the rear, where y, z in (0.4, 0.6) is empty
@@ -266,7 +266,7 @@ TEST_F(Mesh, NamesWhatIsMissing) {
         json body = creature(file);
         body["mesh"].erase(key);
         try {
-            model_of(body);
+            model_of_mesh(body);
             FAIL() << key;
         } catch (const InputError& error) {
             EXPECT_EQ(error.what(), "scene \"test\": creature.mesh." + key + ": missing; must be given");
@@ -274,7 +274,7 @@ TEST_F(Mesh, NamesWhatIsMissing) {
     }
     json body = creature(file);
     body["profile"] = {{"length", 1}};
-    EXPECT_THROW(model_of(body), InputError);
+    EXPECT_THROW(model_of_mesh(body), InputError);
 }
 
 TEST_F(Mesh, OfASceneIsScaledByWhatTheSceneSays) {

@@ -129,7 +129,8 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Section(Topic.SEARCH)
     @Option(names = "--encoding", paramLabel = "KIND",
-            description = "Genes: dense or sparse. Default: the creature's (2 is sparse, the others dense).")
+            description = "Genes: dense or sparse, or either with an offset to steer by, dense-steered or sparse-steered. Default: the "
+                    + "creature's (2 is sparse, the others dense); of goals/… sparse-steered.")
     private EncodingKind encoding;
 
     @Section(Topic.OUTPUT)
