@@ -30,7 +30,7 @@ const BadScene bad_scenes[] = {
     {R"({"base":"thesis/tank"})", "base", "allowed: "},
     {R"({"fluid":{"sapcing":1}})", "fluid.sapcing", "did you mean spacing?"},
     {R"({"fluid":{"mass":{"botom":1}}})", "fluid.mass.botom", "did you mean bottom?"},
-    {R"({"creature":{"joint":[4,8]}})", "creature.joint", "did you mean joints?"},
+    {R"({"creature":{"jointz":[4,8]}})", "creature.jointz", "did you mean joints?"},
     {R"({"creature":{"slices":[{"height":5,"width":3,"cuont":2}]}})", "creature.slices[0].cuont", "count"},
     {R"({"settling":{"steps":1}})", "settling.steps", "allowed: updates, timeStep, substeps"},
     {R"({"stopping":{"planecontact":true}})", "stopping.planecontact", "did you mean planeContact?"},
