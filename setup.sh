@@ -8,7 +8,8 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers]
   --check   only report what is missing (exit 1 if anything is), install nothing
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
   --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there
-  --readers also what the tests read exports back with: pyvista, plyfile, USD and numpy, from PyPI into .readers (1 GB)
+  --readers also what the tests read exports back and try the Python client with: pyvista, plyfile, USD, numpy,
+            gymnasium and pycma, from PyPI into .readers (1 GB)
 TEXT
 }
 

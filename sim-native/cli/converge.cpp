@@ -121,12 +121,8 @@ json origin_of(const LevelRuns& runs) {
     const Request& request = runs.job.request;
     Fnv1a hash;
     hash.add(scene_definition(request.scene, request.overrides).dump());
-    json gait = {{"frequency", runs.job.gait.frequency},
-                 {"amplitude", runs.job.gait.amplitude},
-                 {"phase", runs.job.gait.phase},
-                 {"power", runs.job.gait.power}};
     return {{"definition", hash_text(hash.value())},
-            {"gait", std::move(gait)},
+            {"gait", gait_json(runs.job.gait)},
             {"precision", to_string(request.precision)},
             {"amplitude", request.perturbation.amplitude},
             {"backend", on_gpu(runs.job.backend, runs.job.scene) ? "cuda" : "cpu"},

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <memory>
 #include <sstream>
 
 #include "commands.h"
 #include "commit.h"
+#include "evaluate/swim_record.h"
 #include "io/strict_json.h"
 #include "natator/batch.h"
 #include "natator/error.h"
@@ -46,8 +48,30 @@ int particles_made_heavier(const Scene& scene, const Model& model) {
     return count;
 }
 
+/// Which actuators bend up and down; empty where none does.
+std::string describe_bends(const Creature& creature) {
+    int sideways = 0, vertical = 0;
+    for (const Actuator& one : creature.actuator_list()) ++(one.bend == Bend::sideways ? sideways : vertical);
+    const auto span = [](int first, int count) {
+        return std::to_string(first) + (count > 1 ? " to " + std::to_string(first + count - 1) : "");
+    };
+    if (vertical == 0) return "";
+    return (sideways > 0 ? span(0, sideways) + " sideways, " : "") + span(sideways, vertical) + " up and down";
+}
+
+ordered_json describe_skin(const Creature& creature, const Model& model) {
+    const Skin& skin = *creature.skin;
+    const double spacing = creature.spacing / creature.refinement;
+    const double particles = static_cast<double>(model.body.particles.size()) * spacing * spacing * spacing;
+    std::ostringstream text;
+    text << skin.file << ", " << skin.triangles.size() << " triangles, a unit is " << skin.unit << ", volume " << skin.volume
+         << ", of the particles " << particles;
+    return text.str();
+}
+
 ordered_json describe_scene(const Scene& scene) {
     const Model model = build_model(scene);
+    const SwimRecord tasks(scene, model);  // refuses a moving tank and goals that can't be
     const auto body = model.body.particles.size();
     ordered_json info;
     info["scene"] = scene.name;
@@ -55,12 +79,24 @@ ordered_json describe_scene(const Scene& scene) {
     info["creature"] = scene.creature ? ordered_json(scene.creature->name) : ordered_json();
     info["actuators"] = model.actuators;
     info["particles"] = model.particles();
-    info["fluidParticles"] = static_cast<std::size_t>(model.particles()) - body;
+    info["fluidParticles"] = std::count_if(model.phase.begin(), model.phase.end(), [](auto phase) { return phase & phase::fluid; });
     info["bodyParticles"] = body;
+    if (!model.companions.empty()) info["companions"] = model.companions.size();
+    if (!scene.obstacles.empty()) info["obstacles"] = scene.obstacles.size();
     info["bodyLength"] = model.body.length;
+    if (scene.creature) {
+        if (const std::string bends = describe_bends(*scene.creature); !bends.empty()) info["bends"] = bends;
+        if (scene.creature->joint == Joint::line) info["joint"] = "line";
+        if (scene.creature->skin) info["mesh"] = describe_skin(*scene.creature, model);
+    }
     info["springs"] = model.springs.size();
     info["clusters"] = model.clusters.size();
     info["planes"] = model.planes.size();
+    if (scene.moving_tank) info["movingTank"] = scene.moving_tank->along_z ? "along x and z" : "along x";
+    if (!scene.goals.empty()) {
+        info["goals"] = ordered_json::array();
+        for (const Goal& goal : scene.goals) info["goals"].push_back(to_string(goal.measure));
+    }
     info["duration"] = scene.duration;
     info["timeStep"] = scene.time_step;
     info["scheme"] = to_string(scene.scheme);

@@ -17,24 +17,13 @@ Gait gait_for(const Request& request, const Scene& scene) {
                      " actuators");
 }
 
-/// Shift of all places where there is no water to disorder, in rest distances of the fluid.
-constexpr double start_shift = 1e-3;
-
-/// Begins from the start of this number: where the scheme disorders the water, from another arrangement of it.
-void choose_start(int start, Job& job) {
-    if (job.scene.scheme == Scheme::conserving && job.scene.fluid)
-        job.scene.fluid->disorder = start;
-    else
-        job.request.perturbation = {start_shift * job.scene.solver.fluidRestDistance, static_cast<std::uint64_t>(start)};
-}
-
 }  // namespace
 
 Job read_job(const nlohmann::json& value, const BackendChoice& backend) {
     Job job{.request = parse_request(value), .scene = {}, .gait = {}, .backend = backend};
     if (job.request.backend) job.backend.name = *job.request.backend;
     job.scene = load_scene(job.request.scene, job.request.overrides);
-    if (job.request.start) choose_start(*job.request.start, job);
+    if (job.request.start) job.request.perturbation = choose_start(*job.request.start, job.scene);
     job.gait = gait_for(job.request, job.scene);
     return job;
 }

@@ -93,6 +93,17 @@ std::string swimming_line(const SwimmingNumbers& numbers) {
     return text.str();
 }
 
+std::string goal_line(const GoalResult& goal) {
+    std::ostringstream text;
+    text << "goal       " << to_string(goal.measure) << ", score " << goal.score;
+    if (goal.arrived_at)
+        text << ", reached at " << *goal.arrived_at << " s";
+    else if (goal.left)
+        text << ", " << *goal.left << (goal.measure == Goal::Measure::turn ? " degrees" : " units") << " left";
+    text << "\n";
+    return text.str();
+}
+
 std::string summary(const RunOptions& options, const Scene& scene, const Evaluation& result, double wall_seconds) {
     std::ostringstream text;
     text << "scene      " << scene.name << "\n";
@@ -117,6 +128,9 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
         if (length > 0) text << ", " << without_sign_of_zero(speed / length) << " body lengths/s";
         text << "\n";
         if (result.swimming) text << swimming_line(*result.swimming);
+        for (const GoalResult& goal : result.goals) text << goal_line(goal);
+        for (const CompanionResult& one : result.companions)
+            text << "beside it  " << one.creature << ", " << without_sign_of_zero(one.distance) << " units\n";
         if (result.work) text << "work       " << *result.work << " by the muscles\n";
     }
     text << "hash       " << hash_text(result.hash) << "\n";

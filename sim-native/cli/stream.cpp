@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "commands.h"
@@ -16,6 +17,7 @@ struct StreamOptions {
     std::string scene, gait, overrides, scheme;
     std::string precision = "float";
     std::vector<std::string> fields{"position"};
+    std::optional<int> start;
     StreamSettings settings;
     ExecutionOptions execution;
 };
@@ -29,6 +31,7 @@ LiveSetup read_setup(const StreamOptions& options) {
     if (!options.overrides.empty()) overrides = read_json_argument(options.overrides, "--overrides");
     if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
     setup.overrides = overrides.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    setup.start = options.start;
     if (!options.gait.empty()) setup.gait = parse_gait(read_json_argument(options.gait, "--gait"), "--gait");
     return setup;
 }
@@ -76,9 +79,11 @@ void add_stream(CLI::App& app, int& status) {
     command->add_option("--precision", options->precision, "float or double.")
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
-    command->add_option("--fields", options->fields, "What frames hold: position, velocity, density.")
+    command->add_option("--start", options->start, "Which of its many starts, as in a request. Default: the scene's own.")
+        ->check(CLI::Range(0, 2147483647));
+    command->add_option("--fields", options->fields, "What frames hold of particles: position, velocity, density; none.")
         ->delimiter(',')
-        ->check(CLI::IsMember({"position", "velocity", "density"}))
+        ->check(CLI::IsMember({"position", "velocity", "density", "none"}))
         ->capture_default_str();
     command->add_option("--every", settings.every, "Offer every Nth frame only.")
         ->check(CLI::Range(1, 1'000'000))

@@ -45,18 +45,18 @@ void StreamSession<Real>::run(LineQueue& commands) {
 template <class Real>
 void StreamSession<Real>::carry_out(const std::string& line) {
     if (line.size() <= stream::longest_command && line.find_first_not_of(" \t\r") == std::string::npos) return;
-    ordered_json answer{{"id", nullptr}};
+    answer_ = {{"id", nullptr}};
     try {
         const json value = parse_command(line);
-        answer["id"] = request_id(value);
+        answer_["id"] = request_id(value);
+        answer_["ok"] = true;
         std::visit([this](const auto& command) { apply(command); }, parse_stream_command(value));
-        answer["ok"] = true;
     } catch (const InputError& error) {
-        answer["error"] = error.what();
+        answer_ = {{"id", answer_["id"]}, {"error", error.what()}};
     } catch (const std::bad_alloc& error) {
-        answer["error"] = message_of(error);
+        answer_ = {{"id", answer_["id"]}, {"error", message_of(error)}};
     }
-    print(stream_message("ANSW", answer));
+    print(stream_message("ANSW", answer_));
 }
 
 template <class Real>
@@ -79,14 +79,60 @@ void StreamSession<Real>::apply(const stream::Pause&) {
 template <class Real>
 void StreamSession<Real>::apply(const stream::Step& step) {
     refuse_if_unstable();
+    check(step);
     offer_frame();
     if (due_ && settings_.lossless) throw InputError("command: do = \"step\": the last frame still waits for credit");
     if (due_) drop_frame();
     running_ = false;
-    for (int i = 0; i < step.frames && !at_end(); ++i)
-        if (!simulate()) return;
-    due_ = true;
+    if (step.steer) simulation_.steer(steering_of(*step.steer));
+    bool stable = true;
+    for (std::size_t i = 0; stable && i < static_cast<std::size_t>(step.frames) && !at_end(); ++i) {
+        if (!step.drive.empty()) simulation_.drive(step.drive[i]);
+        stable = simulate();
+    }
+    due_ = stable;
     offer_frame();
+    if (step.sense) answer_["senses"] = senses();
+}
+
+/// Nothing is simulated with commands of which one can't be used.
+template <class Real>
+void StreamSession<Real>::check(const stream::Step& step) const {
+    const int actuators = simulation_.model().actuators;
+    if (step.steer) check_steering(steering_of(*step.steer), simulation_.gait(), actuators);
+    for (std::size_t i = 0; i < step.drive.size(); ++i)
+        check_drive(step.drive[i], actuators, ("drive[" + std::to_string(i) + "]").c_str());
+    if (step.sense) check_sensing(sensing_, simulation_.model());
+}
+
+template <class Real>
+Steering StreamSession<Real>::steering_of(const stream::Steer& steer) const {
+    const int actuators = simulation_.model().actuators;
+    if (steer.drive) {
+        check_drive(*steer.drive, actuators);
+        return steering_of_drive(*steer.drive);
+    }
+    Steering steering = no_steering(actuators);
+    if (steer.scale) steering.scale = *steer.scale;
+    if (steer.offset) steering.offset = *steer.offset;
+    return steering;
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Steer& steer) {
+    simulation_.steer(steering_of(steer));
+}
+
+template <class Real>
+void StreamSession<Real>::apply(const stream::Sense& sense) {
+    Sensing next = sensing_;
+    if (sense.flow) next.flow = *sense.flow;
+    if (sense.within) next.within = *sense.within;
+    if (sense.target) next.target = *sense.target;
+    check_sensing(next, simulation_.model());
+    sensing_ = std::move(next);
+    if (sense.each) sense_each_ = *sense.each;
+    answer_["senses"] = senses();
 }
 
 template <class Real>
@@ -95,8 +141,11 @@ void StreamSession<Real>::apply(const stream::Rate& rate) {
 }
 
 template <class Real>
-void StreamSession<Real>::apply(const stream::Reset&) {
-    simulation_.reset();
+void StreamSession<Real>::apply(const stream::Reset& reset) {
+    if (reset.start)
+        simulation_.reset(*reset.start);
+    else
+        simulation_.reset();
     scene_changed(true);
 }
 
@@ -108,13 +157,23 @@ void StreamSession<Real>::apply(const stream::NewGait& gait) {
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::Overrides& overrides) {
-    scene_changed(simulation_.merge_overrides(overrides.patch.dump()));
+    const bool restarted = simulation_.merge_overrides(overrides.patch.dump());
+    if (restarted) forget_senses();
+    scene_changed(restarted);
 }
 
 template <class Real>
 void StreamSession<Real>::apply(const stream::NewScene& scene) {
     simulation_.load(scene.setup);
+    forget_senses();
     scene_changed(true);
+}
+
+/// The places are those of another body.
+template <class Real>
+void StreamSession<Real>::forget_senses() {
+    sensing_ = {};
+    sense_each_ = false;
 }
 
 template <class Real>
@@ -157,6 +216,7 @@ void StreamSession<Real>::offer_frame() {
                                  .running = running(),
                                  .wall_seconds = wall_frames_ > 0 ? wall_seconds_ / wall_frames_ : 0,
                                  .fields = settings_.fields};
+    if (sense_each_) print(stream_message("SENS", senses()));
     print(stream_frame(simulation_, head));
     --credit_;
     due_ = false;

@@ -38,11 +38,17 @@ private:
     void apply(const stream::Pause&);
     void apply(const stream::Step& step);
     void apply(const stream::Rate& rate);
-    void apply(const stream::Reset&);
+    void apply(const stream::Reset& reset);
     void apply(const stream::NewGait& gait);
+    void apply(const stream::Steer& steer);
+    void apply(const stream::Sense& sense);
     void apply(const stream::Overrides& overrides);
     void apply(const stream::NewScene& scene);
 
+    Steering steering_of(const stream::Steer& steer) const;
+    void check(const stream::Step& step) const;
+    nlohmann::ordered_json senses() const { return stream_senses(simulation_, sensing_); }
+    void forget_senses();
     void scene_changed(bool restarted);
     bool simulate();
     void offer_frame();
@@ -55,6 +61,9 @@ private:
     LiveSimulation<Real> simulation_;
     Pace pace_;
     bool running_;
+    Sensing sensing_;
+    bool sense_each_ = false;        ///< a SENS before every frame
+    nlohmann::ordered_json answer_;  ///< of the command that is carried out
     int credit_ = 0;             ///< frames that may be sent
     bool due_ = false;           ///< the present frame is still to be offered
     std::uint32_t scene_ = 0;    ///< number of the last SCEN

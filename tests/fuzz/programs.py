@@ -289,7 +289,7 @@ class Stream(Resident):
                 body, self.buffer = self.buffer[8:8 + length], self.buffer[8 + length:]
                 if name == b"FRAM":
                     check_frame(body)
-                elif name in (b"SCEN", b"STOP"):
+                elif name in (b"SCEN", b"SENS", b"STOP"):
                     parse(body.decode("utf-8", "strict"), ("mass",))
                 elif name == b"ANSW":
                     answer = parse(body.decode("utf-8", "strict"), ("id",))

@@ -26,7 +26,7 @@ struct Moved {
         }
         distance = way.x();
     }
-    Course course() const { return course_of(model, end, distance); }
+    Course course() const { return course_of(model, model.body, end, distance); }
 };
 
 Eigen::Matrix3d turned(double angle, const Eigen::Vector3d& axis) {

@@ -71,6 +71,18 @@ TEST(GaitTest, DriveIsAmplitudeTimesActivation) {
     }
 }
 
+TEST(GaitTest, AnOffsetDrivesBesideTheBeat) {
+    Model model = build_model(load_scene("thesis/creature-1"));
+    const Gait straight{1, {0.4, 0.5}, {0.25, 0.125}, 1}, steered{1, {0.4, 0.5}, {0.25, 0.125}, 1, {0.2, -0.3}};
+    for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
+        model.scheme = scheme;
+        const double ramp = scheme == Scheme::conserving ? 0.5 : 1;
+        const std::vector<double> without = drive(model, straight, 0.125), with = drive(model, steered, 0.125);
+        EXPECT_NEAR(with[0] - without[0], ramp * 0.2, 1e-15);
+        EXPECT_NEAR(with[1] - without[1], ramp * -0.3, 1e-15);
+    }
+}
+
 TEST(GaitTest, GaitsOutOfRangeAreRefusedByName) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
@@ -92,6 +104,9 @@ TEST(GaitTest, GaitsOutOfRangeAreRefusedByName) {
         {{1, {1, 1}, {-1, 0}, 1}, "gait.phase[0] = -1"},
         {{1, {1, 1}, {0, 0}, 0.4}, "gait.power = 0.4"},
         {{1, {1, 1}, {0, 0}, 4.5}, "gait.power = 4.5"},
+        {{1, {1, 1}, {0, 0}, 1, {0.5}}, "gait.offset has length 1"},
+        {{1, {1, 1}, {0, 0}, 1, {0, nan}}, "gait.offset[1] = nan"},
+        {{1, {1, 1.5}, {0, 0}, 1, {0, -0.6}}, "gait.offset[1] = -0.6"},
     };
     for (const auto& bad : cases) {
         try {
@@ -102,6 +117,7 @@ TEST(GaitTest, GaitsOutOfRangeAreRefusedByName) {
         }
     }
     EXPECT_NO_THROW(check_gait(Gait{60, {0, 2}, {0, 1}, 4}, 2));
+    EXPECT_NO_THROW(check_gait(Gait{1, {0.5, 1.5}, {0, 0}, 1, {-1.5, 0.5}}, 2));
     EXPECT_NO_THROW(check_gait(Gait{}, 0));
 }
 

@@ -69,6 +69,28 @@ TEST(InfoTest, SaysWhatIsFittedToTheWater) {
     EXPECT_EQ(fitted.at("madeHeavier"), fitted.at("bodyParticles"));
 }
 
+TEST(InfoTest, TellsOfTheMeshAndTheWaysABodyBends) {
+    const Outcome outcome = run_simulator({"info", "pool/ray", "--json", "--overrides", R"({"creature":{"bend":"both","joint":"line"}})"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json info = json::parse(outcome.out);
+    EXPECT_EQ(info.at("bends"), "0 to 4 sideways, 5 to 9 up and down");
+    EXPECT_EQ(info.at("joint"), "line");
+    EXPECT_EQ(info.at("mesh").get<std::string>().find("ray.obj, 1152 triangles, a unit is 0.04, volume 0.106"), 0u) << outcome.out;
+    const json plain = json::parse(run_simulator({"info", "pool/eel", "--json"}).out);
+    for (const char* key : {"bends", "joint", "mesh"}) EXPECT_FALSE(plain.contains(key)) << key;
+}
+
+TEST(InfoTest, RefusesAMeshWithAHoleInOneLine) {
+    const TemporaryPath file("hole.obj");
+    std::ofstream(file.path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+    const Outcome outcome = run_simulator(
+        {"info", "pool/water", "--overrides", json({{"creature", {{"mesh", {{"file", file.path}, {"joints", {0.5}}}}}}}).dump()});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find("a hole at the edge from (1, 0, 0) to (0, 1, 0)"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+}
+
 // At rest in vacuum nothing moves, by whichever sign.
 TEST(RunTest, SaysUnitsAndNoMinusBeforeNothing) {
     const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.05"});

@@ -91,6 +91,31 @@ TEST(StreamTest, TheSceneIsComplete) {
     }
 }
 
+TEST(StreamTest, ABodyOfAMeshBringsItsSkin) {
+    StreamClient with(paused_in("pool/ray", {}));
+    with.expect("SCEN");
+    const json scene = with.scene();
+    const json& skin = scene["skin"];
+    EXPECT_EQ(skin["file"], "ray.obj");
+    EXPECT_EQ(skin["digest"], scene["definition"]["creature"]["mesh"]["digest"]);
+    EXPECT_EQ(skin["unit"], 0.04);
+    EXPECT_EQ(skin["axes"], json::parse("[[1,0,0],[0,1,0],[0,0,1]]"));
+    EXPECT_EQ(skin["rest"].size(), scene["body"].size());
+    const std::size_t vertices = skin["vertices"].size();
+    ASSERT_GT(vertices, 100u);
+    EXPECT_EQ(skin["triangles"].size(), 2 * vertices - 4);  // Euler, of a closed surface without handles
+    EXPECT_EQ(skin["cluster"].size(), vertices);
+    EXPECT_EQ(skin["share"].size(), vertices);
+    for (std::size_t i = 0; i < vertices; ++i)
+        if (skin["cluster"][i] == scene["clusters"].size() - 1) EXPECT_EQ(skin["share"][i], 1);
+    for (const json& muscle : scene["muscles"]) EXPECT_EQ(muscle["bend"], "vertical");
+
+    StreamClient without(paused_in(water, {}));
+    without.expect("SCEN");
+    EXPECT_TRUE(without.scene()["skin"].is_null());
+    EXPECT_FALSE(without.scene()["muscles"][0].contains("bend"));
+}
+
 TEST(StreamTest, FrameZeroIsTheSettledStart) {
     StreamClient client(paused_in(water, {"--fields", "density,velocity,position"}));
     client.expect("SCEN");

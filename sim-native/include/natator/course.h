@@ -14,8 +14,8 @@ struct Course {
     double roll = 0;     ///< of its back about its heading, from the vertical towards its right, rad
 };
 
-/// The course of a body that has come to `end`, `distance` along x.
+/// The course of one of the model's bodies that has come to `end`, `distance` along x.
 template <class Real>
-Course course_of(const Model& model, const State<Real>& end, double distance);
+Course course_of(const Model& model, const Body& body, const State<Real>& end, double distance);
 
 }  // namespace natator

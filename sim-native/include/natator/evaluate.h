@@ -9,6 +9,8 @@
 #include "natator/course.h"
 #include "natator/execution.h"
 #include "natator/gait.h"
+#include "natator/goal.h"
+#include "natator/moving_tank.h"
 #include "natator/scene.h"
 #include "natator/snapshot.h"
 #include "natator/solver.h"
@@ -20,10 +22,10 @@ namespace natator {
 enum class Precision { single_precision, double_precision };
 
 /// Why an evaluation ended.
-enum class StopReason { completed, touched_plane, no_progress, unstable };
+enum class StopReason { completed, touched_plane, no_progress, unstable, reached };
 
 /// As they are in requests and results: "flex", "conserving"; "float", "double"; "completed", "touched-plane",
-/// "no-progress", "unstable".
+/// "no-progress", "unstable", "reached".
 const char* to_string(Scheme scheme);
 const char* to_string(Precision precision);
 const char* to_string(StopReason reason);
@@ -36,12 +38,24 @@ struct Perturbation {
     std::uint64_t seed = 1;
 };
 
+/// Makes a scene begin from another of its many starts, as `start` of a request does: where the scheme disorders its water,
+/// from another arrangement of that, which becomes part of the scene; else from places that are all shifted by up to 0.001
+/// of fluidRestDistance, which is what is returned.
+Perturbation choose_start(int start, Scene& scene);
+
 /// How far the final state is from the laws of mechanics; all dimensionless.
 struct ConservationErrors {
     double linear_momentum = 0;   ///< |sum of m v| / sum of |m v| over the body; 0 for a body that internal forces move
     double angular_momentum = 0;  ///< the same for m r x v about the body's centre of mass
     double density_error_mean = 0;  ///< mean over the fluid of max(density - 1, 0), densities in units of rest density
     double density_error_max = 0;
+};
+
+/// How a swimmer beside the evaluated one did.
+struct CompanionResult {
+    std::string creature;
+    double distance = 0;  ///< change of its mean x, length
+    Course course;
 };
 
 /// What one evaluation of a gait in a scene gives.
@@ -58,6 +72,12 @@ struct Evaluation {
     /// `flex`, which has no forces, and without muscles.
     std::optional<double> work;
     std::optional<Course> course;  ///< of a body
+    std::vector<GoalResult> goals;          ///< of the scene's goals, in their order
+    std::optional<WaterRenewal> renewal;    ///< of a moving tank
+    std::vector<CompanionResult> companions;  ///< of the scene's companions, in their order
+
+    /// What a gait is worth: the weighted sum of the scores of the scene's goals; without goals, the distance.
+    double fitness() const;
 };
 
 /// One body position per frame, for callers that want a trajectory.

@@ -10,6 +10,8 @@ struct Gait {
     std::vector<double> amplitude;  ///< a_i per actuator, thesis: [0, 1]
     std::vector<double> phase;      ///< phi_i per actuator in turns, [0, 1]
     double power = 1.0;             ///< p of the potentiated activation of thesis 4.2; 1 = plain sine, (2.6)
+    /// o_i per actuator: what its muscles are driven by beside the beat, to steer; > 0 to the left. Empty = 0.
+    std::vector<double> offset{};
 };
 
 /// The gait that leaves the muscles of so many actuators at rest.

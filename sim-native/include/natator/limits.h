@@ -34,6 +34,11 @@ inline constexpr double part_of_memory = 0.9;
 /// Frames that a stream must be able to compute within `work`.
 inline constexpr double live_frames = 100;
 
+/// Bytes of a mesh's file, its triangles, and pairs of them that are looked at for intersections, some seconds' worth.
+inline constexpr std::size_t mesh_bytes = 64 << 20;
+inline constexpr long mesh_faces = 200'000;
+inline constexpr long mesh_pairs = 1'000'000'000;
+
 /// Particles of which a settled start is kept in the cache of starts, whose files else fill the disk.
 inline constexpr int cached_particles = 250'000;
 

@@ -9,9 +9,11 @@
 #include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/model.h"
+#include "natator/moving_tank.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
 #include "natator/state.h"
+#include "natator/steering.h"
 
 namespace natator {
 
@@ -20,6 +22,7 @@ struct LiveSetup {
     std::string scene;             ///< name or path of the scene, see load_scene
     std::string overrides{};       ///< JSON merge patch (RFC 7386) on it, as text; empty changes nothing
     std::optional<Gait> gait{};    ///< none: muscles at rest
+    std::optional<int> start{};    ///< which of its many starts (choose_start); none: the scene's own
     std::filesystem::path data{};  ///< where the scene is looked up, as in SceneOptions
 };
 
@@ -36,14 +39,24 @@ public:
 
     /// Starts another scene. Throws InputError.
     void load(const LiveSetup& setup);
-    /// Drives the muscles by another gait from the next frame on. Throws InputError when it does not fit.
+    /// Drives the muscles by another gait from the next frame on. Throws InputError when it does not fit, the steering in
+    /// force included.
     void set_gait(const Gait& gait);
+    /// Steers from the next frame on, until told otherwise; each new start begins without. In scheme `flex` a frame is
+    /// driven by the new steering as a whole; else the muscles go from the old to the new one over that frame, in a
+    /// straight line, so that the water is not struck. Throws InputError when it does not fit.
+    void steer(const Steering& steering);
+    /// Drives the actuators by these values, one in [-2, 2] for each, instead of the gait; as `steer` by
+    /// steering_of_drive. Scheme `conserving` has no start ramp for them. Throws InputError.
+    void drive(const std::vector<double>& values);
     /// Merges a JSON merge patch, given as text, over the overrides in force. Goes on from the present state if
     /// particles and constraints stay the same, with other settings, masses, stiffnesses or planes; else, and after an
     /// instability, starts anew. True if it did. Throws InputError.
     bool merge_overrides(const std::string& patch);
     /// Goes back to the settled start.
     void reset();
+    /// Goes to another of the scene's starts, see choose_start. Throws InputError.
+    void reset(int start);
     /// Advances by one time step of the scene. False if it became unstable; then there are no more frames until it
     /// starts anew.
     bool frame();
@@ -56,7 +69,13 @@ public:
     const State<Real>& state() const { return state_; }
     /// Frames since the start, which was frame 0.
     int frames() const { return frames_; }
-    /// Change of the body's mean x since the start, length.
+    /// What the next frame is steered to.
+    const Steering& steering() const { return steering_; }
+    /// What drives each actuator now: the gait's drive, steered.
+    std::vector<double> driven() const;
+    /// Work that the muscles did since the start (Solver::muscle_work), mass length^2/s^2.
+    double muscle_work() const;
+    /// Change of the body's mean x over ground since the start, length.
     double distance() const;
     /// Density of each particle in the present state, in units of rest density; 0 for solids.
     std::vector<Real> densities();
@@ -66,7 +85,9 @@ private:
     struct Run;
 
     std::unique_ptr<Run> make_run(const LiveSetup& setup) const;
+    void follow(TankFollower& follower);
     void start(std::unique_ptr<Run> run);  ///< null: the present one anew
+    Drive next_drive() const;
 
     Execution execution_;
     LiveSetup setup_;
@@ -77,6 +98,9 @@ private:
     int base_frame_ = 0;    ///< since when the time step is what it is
     double base_time_ = 0;  ///< s, of base_frame_
     double start_x_ = 0;
+    double earlier_work_ = 0;  ///< of the muscles, since the start, before run_'s solver
+    Steering steering_;        ///< of the next frame
+    Steering applied_;         ///< what the last frame ended with
     std::optional<Instability> instability_;
 };
 

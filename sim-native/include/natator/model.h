@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "natator/gait.h"
 #include "natator/parameters.h"
 
 namespace natator {
@@ -37,8 +38,8 @@ struct Cluster {
 /// A spring that an actuator drives: rest length l = l_rest (1 + 1/2 z_m a u), thesis (2.7) and (2.8).
 struct Muscle {
     int spring = 0;
-    int actuator = 0;       ///< 0 = nearest the head
-    double lateral = 0;     ///< z_m in [-1, 1], -1 = left edge, +1 = right edge
+    int actuator = 0;       ///< in the order of Creature::actuator_list; those of companions follow
+    double lateral = 0;     ///< z_m in [-1, 1], -1 = left edge, +1 = right edge; of one that bends up and down, lower and upper
 };
 
 /// Which particles make up the swimmer. Slice 0 is the head.
@@ -46,6 +47,13 @@ struct Body {
     std::vector<int> particles;
     std::vector<std::vector<int>> slices;
     double length = 0;  ///< head to tail at rest, length
+};
+
+/// A swimmer beside the one that is evaluated.
+struct CompanionBody {
+    Body body;
+    Gait gait;
+    int first_actuator = 0;  ///< of its muscles; they follow those of the body and of companions before it
 };
 
 /// All that stays constant while a scene runs. One Model serves any number of States.
@@ -65,8 +73,9 @@ struct Model {
     std::vector<Spring> springs;
     std::vector<Cluster> clusters;
     std::vector<Muscle> muscles;
-    int actuators = 0;
+    int actuators = 0;  ///< of the body; a gait has as many
     Body body;
+    std::vector<CompanionBody> companions;
 
     int particles() const { return static_cast<int>(position.size()); }
     bool is_fluid(int i) const { return (phase[i] & natator::phase::fluid) != 0; }

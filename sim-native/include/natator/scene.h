@@ -1,12 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
-#include <numeric>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "natator/gait.h"
+#include "natator/goal.h"
 #include "natator/parameters.h"
 
 namespace natator {
@@ -30,14 +33,57 @@ struct FluidBlock {
     int disorder = 20;                           ///< seed of the places off the lattice that scheme `conserving` begins from
 };
 
-/// One cross-section of a body: rows of particles in (y, z), all in the middle of the body's left and right.
+/// One cross-section of a body: rows of particles in (y, z). Places in it are in half spacings, which are whole numbers.
 struct Slice {
     int height = 1;              ///< rows, along y
-    int width = 1;               ///< particles along z of the widest row
+    int width = 1;               ///< particles along z of the widest row; of `columns` as many as reach as far
     std::vector<int> rows = {};  ///< particles of each row from the lowest up, all odd or all even; empty: `width` each
+    int lift = 0;                ///< of the middle row above the body's axis, half spacings
+    /// z of the particles of each row, ascending, half spacings: where they do not fill the row from one side to the other.
+    /// Empty: they do, as many to the left as to the right.
+    std::vector<std::vector<int>> columns = {};
 
-    int row(int iy) const { return rows.empty() ? width : rows[static_cast<std::size_t>(iy)]; }
-    int particles() const { return rows.empty() ? height * width : std::accumulate(rows.begin(), rows.end(), 0); }
+    int row(int iy) const {
+        const auto i = static_cast<std::size_t>(iy);
+        return !columns.empty() ? static_cast<int>(columns[i].size()) : rows.empty() ? width : rows[i];
+    }
+    int y(int iy) const { return 2 * iy - (height - 1) + lift; }  ///< of a row, from the axis, half spacings
+    /// From the middle of left and right, half spacings.
+    int z(int iy, int iz) const {
+        return columns.empty() ? 2 * iz - (row(iy) - 1) : columns[static_cast<std::size_t>(iy)][static_cast<std::size_t>(iz)];
+    }
+    int particles() const {
+        int sum = 0;
+        for (int iy = 0; iy < height; ++iy) sum += row(iy);
+        return sum;
+    }
+};
+
+/// Which way muscles bend a body.
+enum class Bend { sideways, vertical };
+
+/// What a gait drives by itself: the muscles between two neighbouring slices of muscle_ends() that bend one way.
+struct Actuator {
+    int gap = 0;  ///< 0 = between the first two of these slices
+    Bend bend = Bend::sideways;
+};
+
+/// How neighbouring clusters hang together.
+enum class Joint {
+    slice,  ///< by all particles of a slice (thesis 2.2)
+    line,   ///< by those of its particles that are nearest the line about which it bends (after thesis 4.4)
+};
+
+/// A closed surface that moves with a body.
+struct Skin {
+    std::string file;    ///< as the creature names it
+    std::string digest;  ///< of the file, 16 hexadecimal digits
+    double unit = 1;     ///< scene lengths of one unit of the file
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: which way of the file is forward, up, right
+    Eigen::Vector3d origin{0, 0, 0};                     ///< place in the file that is the centre of the last slice
+    std::vector<Eigen::Vector3d> vertices;               ///< at rest, from the centre of the last slice, length
+    std::vector<Eigen::Vector3i> triangles;              ///< corners go round counter-clockwise seen from outside
+    double volume = 0;                                   ///< inside, length^3
 };
 
 /// A soft body of slices along x (thesis 2.2). Slice 0 is the head; the head faces +x, the top +y, the right side +z.
@@ -49,23 +95,47 @@ struct Creature {
     std::vector<int> muscle_slices;    ///< slices that muscles run between, ascending; empty = the joints (thesis 2.4)
     double spacing = 0.075;            ///< distance of neighbouring particles at rest, length
     bool of_profile = false;           ///< whether slices and joints were made of curves: `profile` in the JSON
+    std::shared_ptr<const Skin> skin;  ///< the mesh that slices and joints were made of: `mesh` in the JSON; null: none
+    Joint joint = Joint::slice;
+    /// Ways in which the muscles of each gap between muscle_ends() bend; empty = sideways alone.
+    std::vector<std::vector<Bend>> bends;
     double cluster_stiffness = 0.2;    ///< shape-matching stiffness of every cluster, [0, 1]
     std::vector<double> cluster_stiffnesses;  ///< of each cluster from the head on; empty = `cluster_stiffness` for all
     double particle_mass = 1.0;        ///< m_s
     double spring_stiffness = 1.0;     ///< stiffness of every muscle spring, [0, 1]
-    std::vector<double> spring_stiffnesses;   ///< of each actuator's springs; empty = `spring_stiffness` for all
+    std::vector<double> spring_stiffnesses;   ///< of each gap's springs; empty = `spring_stiffness` for all
     int springs_per_particle = 4;      ///< springs that each connected particle gives (thesis 2.4)
     Eigen::Vector3d rear_centre{0.45, 0.6, 0.6};  ///< start of the centre of the last slice
     /// n: each particle described here is made of n x n x n, on a lattice n times as fine (model_builder.h).
     int refinement = 1;
 
     const std::vector<int>& muscle_ends() const { return muscle_slices.empty() ? joints : muscle_slices; }
-    int actuators() const { return muscle_ends().empty() ? 0 : static_cast<int>(muscle_ends().size()) - 1; }
+    int gaps() const { return muscle_ends().empty() ? 0 : static_cast<int>(muscle_ends().size()) - 1; }
+    bool bends_by(Bend bend, int gap) const {
+        if (bends.empty()) return bend == Bend::sideways;
+        const std::vector<Bend>& ways = bends[static_cast<std::size_t>(gap)];
+        return std::find(ways.begin(), ways.end(), bend) != ways.end();
+    }
+    /// Whether any muscle bends this way.
+    bool bends_by(Bend bend) const {
+        for (int gap = 0; gap < gaps(); ++gap)
+            if (bends_by(bend, gap)) return true;
+        return false;
+    }
+    /// In the order that a gait has them: those that bend sideways from the head on, then those that bend up and down.
+    std::vector<Actuator> actuator_list() const {
+        std::vector<Actuator> list;
+        for (const Bend bend : {Bend::sideways, Bend::vertical})
+            for (int gap = 0; gap < gaps(); ++gap)
+                if (bends_by(bend, gap)) list.push_back({gap, bend});
+        return list;
+    }
+    int actuators() const { return static_cast<int>(actuator_list().size()); }
     double stiffness_of_cluster(int cluster) const {
         return cluster_stiffnesses.empty() ? cluster_stiffness : cluster_stiffnesses[static_cast<std::size_t>(cluster)];
     }
-    double stiffness_of_springs(int actuator) const {
-        return spring_stiffnesses.empty() ? spring_stiffness : spring_stiffnesses[static_cast<std::size_t>(actuator)];
+    double stiffness_of_springs(int gap) const {
+        return spring_stiffnesses.empty() ? spring_stiffness : spring_stiffnesses[static_cast<std::size_t>(gap)];
     }
     /// Particles that one described here is made of.
     int parts() const { return refinement * refinement * refinement; }
@@ -84,6 +154,37 @@ struct Stopping {
     double no_progress_after = 2.0;  ///< s without gain in mean x; 0 = never
 };
 
+/// A swimmer beside the one that is evaluated, with a gait of its own.
+struct Companion {
+    Creature creature;
+    Gait gait;
+};
+
+/// Something that water and bodies can't enter and that stays where it is: particles of infinite mass.
+struct Obstacle {
+    enum class Shape { sphere, box };
+    Shape shape = Shape::sphere;
+    Eigen::Vector3d centre{0, 0, 0};  ///< length
+    double radius = 0;                ///< of a sphere, length
+    Eigen::Vector3d size{0, 0, 0};    ///< edges of a box, length
+    double spacing = 0.075;           ///< of its particles, length
+
+    /// Whether a place is within it.
+    bool holds(const Eigen::Vector3d& place) const {
+        const Eigen::Vector3d way = place - centre;
+        return shape == Shape::sphere ? way.norm() <= radius : (way.cwiseAbs().array() <= size.array() / 2).all();
+    }
+};
+
+/// A tank without an end: it goes along with its swimmer. Where the swimmer has come `step` on from where it began, the
+/// water of that length behind it is taken away, as much is put in front at rest, and all is moved back by `step`.
+struct MovingTank {
+    bool along_z = false;  ///< aside too, not only along x
+    double step = 0.4;     ///< length
+    /// Velocity of all the water over ground, length/s, horizontal. Distances are over ground; the tank is the water's.
+    Eigen::Vector3d current{0, 0, 0};
+};
+
 /// Everything that defines an experiment, as read from scene JSON.
 struct Scene {
     std::string name;
@@ -97,6 +198,15 @@ struct Scene {
     std::optional<Creature> creature;
     Settling settling;
     Stopping stopping;
+    std::optional<MovingTank> moving_tank;
+    std::vector<Companion> companions;
+    std::vector<Obstacle> obstacles;
+    std::vector<Goal> goals;  ///< none: the distance along x
+
+    /// Of a way over ground that took so many seconds, what was swum through the water along x, length.
+    double through_water(double distance, double time) const {
+        return moving_tank ? distance - time * moving_tank->current.x() : distance;
+    }
 };
 
 }  // namespace natator

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "natator/actuate.h"
 #include "natator/execution.h"
 #include "natator/gait.h"
 #include "natator/instruction_set.h"
@@ -48,11 +49,16 @@ public:
 
     /// One frame of the model: sets the muscles for the state's time, then updates by the model's time step.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
+    /// The same with muscles that `drive` drives, asked for the frame's start in scheme `flex`, else for the end of each
+    /// substep. Its values are in [-2, 2].
+    std::optional<Instability> frame(State<Real>& state, const Drive& drive);
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each spring
     /// and substep the force at its end, lambda / h^2, times the change. It goes into motion and springs; what the time
     /// step takes off as numerical damping is part of it. 0 in scheme flex (has_muscle_work).
     double muscle_work() const;
+    /// Counts it anew from here.
+    void clear_muscle_work();
 
     /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids.
     std::vector<Real> densities();

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "companions.h"
 #include "conservation_errors.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
+#include "natator/pose.h"
 #include "perturb.h"
-#include "physics/early_stop.h"
 #include "settled_start.h"
+#include "swim_record.h"
 
 namespace natator {
 namespace {
@@ -18,9 +20,7 @@ namespace {
 template <class Real>
 void observe(const Body& body, const State<Real>& state, const FrameObserver& on_frame) {
     if (!on_frame) return;
-    std::vector<Eigen::Vector3d> positions;
-    for (const int particle : body.particles) positions.push_back(state.position[particle].template cast<double>());
-    on_frame(state.time, positions);
+    on_frame(state.time, body_places(body, state));
 }
 
 template <class Real>
@@ -33,15 +33,27 @@ Snapshot snapshot_of(const State<Real>& state, const std::vector<Real>& densitie
     return snapshot;
 }
 
+/// What a SwimRecord asks about a State.
+template <class Real>
+SwimRecord::Frame frame_of(const Model& model, const State<Real>& state, bool stops_at_planes, bool needs_body) {
+    SwimRecord::Frame frame;
+    frame.mean_x = mean_x(model.body, state);
+    frame.tail_z = tail_z(model.body, state);
+    frame.touches_plane = stops_at_planes && touches_plane(model, state);
+    if (needs_body)
+        for (const int particle : model.body.particles)
+            frame.body.push_back(state.position[particle].template cast<double>());
+    return frame;
+}
+
 /// Runs frame by frame to the duration or an early stop, from the places of `start`: the model, or the model perturbed.
 template <class Real>
 Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& start, const Gait& gait,
                        const EvaluationOptions& options) {
     const SnapshotRequest& snapshot = options.snapshot;
-    const bool swims = !model.body.particles.empty();
     const auto frames = static_cast<int>(std::lround(scene.duration / scene.time_step));
-    const double window = swims ? std::round(scene.stopping.no_progress_after / scene.time_step) : 0;
 
+    SwimRecord record(scene, model);
     Solver<Real> solver(model, options.execution);
     const SettledStateCache* starts = options.execution.starts;
     Evaluation result;
@@ -49,40 +61,49 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
     State<Real> state = settled_start(start, scene.settling, solver, starts, result.instability);
     if (!result.instability) observe(model.body, state, options.on_frame);
 
+    const State<Real> begin = model.companions.empty() ? State<Real>{} : state;
     bool snapshot_due = static_cast<bool>(snapshot.take);
-    std::vector<double> path{mean_x(model.body, state)}, tail{tail_z(model.body, state)};
+    const bool stops_at_planes = scene.stopping.plane_contact;
+    record.start(frame_of(model, state, false, record.needs_body()));
     while (!result.instability && result.stopped == StopReason::completed && result.frames < frames) {
         result.instability = solver.frame(state, gait);
         if (result.instability) break;
         state.time = ++result.frames * scene.time_step;  // free of summed rounding
-        path.push_back(mean_x(model.body, state));
-        tail.push_back(tail_z(model.body, state));
+        const auto over = record.add(frame_of(model, state, stops_at_planes, record.needs_body()));
+        if (over) result.stopped = *over;
+        state.origin = record.origin();
         observe(model.body, state, options.on_frame);
         if (snapshot_due && state.time > snapshot.at - scene.time_step / 1000) {
             snapshot_due = false;
             snapshot.take(model, snapshot_of(state, solver.densities()));
         }
-        if (scene.stopping.plane_contact && touches_plane(model, state)) {
-            result.stopped = StopReason::touched_plane;
-        } else if (physics::without_progress(path.data(), result.frames, static_cast<long>(window))) {
-            result.stopped = StopReason::no_progress;
-        }
+        if (record.tank_is_due()) record.move_tank(state);
     }
-    result.distance = path.back() - path.front();
+    result.distance = record.path().back() - record.path().front();
     result.simulated = result.frames * scene.time_step;
     if (result.instability) {
         result.stopped = StopReason::unstable;
     } else {
         result.errors = conservation_errors(model, state, solver.densities());
-        result.swimming = swimming_numbers(model, gait, result.distance, result.simulated, tail);
+        result.swimming = swimming_numbers(
+            model, gait, scene.through_water(result.distance, result.simulated), result.simulated, record.tail());
         if (has_muscle_work(model)) result.work = solver.muscle_work();
-        if (swims) result.course = course_of(model, state, result.distance);
+        if (!model.body.particles.empty()) result.course = course_of(model, model.body, state, result.distance);
+        result.companions = companion_results(scene, model, begin, state);
+        record.tell(result);
     }
     result.hash = state_hash(state);
     return result;
 }
 
 }  // namespace
+
+double Evaluation::fitness() const {
+    if (goals.empty()) return distance;
+    double sum = 0;
+    for (const GoalResult& goal : goals) sum += goal.weight * goal.score;
+    return sum;
+}
 
 Evaluation evaluate(const Scene& scene, const Gait& gait, const EvaluationOptions& options) {
     check_gait(gait, scene.creature ? scene.creature->actuators() : 0);

@@ -27,6 +27,8 @@ const char* to_string(StopReason stopped) {
             return "touched-plane";
         case StopReason::no_progress:
             return "no-progress";
+        case StopReason::reached:
+            return "reached";
         case StopReason::unstable:
             break;
     }

@@ -3,6 +3,20 @@
 #include <random>
 
 namespace natator {
+namespace {
+
+/// Shift of all places where there is no water to disorder, in rest distances of the fluid.
+constexpr double start_shift = 1e-3;
+
+}  // namespace
+
+Perturbation choose_start(int start, Scene& scene) {
+    if (scene.scheme == Scheme::conserving && scene.fluid) {
+        scene.fluid->disorder = start;
+        return {};
+    }
+    return {start_shift * scene.solver.fluidRestDistance, static_cast<std::uint64_t>(start)};
+}
 
 void perturb(const Perturbation& perturbation, Model& model) {
     if (perturbation.amplitude == 0) return;

@@ -4,16 +4,36 @@
 
 namespace natator {
 
+namespace {
+
+/// Adds what drives the actuators of one swimmer.
+void add_drive(const Gait& gait, double ramp, double time, std::vector<double>& driven) {
+    for (std::size_t i = 0; i < gait.amplitude.size(); ++i) {
+        driven.push_back(ramp * gait.amplitude[i] * activation(gait, static_cast<int>(i), time));
+        if (!gait.offset.empty()) driven.back() += ramp * gait.offset[i];
+    }
+}
+
+double ramp_at(const Model& model, double time) {
+    return model.scheme != Scheme::flex ? physics::start_ramp(time) : 1.0;
+}
+
+}  // namespace
+
 std::vector<double> drive(const Model& model, const Gait& gait, double time) {
-    std::vector<double> driven(static_cast<std::size_t>(model.actuators));
-    const double ramp = model.scheme != Scheme::flex ? physics::start_ramp(time) : 1.0;
-    for (int i = 0; i < model.actuators; ++i) driven[i] = ramp * gait.amplitude[i] * activation(gait, i, time);
+    std::vector<double> driven;
+    add_drive(gait, ramp_at(model, time), time, driven);
     return driven;
 }
 
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state) {
-    const std::vector<double> driven = drive(model, gait, time);
+    actuate(model, drive(model, gait, time), time, state);
+}
+
+template <class Real>
+void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state) {
+    for (const CompanionBody& companion : model.companions) add_drive(companion.gait, ramp_at(model, time), time, driven);
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;
         const double length = physics::muscle_length(rest, muscle.lateral, driven[muscle.actuator]);
@@ -23,5 +43,7 @@ void actuate(const Model& model, const Gait& gait, double time, State<Real>& sta
 
 template void actuate(const Model&, const Gait&, double, State<float>&);
 template void actuate(const Model&, const Gait&, double, State<double>&);
+template void actuate(const Model&, std::vector<double>, double, State<float>&);
+template void actuate(const Model&, std::vector<double>, double, State<double>&);
 
 }  // namespace natator

@@ -15,14 +15,14 @@ void check_range(const std::string& name, double value, double low, double high,
     throw InputError(text.str());
 }
 
-void check_list(const std::string& name, const std::vector<double>& values, int actuators, double high) {
+void check_list(const std::string& name, const std::vector<double>& values, int actuators, double low, double high) {
     if (values.size() != static_cast<std::size_t>(actuators)) {
         throw InputError(name + " has length " + std::to_string(values.size()) + ": must have length " +
                          std::to_string(actuators) + ", one value per actuator of the creature" +
                          (actuators == 0 ? " (there is none: an actuator needs two joints)" : ""));
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
-        check_range(name + "[" + std::to_string(i) + "]", values[i], 0, high, false, "");
+        check_range(name + "[" + std::to_string(i) + "]", values[i], low, high, false, "");
     }
 }
 
@@ -30,9 +30,15 @@ void check_list(const std::string& name, const std::vector<double>& values, int 
 
 void check_gait(const Gait& gait, int actuators) {
     check_range("gait.frequency", gait.frequency, 0, 60, true, " (1/s)");
-    check_list("gait.amplitude", gait.amplitude, actuators, 2);
-    check_list("gait.phase", gait.phase, actuators, 1);
+    check_list("gait.amplitude", gait.amplitude, actuators, 0, 2);
+    check_list("gait.phase", gait.phase, actuators, 0, 1);
     check_range("gait.power", gait.power, 0.5, 4, false, "");
+    if (!gait.offset.empty()) check_list("gait.offset", gait.offset, actuators, -2, 2);
+    for (std::size_t i = 0; i < gait.offset.size(); ++i) {
+        const double most = 2 - gait.amplitude[i];
+        check_range("gait.offset[" + std::to_string(i) + "]", gait.offset[i], -most, most, false,
+                    " (a muscle has no length below 0)");
+    }
 }
 
 }  // namespace natator

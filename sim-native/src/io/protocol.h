@@ -27,7 +27,10 @@ Request parse_request(const nlohmann::json& value);
 /// The request's id, or null if it has no usable one.
 nlohmann::json request_id(const nlohmann::json& value);
 
-/// Reads a gait: `frequency`, `amplitude`, `phase` and, if wanted, `power`. Checks types, not ranges (check_gait).
+/// A gait as requests have it.
+nlohmann::ordered_json gait_json(const Gait& gait);
+
+/// Reads a gait: `frequency`, `amplitude`, `phase` and, if wanted, `offset` and `power`. Checks types, not ranges (check_gait).
 Gait parse_gait(const nlohmann::json& value, const std::string& document);
 
 /// The result of an evaluation; unstable ones have fitness 0 and tell where they broke.

@@ -7,6 +7,7 @@ namespace {
 
 using fields::Place;
 using nlohmann::json;
+using nlohmann::ordered_json;
 
 std::vector<double> read_numbers(const json& value, const Place& place) {
     if (!value.is_array()) fields::refuse(place, value, "an array of numbers, one per actuator");
@@ -35,16 +36,24 @@ Perturbation read_perturbation(const json& value, const Place& place) {
 }
 
 Gait read_gait(const json& value, const Place& place) {
-    fields::check_keys(value, place, {"frequency", "amplitude", "phase", "power"});
+    fields::check_keys(value, place, {"frequency", "amplitude", "phase", "offset", "power"});
     Gait gait;
     gait.frequency = read_number(fields::required(value, place, "frequency"), place.key("frequency"));
     gait.amplitude = read_numbers(fields::required(value, place, "amplitude"), place.key("amplitude"));
     gait.phase = read_numbers(fields::required(value, place, "phase"), place.key("phase"));
+    if (value.contains("offset")) gait.offset = read_numbers(value.at("offset"), place.key("offset"));
     if (value.contains("power")) gait.power = read_number(value.at("power"), place.key("power"));
     return gait;
 }
 
 }  // namespace
+
+ordered_json gait_json(const Gait& gait) {
+    ordered_json json = {
+        {"frequency", gait.frequency}, {"amplitude", gait.amplitude}, {"phase", gait.phase}, {"power", gait.power}};
+    if (!gait.offset.empty()) json["offset"] = gait.offset;
+    return json;
+}
 
 json request_id(const json& value) {
     if (value.is_object() && value.contains("id") && value.at("id").is_number_unsigned()) return value.at("id");

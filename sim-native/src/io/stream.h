@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include "natator/live.h"
+#include "natator/sense.h"
 
 /// The protocol of `natator-sim stream`: commands in, messages out (sim-native/protocol/stream.md).
 namespace natator {
@@ -19,13 +21,29 @@ struct Credit {
 };
 struct Run {};
 struct Pause {};
+/// Actuator values, or changes of what the gait gives; a list that is left out leaves that part of it as it is.
+struct Steer {
+    std::optional<std::vector<double>> drive;  ///< then the others are not there
+    std::optional<std::vector<double>> scale, offset;
+};
 struct Step {
     int frames = 1;
+    std::optional<Steer> steer;              ///< before the first frame
+    std::vector<std::vector<double>> drive;  ///< for each frame; empty: as `steer` says
+    bool sense = false;                      ///< the answer has the senses at the end
+};
+struct Sense {
+    std::optional<std::vector<SkinPlace>> flow;
+    std::optional<double> within;
+    std::optional<std::optional<Eigen::Vector3d>> target;  ///< null takes it away
+    std::optional<bool> each;                              ///< a SENS with every frame that is sent
 };
 struct Rate {
     double value = 1;  ///< simulated seconds per second of wall time; 0 = as fast as possible
 };
-struct Reset {};
+struct Reset {
+    std::optional<int> start;
+};
 struct NewGait {
     Gait gait;
 };
@@ -67,7 +85,7 @@ struct FrameHead {
 }  // namespace stream
 
 using StreamCommand = std::variant<stream::Credit, stream::Run, stream::Pause, stream::Step, stream::Rate,
-                                   stream::Reset, stream::NewGait, stream::Overrides, stream::NewScene>;
+                                   stream::Reset, stream::NewGait, stream::Steer, stream::Sense, stream::Overrides, stream::NewScene>;
 
 /// Reads a command. Throws InputError naming the field, its value and what is allowed. Whether a gait or a scene can be
 /// used is for the simulation to see.
@@ -87,12 +105,18 @@ nlohmann::ordered_json stream_scene_change(const nlohmann::ordered_json& before,
 template <class Real>
 std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHead& head);
 
+/// What a swimmer senses, in SENS and in answers.
+template <class Real>
+nlohmann::ordered_json stream_senses(const LiveSimulation<Real>& simulation, const Sensing& sensing);
+
 /// The bodies of STOP: the time asked for is reached; the simulation has become unstable.
 nlohmann::ordered_json stream_stop();
 nlohmann::ordered_json stream_stop(const Instability& instability);
 
 extern template nlohmann::ordered_json stream_scene(const LiveSimulation<float>&, const stream::SceneHead&);
 extern template nlohmann::ordered_json stream_scene(const LiveSimulation<double>&, const stream::SceneHead&);
+extern template nlohmann::ordered_json stream_senses(const LiveSimulation<float>&, const Sensing&);
+extern template nlohmann::ordered_json stream_senses(const LiveSimulation<double>&, const Sensing&);
 extern template std::string stream_frame(LiveSimulation<float>&, const stream::FrameHead&);
 extern template std::string stream_frame(LiveSimulation<double>&, const stream::FrameHead&);
 

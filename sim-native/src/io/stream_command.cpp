@@ -31,6 +31,93 @@ stream::Rate read_rate(const json& value) {
     return rate;
 }
 
+std::vector<double> read_values(const json& value, const Place& at) {
+    if (!value.is_array()) fields::refuse(at, value, "an array of numbers, one per actuator");
+    std::vector<double> values;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        if (!value[i].is_number()) fields::refuse(at.item(i), value[i], "a number");
+        values.push_back(value[i].get<double>());
+    }
+    return values;
+}
+
+/// The keys `drive`, `scale` and `offset`.
+stream::Steer read_steer(const json& value) {
+    stream::Steer steer;
+    for (const auto& [key, list] : {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
+        if (value.contains(key)) *list = read_values(value.at(key), place.key(key));
+    if (steer.drive && (steer.scale || steer.offset))
+        fields::refuse(place.key("drive"), "must not be given together with scale or offset");
+    return steer;
+}
+
+/// A list of lists: what drives the actuators in each frame.
+bool is_for_each_frame(const json& value) {
+    return value.contains("drive") && value.at("drive").is_array() && !value.at("drive").empty() &&
+           value.at("drive")[0].is_array();
+}
+
+stream::Step read_step(const json& value) {
+    stream::Step step;
+    step.frames = read_frames(value, stream::longest_step);
+    if (value.contains("sense")) fields::read(value.at("sense"), place.key("sense"), {}, step.sense);
+    json other = value;
+    if (is_for_each_frame(value)) {
+        const json& rows = value.at("drive");
+        const std::string has = "has " + std::to_string(rows.size()) + " lists: must have ";
+        if (rows.size() > stream::longest_step)
+            fields::refuse(place.key("drive"), has + std::to_string(stream::longest_step) + " at most");
+        if (!value.contains("frames")) step.frames = static_cast<int>(rows.size());
+        if (rows.size() != static_cast<std::size_t>(step.frames))
+            fields::refuse(place.key("drive"), has + "one for each of the " + std::to_string(step.frames) + " frames");
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            step.drive.push_back(read_values(rows[k], place.key("drive").item(k)));
+        other.erase("drive");
+    }
+    if (other.contains("drive") || other.contains("scale") || other.contains("offset")) step.steer = read_steer(other);
+    if (step.steer && !step.drive.empty())
+        fields::refuse(place.key("drive"), "must not be given together with scale or offset");
+    return step;
+}
+
+SkinPlace read_skin_place(const json& value, const Place& at) {
+    using Side = SkinPlace::Side;
+    fields::check_keys(value, at, {"slice", "side"});
+    SkinPlace skin;
+    fields::read(fields::required(value, at, "slice"), at.key("slice"), {0, 1e9}, skin.slice);
+    skin.side = fields::read_choice<Side>(
+        fields::required(value, at, "side"), at.key("side"),
+        {{"left", Side::left}, {"right", Side::right}, {"above", Side::above}, {"below", Side::below}});
+    return skin;
+}
+
+stream::Sense read_sense(const json& value) {
+    stream::Sense sense;
+    if (value.contains("flow")) {
+        const json& places = value.at("flow");
+        if (!places.is_array()) fields::refuse(place.key("flow"), places, "an array of places of the skin");
+        sense.flow.emplace();
+        for (std::size_t i = 0; i < places.size(); ++i)
+            sense.flow->push_back(read_skin_place(places[i], place.key("flow").item(i)));
+    }
+    if (value.contains("within"))
+        fields::read(value.at("within"), place.key("within"), {0, 1000, false, "length"}, sense.within.emplace());
+    if (value.contains("target")) {
+        sense.target.emplace();
+        if (!value.at("target").is_null())
+            fields::read(value.at("target"), place.key("target"), {-1e6, 1e6, false, "length"}, sense.target->emplace());
+    }
+    if (value.contains("each")) fields::read(value.at("each"), place.key("each"), {}, sense.each.emplace());
+    return sense;
+}
+
+stream::Reset read_reset(const json& value) {
+    stream::Reset reset;
+    if (value.contains("start"))
+        fields::read(value.at("start"), place.key("start"), {0, 2147483647}, reset.start.emplace());
+    return reset;
+}
+
 json read_overrides(const json& value) {
     const json& overrides = fields::required(value, place, "overrides");
     if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
@@ -42,6 +129,8 @@ LiveSetup read_setup(const json& value) {
     fields::read(fields::required(value, place, "scene"), place.key("scene"), {}, setup.scene);
     if (value.contains("overrides")) setup.overrides = read_overrides(value).dump();
     if (value.contains("gait")) setup.gait = parse_gait(value.at("gait"), "gait");
+    if (value.contains("start"))
+        fields::read(value.at("start"), place.key("start"), {0, 2147483647}, setup.start.emplace());
     return setup;
 }
 
@@ -62,14 +151,17 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "credit") return only({"frames"}), stream::Credit{read_frames(value, stream::most_credit)};
     if (name == "run") return only({}), stream::Run{};
     if (name == "pause") return only({}), stream::Pause{};
-    if (name == "step") return only({"frames"}), stream::Step{read_frames(value, stream::longest_step)};
+    if (name == "step") return only({"frames", "drive", "scale", "offset", "sense"}), read_step(value);
+    if (name == "drive") return only({"drive"}), fields::required(value, place, "drive"), read_steer(value);
+    if (name == "steer") return only({"scale", "offset"}), read_steer(value);
+    if (name == "sense") return only({"flow", "within", "target", "each"}), read_sense(value);
     if (name == "rate") return only({"value"}), read_rate(value);
-    if (name == "reset") return only({}), stream::Reset{};
+    if (name == "reset") return only({"start"}), read_reset(value);
     if (name == "gait")
         return only({"gait"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait")};
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};
-    if (name == "scene") return only({"scene", "overrides", "gait"}), stream::NewScene{read_setup(value)};
-    fields::refuse(place.key("do"), name, "credit, run, pause, step, rate, reset, gait, overrides or scene");
+    if (name == "scene") return only({"scene", "overrides", "gait", "start"}), stream::NewScene{read_setup(value)};
+    fields::refuse(place.key("do"), name, "credit, run, pause, step, rate, reset, gait, drive, steer, sense, overrides or scene");
 }
 
 }  // namespace natator

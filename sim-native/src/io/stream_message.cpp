@@ -6,7 +6,7 @@
 #include "io/protocol.h"
 #include "io/stream.h"
 #include "io/strict_json.h"
-#include "natator/actuate.h"
+#include "model/skin_weights.h"
 #include "natator/instruction_set.h"
 #include "natator/measure.h"
 #include "natator/momentum.h"
@@ -59,10 +59,6 @@ private:
     std::string bytes_;
 };
 
-ordered_json gait_json(const Gait& gait) {
-    return {{"frequency", gait.frequency}, {"amplitude", gait.amplitude}, {"phase", gait.phase}, {"power", gait.power}};
-}
-
 ordered_json planes_json(const Model& model) {
     ordered_json planes = ordered_json::array();
     for (const Plane& plane : model.planes)
@@ -98,8 +94,9 @@ ordered_json clusters_json(const Model& model) {
     return clusters;
 }
 
-ordered_json muscles_json(const Model& model) {
+ordered_json muscles_json(const Scene& scene, const Model& model) {
     ordered_json muscles = ordered_json::array();
+    const std::vector<Actuator> actuators = scene.creature ? scene.creature->actuator_list() : std::vector<Actuator>{};
     for (const Muscle& muscle : model.muscles) {
         const Spring& spring = model.springs[muscle.spring];
         muscles.push_back({{"a", spring.a},
@@ -107,8 +104,45 @@ ordered_json muscles_json(const Model& model) {
                            {"actuator", muscle.actuator},
                            {"lateral", muscle.lateral},
                            {"restLength", spring.rest_length}});
+        if (actuators[static_cast<std::size_t>(muscle.actuator)].bend == Bend::vertical) muscles.back()["bend"] = "vertical";
     }
     return muscles;
+}
+
+/// [x, y, z] each.
+template <class Vectors>
+ordered_json triples_json(const Vectors& vectors) {
+    ordered_json triples = ordered_json::array();
+    for (const auto& v : vectors) triples.push_back({v[0], v[1], v[2]});
+    return triples;
+}
+
+/// The mesh that goes with the body; null without one.
+ordered_json skin_json(const Scene& scene, const Model& model) {
+    if (!scene.creature || !scene.creature->skin) return nullptr;
+    const Skin& skin = *scene.creature->skin;
+    ordered_json axes = ordered_json::array();
+    for (Eigen::Index i = 0; i < 3; ++i) axes.push_back({skin.axes(i, 0), skin.axes(i, 1), skin.axes(i, 2)});
+    const std::vector<SkinWeight> weights = skin_weights(*scene.creature, model);
+    ordered_json clusters = ordered_json::array(), shares = ordered_json::array(), rest = ordered_json::array();
+    for (const SkinWeight& weight : weights) {
+        clusters.push_back(weight.cluster);
+        shares.push_back(weight.share);
+    }
+    for (const int particle : model.body.particles) {
+        const Eigen::Vector3d at = model.position[particle] - scene.creature->rear_centre;
+        rest.push_back({at.x(), at.y(), at.z()});
+    }
+    return {{"file", skin.file},
+            {"digest", skin.digest},
+            {"unit", skin.unit},
+            {"axes", axes},
+            {"origin", {skin.origin.x(), skin.origin.y(), skin.origin.z()}},
+            {"vertices", triples_json(skin.vertices)},
+            {"triangles", triples_json(skin.triangles)},
+            {"cluster", clusters},
+            {"share", shares},
+            {"rest", rest}};
 }
 
 template <class Real>
@@ -137,6 +171,7 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     body["restarted"] = head.restarted;
     body["scene"] = setup.scene;
     body["overrides"] = overrides;
+    if (setup.start) body["start"] = *setup.start;
     body["gait"] = gait_json(simulation.gait());
     body["scheme"] = to_string(model.scheme);
     body["precision"] = to_string(precision_of<Real>);
@@ -157,7 +192,8 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     body["clusters"] = clusters_json(model);
     body["joints"] = scene.creature ? scene.creature->joints : std::vector<int>{};
     body["actuators"] = model.actuators;
-    body["muscles"] = muscles_json(model);
+    body["muscles"] = muscles_json(scene, model);
+    body["skin"] = skin_json(scene, model);
     return body;
 }
 
@@ -191,7 +227,7 @@ std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHe
     message.add_numbers(std::initializer_list<double>{errors.linear_momentum, errors.angular_momentum,
                                                       errors.density_error_mean, errors.density_error_max});
     message.add(std::uint32_t{0});
-    message.add_numbers(drive(model, simulation.gait(), state.time));
+    message.add_numbers(simulation.driven());
     if (head.fields.position) message.add_vectors(state.position);
     if (head.fields.velocity) message.add_vectors(state.velocity);
     if (head.fields.density) message.add_numbers(densities);

@@ -1,3 +1,4 @@
+#include "evaluate/perturb.h"
 #include "evaluate/settled_start.h"
 #include "io/strict_json.h"
 #include "merge_patches.h"
@@ -37,12 +38,34 @@ Model affordable(const Scene& scene) {
 /// A scene with all that is made of it. Stays where it is, for the solver refers to the model.
 template <class Real>
 struct LiveSimulation<Real>::Run {
-    Run(Scene of, const Execution& execution)
-        : scene(std::move(of)), model(affordable(scene)), solver(model, execution) {}
+    Run(Scene of, const Perturbation& by, const Execution& execution)
+        : scene(std::move(of)), perturbation(by), model(affordable(scene)), solver(model, execution) {
+        if (scene.moving_tank) follower.emplace(scene, model);
+    }
+
+    /// The start at rest; settled once. Sets `instability` if settling was unstable.
+    State<Real> begin(const SettledStateCache* starts, std::optional<Instability>& instability) {
+        if (settled) return *settled;
+        State<Real> state = perturbation.amplitude == 0
+                                ? settled_start(model, scene.settling, solver, starts, instability)
+                                : shifted_start(instability);
+        if (!instability) settled = state;
+        return state;
+    }
+
+    /// As in `evaluate` never from the cache: there are as many as seeds.
+    State<Real> shifted_start(std::optional<Instability>& instability) {
+        Model shifted = model;
+        perturb(perturbation, shifted);
+        return settled_start<Real>(shifted, scene.settling, solver, nullptr, instability);
+    }
 
     Scene scene;
+    Perturbation perturbation;
     Model model;
     Solver<Real> solver;
+    std::optional<TankFollower> follower;
+    std::optional<State<Real>> settled;
 };
 
 template <class Real>
@@ -66,7 +89,21 @@ void LiveSimulation<Real>::load(const LiveSetup& setup) {
 template <class Real>
 void LiveSimulation<Real>::set_gait(const Gait& gait) {
     check_gait(gait, model().actuators);
+    check_steering(steering_, gait, model().actuators);
+    check_steering(applied_, gait, model().actuators);
     setup_.gait = gait;
+}
+
+template <class Real>
+void LiveSimulation<Real>::steer(const Steering& steering) {
+    check_steering(steering, gait(), model().actuators);
+    steering_ = steering;
+}
+
+template <class Real>
+void LiveSimulation<Real>::drive(const std::vector<double>& values) {
+    check_drive(values, model().actuators);
+    steering_ = steering_of_drive(values);
 }
 
 template <class Real>
@@ -84,6 +121,8 @@ bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
             base_frame_ = frames_;
             base_time_ = state_.time;
         }
+        earlier_work_ += run_->solver.muscle_work();
+        if (run->follower) run->follower->stand_at(state_.origin);
         run_ = std::move(run);
         updated_ = false;
     } else {
@@ -99,14 +138,57 @@ void LiveSimulation<Real>::reset() {
 }
 
 template <class Real>
+void LiveSimulation<Real>::reset(int start_number) {
+    if (setup_.start == start_number) return reset();
+    LiveSetup next = setup_;
+    next.start = start_number;
+    start(make_run(next));
+    setup_ = std::move(next);
+}
+
+/// Of the frame that begins now.
+template <class Real>
+Drive LiveSimulation<Real>::next_drive() const {
+    const bool along = model().scheme != Scheme::flex;  // from one steering to the next; else at once
+    return [this, along, begin = state_.time, frame = model().time_step](double time) {
+        std::vector<double> driven = natator::drive(model(), gait(), time);
+        if (leaves_gait(steering_) && leaves_gait(applied_)) return driven;
+        const double part = along ? std::clamp((time - begin) / frame, 0.0, 1.0) : 1;
+        return natator::steer(applied_, steering_, part, std::move(driven));
+    };
+}
+
+template <class Real>
+std::vector<double> LiveSimulation<Real>::driven() const {
+    std::vector<double> driven = natator::drive(model(), gait(), state_.time);
+    return leaves_gait(applied_) ? driven : natator::steer(applied_, applied_, 1, std::move(driven));
+}
+
+template <class Real>
+double LiveSimulation<Real>::muscle_work() const {
+    return earlier_work_ + run_->solver.muscle_work();
+}
+
+template <class Real>
 bool LiveSimulation<Real>::frame() {
     if (instability_) return false;
-    instability_ = run_->solver.frame(state_, gait());
+    instability_ = run_->solver.frame(state_, next_drive());
     updated_ = true;
     if (instability_) return false;
+    applied_ = steering_;
     ++frames_;
     state_.time = base_time_ + (frames_ - base_frame_) * scene().time_step;  // free of summed rounding
+    if (run_->follower) follow(*run_->follower);
     return true;
+}
+
+/// As SwimRecord does it.
+template <class Real>
+void LiveSimulation<Real>::follow(TankFollower& follower) {
+    follower.drift(scene().time_step);
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const int particle : model().body.particles) centre += state_.position[particle].template cast<double>();
+    follower.follow(centre / static_cast<double>(model().body.particles.size()), state_);
 }
 
 template <class Real>
@@ -121,7 +203,7 @@ const Model& LiveSimulation<Real>::model() const {
 
 template <class Real>
 double LiveSimulation<Real>::distance() const {
-    return mean_x(model().body, state_) - start_x_;
+    return mean_x(model().body, state_) + state_.origin.x() - start_x_;
 }
 
 template <class Real>
@@ -131,21 +213,27 @@ std::vector<Real> LiveSimulation<Real>::densities() {
 
 template <class Real>
 std::unique_ptr<typename LiveSimulation<Real>::Run> LiveSimulation<Real>::make_run(const LiveSetup& setup) const {
-    return std::make_unique<Run>(load_scene(setup.scene, {setup.overrides, setup.data}), execution_);
+    Scene scene = load_scene(setup.scene, {setup.overrides, setup.data});
+    const Perturbation shift = setup.start ? choose_start(*setup.start, scene) : Perturbation{};
+    return std::make_unique<Run>(std::move(scene), shift, execution_);
 }
 
 template <class Real>
 void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
     Run& next = run ? *run : *run_;
     std::optional<Instability> instability;
-    State<Real> state = settled_start(next.model, next.scene.settling, next.solver, execution_.starts, instability);
+    State<Real> state = next.begin(execution_.starts, instability);
     if (run) run_ = std::move(run);
     state_ = std::move(state);
+    if (next.follower) next.follower->stand_at(state_.origin);
     instability_ = std::move(instability);
     updated_ = false;
     frames_ = base_frame_ = 0;
     base_time_ = 0;
     start_x_ = mean_x(model().body, state_);
+    earlier_work_ = 0;
+    run_->solver.clear_muscle_work();  // not subtracted: each start gives the same bits
+    steering_ = applied_ = no_steering(model().actuators);
 }
 
 template class LiveSimulation<float>;

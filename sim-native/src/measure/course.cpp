@@ -1,31 +1,33 @@
 #include "natator/course.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
+
+#include "natator/pose.h"
 
 namespace natator {
 
+static double forward_of(double along_x, double along_z, double yaw) {
+    return along_x * std::cos(yaw / 2) + along_z * std::sin(yaw / 2);
+}
+
 template <class Real>
-Course course_of(const Model& model, const State<Real>& end, double distance) {
-    const auto count = static_cast<Eigen::Index>(model.body.particles.size());
+Course course_of(const Model& model, const Body& body, const State<Real>& end, double distance) {
     Course course;
-    if (count < 3) return course;
-    Eigen::Matrix3Xd rest(3, count), now(3, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        rest.col(i) = model.position[model.body.particles[i]];
-        now.col(i) = end.position[model.body.particles[i]].template cast<double>();
+    if (body.particles.size() < 3) return course;
+    double rest = 0, now = 0;
+    const std::vector<Eigen::Vector3d> places = body_places(body, end);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        rest += model.position[body.particles[i]].z();
+        now += places[i].z();
     }
-    const Eigen::Matrix3d rotation = Eigen::umeyama(rest, now, false).template topLeftCorner<3, 3>();
-    const Eigen::Vector3d heading = rotation.col(0), back = rotation.col(1);
-    course.yaw = std::atan2(heading.z(), heading.x());
-    const Eigen::Vector3d right = heading.cross(Eigen::Vector3d::UnitY());  // +z of a body that heads along +x
-    if (right.norm() > 0) course.roll = std::atan2(back.dot(right.normalized()), back.dot(right.cross(heading).normalized()));
-    const double aside = now.row(2).mean() - rest.row(2).mean(), half = course.yaw / 2;
-    course.forward = distance * std::cos(half) + aside * std::sin(half);
+    const Pose pose = pose_of(model, body, places);
+    course.yaw = pose.yaw;
+    course.roll = pose.roll;
+    course.forward = forward_of(distance, (now - rest) / static_cast<double>(places.size()), pose.yaw);
     return course;
 }
 
-template Course course_of(const Model&, const State<float>&, double);
-template Course course_of(const Model&, const State<double>&, double);
+template Course course_of(const Model&, const Body&, const State<float>&, double);
+template Course course_of(const Model&, const Body&, const State<double>&, double);
 
 }  // namespace natator

@@ -1,5 +1,9 @@
 #include "body.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
 #include "cluster.h"
 
 namespace natator {
@@ -15,7 +19,7 @@ void add_slice(const Creature& creature, const BodyLayout& layout, int slice, Mo
     std::vector<int> members;
     for (int iy = 0; iy < shape.height; ++iy) {
         for (int iz = 0; iz < shape.row(iy); ++iz) {
-            const Eigen::Vector3d offset(0, iy - (shape.height - 1) / 2.0, iz - (shape.row(iy) - 1) / 2.0);
+            const Eigen::Vector3d offset(0, shape.y(iy) / 2.0, shape.z(iy, iz) / 2.0);
             members.push_back(layout.index(slice, iy, iz));
             model.position.push_back(centre + creature.spacing * offset);
             model.velocity.push_back(Eigen::Vector3d::Zero());
@@ -27,10 +31,32 @@ void add_slice(const Creature& creature, const BodyLayout& layout, int slice, Mo
     model.body.slices.push_back(std::move(members));
 }
 
-/// One cluster of the slices from `front` to `rear`, both included.
-Cluster cluster_of_slices(const Model& model, int front, int rear, double stiffness) {
-    std::vector<int> particles;
-    for (int slice = front; slice <= rear; ++slice)
+/// What a cluster takes of the slice that it begins with and shares: all of it, or the particles nearest the line about
+/// which the body bends there.
+std::vector<int> shared_particles(const Creature& creature, const Model& model, int slice) {
+    const std::vector<int>& members = model.body.slices[slice];
+    if (creature.joint == Joint::slice) return members;
+    const Slice& shape = creature.slices[slice];
+    const bool vertical = creature.bends_by(Bend::vertical);
+    const bool sideways = creature.bends_by(Bend::sideways) || !vertical;
+    const auto from_line = [&](int iy, int iz) {  // half spacings
+        return std::max(sideways ? std::abs(shape.z(iy, iz)) : 0, vertical ? std::abs(shape.y(iy) - shape.lift) : 0);
+    };
+    int nearest = std::numeric_limits<int>::max();
+    for (int iy = 0; iy < shape.height; ++iy)
+        for (int iz = 0; iz < shape.row(iy); ++iz) nearest = std::min(nearest, from_line(iy, iz));
+    std::vector<int> shared;
+    int member = 0;
+    for (int iy = 0; iy < shape.height; ++iy)
+        for (int iz = 0; iz < shape.row(iy); ++iz, ++member)
+            if (from_line(iy, iz) == nearest) shared.push_back(members[member]);
+    return shared;
+}
+
+/// One cluster of what it shares with the one before it, if anything, and the slices from `first` to `rear`, both included.
+Cluster cluster_of_slices(const Model& model, std::vector<int> shared, int first, int rear, double stiffness) {
+    std::vector<int> particles = std::move(shared);
+    for (int slice = first; slice <= rear; ++slice)
         particles.insert(particles.end(), model.body.slices[slice].begin(), model.body.slices[slice].end());
     return make_cluster(std::move(particles), model.position, stiffness);
 }
@@ -50,12 +76,16 @@ void add_body(const Creature& creature, const BodyLayout& layout, Model& model) 
     for (int slice = 0; slice <= last; ++slice) add_slice(creature, layout, slice, model);
     model.body.length = last * creature.spacing;
 
-    int front = 0, cluster = 0;
+    std::vector<int> shared;
+    int first = 0, cluster = 0;
     for (const int joint : creature.joints) {
-        model.clusters.push_back(cluster_of_slices(model, front, joint, creature.stiffness_of_cluster(cluster++)));
-        front = joint;
+        model.clusters.push_back(
+            cluster_of_slices(model, std::move(shared), first, joint, creature.stiffness_of_cluster(cluster++)));
+        shared = shared_particles(creature, model, joint);
+        first = joint + 1;
     }
-    model.clusters.push_back(cluster_of_slices(model, front, last, creature.stiffness_of_cluster(cluster)));
+    model.clusters.push_back(
+        cluster_of_slices(model, std::move(shared), first, last, creature.stiffness_of_cluster(cluster)));
 }
 
 }  // namespace natator

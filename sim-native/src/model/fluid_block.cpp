@@ -8,12 +8,12 @@ namespace {
 
 constexpr std::uint32_t fluid_phase = 0 | phase::self_collide | phase::fluid;  // group 0
 
-/// Which lattice points are too close to the body.
+/// Which lattice points are too close to what the model holds so far: bodies and obstacles.
 class Clearing {
 public:
     Clearing(const FluidBlock& block, const Model& model) : block_(block) {
         closed_.resize(static_cast<std::size_t>(block.count.x()) * block.count.y() * block.count.z());
-        for (const int particle : model.body.particles) close_around(model.position[particle]);
+        for (const Eigen::Vector3d& solid : model.position) close_around(solid);
     }
 
     bool closed(int x, int y, int z) const { return closed_[index(x, y, z)]; }

@@ -5,13 +5,16 @@
 #include <sstream>
 
 #include "body.h"
+#include "companions.h"
 #include "disorder_fluid.h"
 #include "fit_to_water.h"
 #include "fluid_block.h"
 #include "io/strict_json.h"
 #include "muscles.h"
+#include "natator/actuate.h"
 #include "natator/error.h"
 #include "natator/limits.h"
+#include "obstacles.h"
 #include "refine_body.h"
 
 namespace natator {
@@ -21,33 +24,39 @@ namespace {
     throw InputError("scene " + quoted(scene.name) + ": " + what);
 }
 
+std::int64_t particles_of(const Creature& creature) {
+    std::int64_t particles = 0;
+    for (const Slice& slice : creature.slices) particles += std::int64_t{slice.particles()} * creature.parts();
+    return particles;
+}
+
 /// Checked before anything is allocated.
 void check_size(const Scene& scene) {
-    std::int64_t particles = 0;
-    if (scene.creature) {
-        for (const Slice& slice : scene.creature->slices)
-            particles += std::int64_t{slice.particles()} * scene.creature->parts();
-    }
+    std::int64_t particles = scene.creature ? particles_of(*scene.creature) : 0;
+    for (const Companion& companion : scene.companions) particles += particles_of(companion.creature);
+    for (const Obstacle& obstacle : scene.obstacles) particles += most_particles(obstacle);
     if (scene.fluid) {
         const auto count = scene.fluid->count.cast<std::int64_t>();
         particles += count.x() * count.y() * count.z();
     }
-    const char* body = scene.creature && scene.creature->of_profile ? "creature.profile" : "creature.slices";
+    const char* body = !scene.creature             ? "creature.slices"
+                       : scene.creature->skin      ? "creature.mesh"
+                       : scene.creature->of_profile ? "creature.profile"
+                                                    : "creature.slices";
     const std::string found = std::to_string(particles) + " particles (fluid.count and " + body + " together)";
     if (particles == 0) refuse(scene, "0 particles: needs a creature or fluid");
     if (particles > limits::particles) refuse(scene, found + ": must be at most " + std::to_string(limits::particles));
 }
 
 /// Springs that the muscles may have, see muscles.h: those of the smaller slice of each actuator.
-void check_springs(const Scene& scene) {
-    const Creature& creature = *scene.creature;
+void check_springs(const Scene& scene, const Creature& creature, const std::string& place) {
     const std::vector<int>& ends = creature.muscle_ends();
     const auto size = [&](int slice) { return std::int64_t{creature.slices[slice].particles()}; };
     std::int64_t springs = 0;
-    for (int i = 0; i < creature.actuators(); ++i)
-        springs += std::min(size(ends[i]), size(ends[i + 1])) * creature.springs_per_particle * creature.parts();
+    for (const Actuator& one : creature.actuator_list())
+        springs += std::min(size(ends[one.gap]), size(ends[one.gap + 1])) * creature.springs_per_particle * creature.parts();
     if (springs > limits::springs)
-        refuse(scene, std::to_string(springs) + " springs (creature.slices, joints and springsPerParticle together): " +
+        refuse(scene, std::to_string(springs) + " springs (" + place + ".slices, joints and springsPerParticle together): " +
                           "must be at most " + std::to_string(limits::springs));
 }
 
@@ -63,21 +72,36 @@ void check_clearance(const Scene& scene, int body_particles) {
                           nlohmann::json(limits::clearance_points).dump());
 }
 
-void check_muscles(const Scene& scene, const Model& model) {
+void check_muscles(const Scene& scene, const Creature& creature, const std::string& place, const Model& model) {
     std::vector<int> count(static_cast<std::size_t>(model.actuators));
     for (const Muscle& muscle : model.muscles) ++count[muscle.actuator];
+    const std::vector<Actuator> actuators = creature.actuator_list();
     for (int i = 0; i < model.actuators; ++i) {
         if (count[i] > 0) continue;
-        const std::vector<int>& ends = scene.creature->muscle_ends();
+        const auto [gap, bend] = actuators[static_cast<std::size_t>(i)];
+        const std::vector<int>& ends = creature.muscle_ends();
+        const bool by_part = creature.of_profile || creature.skin;  // joints are given in parts of the length
         std::ostringstream text;
-        text << (!scene.creature->muscle_slices.empty() ? "creature.muscleSlices["
-                 : scene.creature->of_profile           ? "creature.profile.joints["
-                                                        : "creature.joints[")
-             << i << "], [" << i + 1 << "] = " << (scene.creature->of_profile ? "slices " : "") << ends[i] << ", "
-             << ends[i + 1] << ": no muscle fits between these slices (actuator " << i
-             << "); both must be at least 2 wide and the slices between them not thinner";
+        text << place << (!creature.muscle_slices.empty() ? ".muscleSlices["
+                 : creature.skin                 ? ".mesh.joints["
+                 : creature.of_profile           ? ".profile.joints["
+                                                 : ".joints[")
+             << gap << "], [" << gap + 1 << "] = " << (by_part ? "slices " : "") << ends[gap] << ", " << ends[gap + 1]
+             << ": no muscle " << (bend == Bend::vertical ? "that bends up and down " : "")
+             << "fits between these slices (actuator " << i << "); both must be at least 2 "
+             << (bend == Bend::vertical ? "high" : "wide") << " and the slices between them not thinner";
         refuse(scene, text.str());
     }
+}
+
+/// What sets where a particle begins.
+std::string place_of(const Model& model, int particle) {
+    if (model.is_fluid(particle)) return "fluid.origin";
+    if (particle < static_cast<int>(model.body.particles.size())) return "creature.rearCentre";
+    for (std::size_t k = 0; k < model.companions.size(); ++k)
+        if (particle <= model.companions[k].body.particles.back())
+            return "companions[" + std::to_string(k) + "].creature.rearCentre";
+    return "obstacles";
 }
 
 void check_inside_tank(const Scene& scene, const Model& model) {
@@ -87,7 +111,7 @@ void check_inside_tank(const Scene& scene, const Model& model) {
             if (distance >= 0) continue;
             const Eigen::Vector3d& p = model.position[i];
             std::ostringstream text;
-            text << (model.is_fluid(i) ? "fluid.origin" : "creature.rearCentre") << ": particle at (" << p.x() << ", "
+            text << place_of(model, i) << ": particle at (" << p.x() << ", "
                  << p.y() << ", " << p.z() << ") is outside the tank, " << -distance << " beyond planes[" << k
                  << "]; must be inside all planes";
             refuse(scene, text.str());
@@ -95,23 +119,47 @@ void check_inside_tank(const Scene& scene, const Model& model) {
     }
 }
 
-}  // namespace
-
-Model build_model(const Scene& scene) {
-    check_size(scene);
+/// A creature alone: its particles, clusters and muscles.
+Model model_of(const Scene& scene, const Creature& creature, const std::string& place) {
+    check_springs(scene, creature, place);
     Model model;
     model.scheme = scene.scheme;
     model.parameters = scene.solver;
     model.time_step = scene.time_step;
     model.planes = scene.planes;
+    const BodyLayout layout(creature);
+    add_body(creature, layout, model);
+    add_muscles(creature, layout, model);
+    check_muscles(scene, creature, place, model);
+    refine_body(creature, model);
+    return model;
+}
+
+}  // namespace
+
+Model build_model(const Scene& scene) {
+    check_size(scene);
+    Model model;
     if (scene.creature) {
-        check_springs(scene);
-        const BodyLayout layout(*scene.creature);
-        add_body(*scene.creature, layout, model);
-        add_muscles(*scene.creature, layout, model);
-        check_muscles(scene, model);
-        refine_body(*scene.creature, model);
+        model = model_of(scene, *scene.creature, "creature");
+    } else {
+        model.scheme = scene.scheme;
+        model.parameters = scene.solver;
+        model.time_step = scene.time_step;
+        model.planes = scene.planes;
     }
+    for (std::size_t k = 0; k < scene.companions.size(); ++k) {
+        const Companion& companion = scene.companions[k];
+        const std::string place = "companions[" + std::to_string(k) + "]";
+        try {
+            check_gait(companion.gait, companion.creature.actuators());
+        } catch (const InputError& error) {
+            refuse(scene, place + "." + error.what());
+        }
+        add_companion(model_of(scene, companion.creature, place + ".creature"), companion.gait, model);
+    }
+    check_apart(scene, model);
+    for (const Obstacle& obstacle : scene.obstacles) add_obstacle(obstacle, model);
     if (scene.fluid) {
         check_clearance(scene, model.particles());
         add_fluid(*scene.fluid, model);

@@ -32,18 +32,23 @@ std::vector<T> repeated(const std::vector<T>& values, int times) {
     return all;
 }
 
-/// Half the width of each particle's slice, length.
-std::vector<double> half_widths(const Creature& creature, const Model& model) {
-    std::vector<double> widths(model.position.size());
-    for (std::size_t slice = 0; slice < model.body.slices.size(); ++slice)
+/// Half the width, or the height, of each particle's slice, length.
+std::vector<double> half_extents(const Creature& creature, const Model& model, Bend bend) {
+    std::vector<double> extents(model.position.size());
+    for (std::size_t slice = 0; slice < model.body.slices.size(); ++slice) {
+        const Slice& shape = creature.slices[slice];
         for (const int particle : model.body.slices[slice])
-            widths[particle] = creature.spacing * (creature.slices[slice].width - 1) / 2;
-    return widths;
+            extents[particle] = creature.spacing * ((bend == Bend::sideways ? shape.width : shape.height) - 1) / 2;
+    }
+    return extents;
 }
 
 /// Springs stay sorted by actuator and front particle: those of one front particle are divided together. Every spring of
 /// a body is a muscle's, in the same order.
-void divide_muscles(const std::vector<Eigen::Vector3d>& places, const std::vector<double>& half_width, Model& model) {
+void divide_muscles(const Creature& creature, const std::vector<Eigen::Vector3d>& places, Model& model) {
+    const std::vector<Actuator> actuators = creature.actuator_list();
+    const std::vector<double> half_widths = half_extents(creature, model, Bend::sideways);
+    const std::vector<double> half_heights = half_extents(creature, model, Bend::vertical);
     const std::vector<Spring> springs = std::move(model.springs);
     const std::vector<Muscle> muscles = std::move(model.muscles);
     model.springs.clear();
@@ -57,8 +62,10 @@ void divide_muscles(const std::vector<Eigen::Vector3d>& places, const std::vecto
         for (int part = 0; part < parts; ++part)
             for (std::size_t k = first; k < last; ++k) {
                 const Spring& whole = springs[muscles[k].spring];
-                const double z = places[part].z();
-                const double lateral = muscles[k].lateral + (z / half_width[whole.a] + z / half_width[whole.b]) / 2;
+                const bool sideways = actuators[static_cast<std::size_t>(muscles[k].actuator)].bend == Bend::sideways;
+                const std::vector<double>& half = sideways ? half_widths : half_heights;
+                const double z = sideways ? places[part].z() : places[part].y();
+                const double lateral = muscles[k].lateral + (z / half[whole.a] + z / half[whole.b]) / 2;
                 model.muscles.push_back({static_cast<int>(model.springs.size()), muscles[k].actuator, lateral});
                 model.springs.push_back(
                     {whole.a * parts + part, whole.b * parts + part, whole.rest_length, whole.stiffness});
@@ -72,7 +79,7 @@ void refine_body(const Creature& creature, Model& model) {
     if (creature.refinement == 1) return;
     const std::vector<Eigen::Vector3d> places = places_of_parts(creature);
     const int parts = creature.parts();
-    divide_muscles(places, half_widths(creature, model), model);
+    divide_muscles(creature, places, model);
 
     const std::vector<Eigen::Vector3d> whole = std::move(model.position);
     model.position.clear();

@@ -12,7 +12,7 @@ namespace natator {
 /// - slices and clusters: those of the particles that a fine one belongs to;
 /// - muscles: a spring becomes n^3, which join the fine particles in the same place of its two ends, so that all have its
 ///   rest length. Its relative change of length goes on linearly across the body: lateral (Muscle) counts from the middle
-///   in half widths of the described slice, and is beyond 1 for the outermost. So the curvature that the muscles ask for
+///   in half widths (bending up and down: half heights) of the described slice, and is beyond 1 for the outermost. So the curvature that the muscles ask for
 ///   is the same.
 /// Stiffnesses are relative to masses (physics::softness), so the springs of a muscle, and a cluster, are together as stiff as
 /// they were; the stiffness of bending follows the second moments of the particles' places, which on the finer lattice are

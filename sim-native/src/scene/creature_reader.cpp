@@ -94,19 +94,42 @@ void read_slices_and_joints(const json& value, const Place& place, Creature& cre
                                      "slice index, ascending, neither first nor last slice");
 }
 
+/// Ways to bend: one word for all gaps between muscle slices, or one for each.
+std::vector<std::vector<Bend>> read_bends(const json& value, const Place& place, int gaps) {
+    const std::vector<std::pair<std::string_view, std::vector<Bend>>> words = {
+        {"sideways", {Bend::sideways}}, {"vertical", {Bend::vertical}}, {"both", {Bend::sideways, Bend::vertical}}};
+    const auto count = static_cast<std::size_t>(gaps);
+    if (!value.is_array()) return std::vector<std::vector<Bend>>(count, read_choice(value, place, words));
+    if (value.size() != count)
+        refuse(place, value,
+               "one word, or one for each of the " + std::to_string(gaps) + " gaps between neighbouring muscle slices");
+    std::vector<std::vector<Bend>> bends;
+    for (std::size_t i = 0; i < count; ++i) bends.push_back(read_choice(value[i], place.item(i), words));
+    return bends;
+}
+
+/// Slices and joints, by the one of three keys that makes them.
+void read_shape(const json& value, const Place& place, const std::filesystem::path& data, Creature& creature) {
+    const char* const maker = value.contains("mesh") ? "mesh" : value.contains("profile") ? "profile" : nullptr;
+    if (!maker) return read_slices_and_joints(value, place, creature);
+    for (const char* key : {"slices", "joints", "profile"})
+        if (key != std::string_view(maker) && value.contains(key))
+            refuse(place.key(key), value.at(key), std::string("left out beside ") + maker + ", which makes them");
+    if (maker == std::string_view("mesh"))
+        read_mesh_body(value.at("mesh"), place.key("mesh"), data, creature);
+    else
+        read_profile(value.at("profile"), place.key("profile"), creature);
+}
+
 }  // namespace
 
-Creature read_creature(const json& value, const Place& place) {
+Creature read_creature(const json& value, const Place& place, const std::filesystem::path& data) {
     Creature creature;
     read_object(value, place, creature_fields(),
-                {"slices", "joints", "muscleSlices", "profile", "clusterStiffness", "springStiffness"}, creature);
-    if (value.contains("profile")) {
-        for (const char* key : {"slices", "joints"})
-            if (value.contains(key)) refuse(place.key(key), value.at(key), "left out beside profile, which makes them");
-        read_profile(value.at("profile"), place.key("profile"), creature);
-    } else {
-        read_slices_and_joints(value, place, creature);
-    }
+                {"slices", "joints", "muscleSlices", "profile", "mesh", "joint", "bend", "clusterStiffness",
+                 "springStiffness"},
+                creature);
+    read_shape(value, place, data, creature);
     const auto last = static_cast<int>(creature.slices.size()) - 1;
     if (value.contains("muscleSlices")) {
         creature.muscle_slices =
@@ -114,6 +137,10 @@ Creature read_creature(const json& value, const Place& place) {
         if (creature.muscle_slices.size() == 1)
             refuse(place.key("muscleSlices"), value.at("muscleSlices"), "two slices or more, or left out");
     }
+    if (value.contains("joint"))
+        creature.joint = read_choice<Joint>(value.at("joint"), place.key("joint"),
+                                            {{"slice", Joint::slice}, {"line", Joint::line}});
+    if (value.contains("bend")) creature.bends = read_bends(value.at("bend"), place.key("bend"), creature.gaps());
     std::vector<int> ends = creature.joints;
     ends.insert(ends.begin(), 0);
     ends.push_back(last);

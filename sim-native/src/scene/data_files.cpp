@@ -65,6 +65,12 @@ nlohmann::json read_data_file(const std::string& kind, const std::string& name, 
                      ", or a path ending in .json");
 }
 
+fs::path mesh_path(const std::string& file, const fs::path& data) {
+    std::error_code failed;
+    const fs::path bundled = folder_of("creatures", data) / file;
+    return file.find('/') == std::string::npos && fs::exists(bundled, failed) ? bundled : fs::path(file);
+}
+
 std::vector<std::string> data_file_names(const std::string& kind, const fs::path& data) {
     std::vector<std::string> names;
     std::error_code failed;

@@ -15,6 +15,9 @@ namespace natator {
 /// naming those there are.
 nlohmann::json read_data_file(const std::string& kind, const std::string& name, const std::filesystem::path& data = {});
 
+/// Where a mesh's file is: beside the creatures if it is a plain name and there, else at this path.
+std::filesystem::path mesh_path(const std::string& file, const std::filesystem::path& data = {});
+
 /// All names of one kind, sorted.
 std::vector<std::string> data_file_names(const std::string& kind, const std::filesystem::path& data = {});
 

@@ -2,6 +2,7 @@
 #include "field.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
+#include "readers.h"
 #include "scene_json.h"
 
 namespace natator {
@@ -29,12 +30,31 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     return merged;
 }
 
+/// A mesh that a creature's file names is beside that file, whatever the working directory.
+void place_mesh(json& creature, const std::string& name) {
+    if (!name.ends_with(".json") || !creature.contains("mesh")) return;
+    json& mesh = creature.at("mesh");
+    if (!mesh.is_object() || !mesh.contains("file") || !mesh.at("file").is_string()) return;
+    const std::filesystem::path file = mesh.at("file").get<std::string>(), folder = std::filesystem::path(name).parent_path();
+    if (file.is_relative()) mesh["file"] = ((folder.empty() ? "." : folder) / file).string();
+}
+
+/// Of unit and length a mesh has one: what the scene gives takes the place of what the file has.
+void replace_scale(json& of_file, const json& of_scene) {
+    for (const json* creature : {static_cast<const json*>(&of_file), &of_scene})
+        if (!creature->contains("mesh") || !creature->at("mesh").is_object()) return;
+    for (const auto& [given, other] : {std::pair{"unit", "length"}, std::pair{"length", "unit"}})
+        if (of_scene.at("mesh").contains(given) && !of_scene.at("mesh").contains(other)) of_file["mesh"].erase(other);
+}
+
 /// Merges a scene's `creature` onto the creature file that its `name` names, unless it brings its own `slices`, or a
-/// `profile` and no name. A `profile` takes the place of the slices that the file may have.
-void resolve_creature(json& scene, const Place& place, const std::filesystem::path& data) {
-    if (!scene.contains("creature") || !scene.at("creature").is_object()) return;
-    json& creature = scene.at("creature");
-    if (creature.contains("slices") || (creature.contains("profile") && !creature.contains("name"))) return;
+/// `profile` or `mesh` and no name. Each of these takes the place of the others that the file may have.
+/// `holder`: the scene, or one of its companions.
+void resolve_creature(json& holder, const Place& place, const std::filesystem::path& data) {
+    if (!holder.contains("creature") || !holder.at("creature").is_object()) return;
+    json& creature = holder.at("creature");
+    const bool shaped = creature.contains("profile") || creature.contains("mesh");
+    if (creature.contains("slices") || (shaped && !creature.contains("name"))) return;
     const json name = fields::required(creature, place, "name");
     if (!name.is_string()) fields::refuse(place.key("name"), name, "the name of a creature");
     json merged;
@@ -44,10 +64,23 @@ void resolve_creature(json& scene, const Place& place, const std::filesystem::pa
         fields::refuse(place.key("name"), error.what());
     }
     if (!merged.is_object()) fields::refuse(place.key("name"), merged, "the name of a file that holds an object");
-    if (creature.contains("profile") && !merged.contains("profile"))
-        for (const char* key : {"slices", "joints", "muscleSlices"}) merged.erase(key);
+    place_mesh(merged, name.get<std::string>());
+    for (const char* kind : {"profile", "mesh"}) {
+        if (!creature.contains(kind) || merged.contains(kind)) continue;
+        for (const char* key : {"slices", "joints", "muscleSlices", "profile", "mesh"}) merged.erase(key);
+    }
+    replace_scale(merged, creature);
     merged.merge_patch(creature);
     creature = std::move(merged);
+}
+
+/// Adds what tells the file of a mesh from others, so that a definition says all that a simulation depends on.
+void add_mesh_digest(json& scene, const Place& place, const std::filesystem::path& data) {
+    if (!scene.contains("creature") || !scene.at("creature").is_object() || !scene.at("creature").contains("mesh")) return;
+    json& mesh = scene.at("creature").at("mesh");
+    if (!mesh.is_object() || mesh.contains("digest") || !mesh.contains("file") || !mesh.at("file").is_string()) return;
+    mesh["digest"] =
+        fields::mesh_digest(mesh.at("file").get<std::string>(), place.key("mesh").key("file"), data);
 }
 
 }  // namespace
@@ -58,11 +91,21 @@ json scene_definition(const std::string& name, const json& overrides, const std:
     json document = with_bases(name, data, 0);
     document.merge_patch(overrides);
     resolve_creature(document, place.key("creature"), data);
+    add_mesh_digest(document, place.key("creature"), data);
+    if (document.contains("companions") && document.at("companions").is_array()) {
+        json& companions = document.at("companions");
+        for (std::size_t k = 0; k < companions.size(); ++k) {
+            if (!companions[k].is_object()) continue;
+            const Place at = place.key("companions").item(k).key("creature");
+            resolve_creature(companions[k], at, data);
+            add_mesh_digest(companions[k], at, data);
+        }
+    }
     return document;
 }
 
 Scene load_scene(const std::string& name, const json& overrides, const std::filesystem::path& data) {
-    return scene_from_json(scene_definition(name, overrides, data), name);
+    return scene_from_json(scene_definition(name, overrides, data), name, data);
 }
 
 Scene load_scene(const std::string& name, const SceneOptions& options) {

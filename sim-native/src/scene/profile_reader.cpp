@@ -99,16 +99,17 @@ std::vector<Slice> read_sections(const json& value, const Place& place, const La
     return slices;
 }
 
-/// The slices that hold the given parts of the length.
-std::vector<int> read_joints(const json& value, const Place& place, const Lattice& lattice) {
+}  // namespace
+
+std::vector<int> read_joint_parts(const json& value, const Place& place, int slices) {
     if (!value.is_array()) refuse(place, value, "an array of parts of the length");
     std::vector<int> joints;
     for (std::size_t i = 0; i < value.size(); ++i) {
         double part = 0;
         read(value[i], place.item(i), {0, 1, false, "part of the length"}, part);
-        const int slice = std::min(static_cast<int>(part * lattice.slices + on_border), lattice.slices - 1);
-        if (joints.empty() ? slice > 0 && slice < lattice.slices - 1
-                           : slice > joints.back() && slice < lattice.slices - 1) {
+        const int slice = std::min(static_cast<int>(part * slices + on_border), slices - 1);
+        if (joints.empty() ? slice > 0 && slice < slices - 1
+                           : slice > joints.back() && slice < slices - 1) {
             joints.push_back(slice);
             continue;
         }
@@ -118,20 +119,18 @@ std::vector<int> read_joints(const json& value, const Place& place, const Lattic
             text << "the first";
         else
             text << "slice " << joints.back() << ", that of the joint before";
-        text << ", and not in the last; it is in slice " << slice << " of " << lattice.slices << ", numbered from 0";
+        text << ", and not in the last; it is in slice " << slice << " of " << slices << ", numbered from 0";
         refuse(place.item(i), value[i], text.str());
     }
     return joints;
 }
-
-}  // namespace
 
 void read_profile(const json& value, const Place& place, Creature& creature) {
     check_keys(value, place, {"length", "height", "width", "fin", "joints"});
     const Lattice lattice = read_lattice(value, place, creature.spacing);
     creature.of_profile = true;
     creature.slices = read_sections(value, place, lattice);
-    creature.joints = read_joints(required(value, place, "joints"), place.key("joints"), lattice);
+    creature.joints = read_joint_parts(required(value, place, "joints"), place.key("joints"), lattice.slices);
 }
 
 }  // namespace natator::fields

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "field.h"
 #include "natator/scene.h"
 
@@ -8,9 +10,24 @@ namespace natator::fields {
 
 SolverParameters read_solver(const json& value, const Place& place);
 FluidBlock read_fluid(const json& value, const Place& place);
-Creature read_creature(const json& value, const Place& place);
+/// `data` as in SceneOptions.
+Creature read_creature(const json& value, const Place& place, const std::filesystem::path& data);
+std::vector<Companion> read_companions(const json& value, const Place& place,
+                                       const std::filesystem::path& data);
+std::vector<Obstacle> read_obstacles(const json& value, const Place& place);
+MovingTank read_moving_tank(const json& value, const Place& place);
+std::vector<Goal> read_goals(const json& value, const Place& place);
 
 /// Gives a creature whose spacing is known the slices and joints of a profile.
 void read_profile(const json& value, const Place& place, Creature& creature);
+
+/// Gives a creature whose spacing is known the slices, the joints and the skin of a mesh.
+void read_mesh_body(const json& value, const Place& place, const std::filesystem::path& data, Creature& creature);
+
+/// What tells a mesh's file from others: 16 hexadecimal digits.
+std::string mesh_digest(const std::string& file, const Place& place, const std::filesystem::path& data);
+
+/// The slices that hold the given parts of a body's length.
+std::vector<int> read_joint_parts(const json& value, const Place& place, int slices);
 
 }  // namespace natator::fields

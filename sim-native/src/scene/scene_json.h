@@ -18,6 +18,6 @@ nlohmann::json scene_definition(const std::string& name, const nlohmann::json& o
                                 const std::filesystem::path& data = {});
 
 /// Validates a scene given as JSON; `name` is used in messages. A `base` is not resolved here.
-Scene scene_from_json(const nlohmann::json& document, const std::string& name);
+Scene scene_from_json(const nlohmann::json& document, const std::string& name, const std::filesystem::path& data = {});
 
 }  // namespace natator

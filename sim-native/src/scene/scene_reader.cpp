@@ -113,12 +113,14 @@ void check_water(const Scene& scene, const Place& place) {
 
 }  // namespace
 
-Scene scene_from_json(const json& document, const std::string& name) {
+Scene scene_from_json(const json& document, const std::string& name, const std::filesystem::path& data) {
     const Place place{"scene " + quoted(name), ""};
     Scene scene;
     scene.name = name;
     fields::read_object(document, place, scene_fields(),
-                        {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping"}, scene);
+                        {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping", "movingTank", "goals",
+                         "companions", "obstacles"},
+                        scene);
     if (document.contains("scheme")) {
         scene.scheme = fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"),
                                                    {{"flex", Scheme::flex}, {"conserving", Scheme::conserving}});
@@ -127,7 +129,7 @@ Scene scene_from_json(const json& document, const std::string& name) {
     if (document.contains("planes")) scene.planes = read_planes(document.at("planes"), place.key("planes"));
     if (has(document, "fluid")) scene.fluid = fields::read_fluid(document.at("fluid"), place.key("fluid"));
     if (has(document, "creature")) {
-        scene.creature = fields::read_creature(document.at("creature"), place.key("creature"));
+        scene.creature = fields::read_creature(document.at("creature"), place.key("creature"), data);
     }
     if (document.contains("settling")) {
         fields::read_object(document.at("settling"), place.key("settling"), settling_fields(), {}, scene.settling);
@@ -135,6 +137,13 @@ Scene scene_from_json(const json& document, const std::string& name) {
     if (document.contains("stopping")) {
         fields::read_object(document.at("stopping"), place.key("stopping"), stopping_fields(), {}, scene.stopping);
     }
+    if (document.contains("companions"))
+        scene.companions = fields::read_companions(document.at("companions"), place.key("companions"), data);
+    if (document.contains("obstacles"))
+        scene.obstacles = fields::read_obstacles(document.at("obstacles"), place.key("obstacles"));
+    if (has(document, "movingTank"))
+        scene.moving_tank = fields::read_moving_tank(document.at("movingTank"), place.key("movingTank"));
+    if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));
     check_frames(scene, place);
     check_water(scene, place);
     return scene;

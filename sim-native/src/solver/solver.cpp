@@ -90,19 +90,22 @@ public:
     }
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
-                                      const Gait* gait) {
+                                      const Drive* drive) {
         if (model_.particles() == 0) return std::nullopt;
-        return std::visit([&](auto& stages) { return run(*stages, state, time_step, substeps, observer, gait); },
+        return std::visit([&](auto& stages) { return run(*stages, state, time_step, substeps, observer, drive); },
                           stages_);
     }
 
-    std::optional<Instability> frame(State<Real>& state, const Gait& gait) {
+    std::optional<Instability> frame(State<Real>& state, const Drive& drive) {
         const bool per_substep = model_.scheme != Scheme::flex;
-        if (!per_substep) actuate(model_, gait, state.time, state);
-        return update(state, model_.time_step, model_.parameters.substeps, nullptr, per_substep ? &gait : nullptr);
+        if (!per_substep) actuate(model_, drive(state.time), state.time, state);
+        return update(state, model_.time_step, model_.parameters.substeps, nullptr, per_substep ? &drive : nullptr);
     }
 
+    const Model& model() const { return model_; }
+
     double muscle_work() const { return muscle_work_; }
+    void clear_muscle_work() { muscle_work_ = 0; }
 
     std::vector<Real> densities() {
         return std::visit([](auto& stages) { return stages->densities(); }, stages_);
@@ -136,18 +139,18 @@ private:
         return true;
     }
 
-    /// `gait`: sets the muscles for the end of each substep; null leaves them as they are.
+    /// `drive`: sets the muscles for the end of each substep; null leaves them as they are.
     template <class Stages>
     std::optional<Instability> run(Stages& stages, State<Real>& state, double time_step, int substeps,
-                                   StepObserver<Real>* observer, const Gait* gait) {
+                                   StepObserver<Real>* observer, const Drive* drive) {
         const Real h = static_cast<Real>(time_step) / static_cast<Real>(substeps);
         const double start = state.time;
         stages.clear_forces();
         for (int k = 0; k < substeps; ++k) {
             const double end = start + time_step * (k + 1) / substeps;
-            if (gait) {
+            if (drive) {
                 rest_lengths_before_ = state.spring_rest_length;
-                actuate(model_, *gait, end, state);
+                actuate(model_, (*drive)(end), end, state);
             }
             stages.begin_substep(state, h);
             const bool finite = observer             ? advance(stages, ObserverHook<Real, Stages>{*observer, stages})
@@ -155,7 +158,7 @@ private:
                                                      : advance(stages, NoHook{});
             if (!finite) return locate_instability(stages, model_, state.time);
             state.time = end;
-            if (gait) muscle_work_ += stages.spring_work(rest_lengths_before_);
+            if (drive) muscle_work_ += stages.spring_work(rest_lengths_before_);
             if (observer) observer->substep_ended(state.velocity);
         }
         return std::nullopt;
@@ -186,12 +189,23 @@ std::optional<Instability> Solver<Real>::update(State<Real>& state, double time_
 
 template <class Real>
 std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Gait& gait) {
-    return implementation_->frame(state, gait);
+    const Model& model = implementation_->model();
+    return implementation_->frame(state, [&](double time) { return natator::drive(model, gait, time); });
+}
+
+template <class Real>
+std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& drive) {
+    return implementation_->frame(state, drive);
 }
 
 template <class Real>
 double Solver<Real>::muscle_work() const {
     return implementation_->muscle_work();
+}
+
+template <class Real>
+void Solver<Real>::clear_muscle_work() {
+    implementation_->clear_muscle_work();
 }
 
 template <class Real>

@@ -20,6 +20,7 @@ struct GaitView {
     const double* power = nullptr;
     const double* amplitude = nullptr;  ///< [state * actuators + actuator]
     const double* phase = nullptr;
+    const double* offset = nullptr;     ///< likewise; null = 0
 };
 
 /// What the blocks of a launch work on: `updates` updates of each of `states` States.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -116,14 +117,19 @@ private:
 
     std::vector<Evaluation> run(const std::vector<BatchMember>& members, const DeviceStates<Real>& states,
                                 const std::vector<Progress>& settled) {
-        std::vector<double> frequency, power, amplitude, phase;
+        std::vector<double> frequency, power, amplitude, phase, offset;
+        const bool steers = std::any_of(members.begin(), members.end(), [](const auto& m) { return !m.gait.offset.empty(); });
         for (const BatchMember& member : members) {
             frequency.push_back(member.gait.frequency);
             power.push_back(member.gait.power);
             amplitude.insert(amplitude.end(), member.gait.amplitude.begin(), member.gait.amplitude.end());
             phase.insert(phase.end(), member.gait.phase.begin(), member.gait.phase.end());
+            std::vector<double> own = member.gait.offset;
+            if (steers) own.resize(member.gait.amplitude.size(), 0);
+            offset.insert(offset.end(), own.begin(), own.end());
         }
-        const DeviceBuffer<double> frequencies(frequency), powers(power), amplitudes(amplitude), phases(phase);
+        const DeviceBuffer<double> frequencies(frequency), powers(power), amplitudes(amplitude), phases(phase),
+            offsets(offset);
         const ModelView<Real>& view = runner_.model().view();
         DeviceBuffer<Real> density(static_cast<std::size_t>(states.count()) * view.fluid);
         density.clear();
@@ -133,7 +139,8 @@ private:
         BatchView<Real> batch = runner_.view_of(states, frames);
         batch.time_step = scene_.time_step;
         batch.substeps = model_.parameters.substeps;
-        batch.gait = {frequencies.data(), powers.data(), amplitudes.data(), phases.data()};
+        batch.gait = {frequencies.data(), powers.data(), amplitudes.data(), phases.data(),
+                      steers ? offsets.data() : nullptr};
         batch.density = density.data();
         batch.stop_at_planes = scene_.stopping.plane_contact;
         batch.no_progress_frames =
@@ -189,7 +196,7 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     const bool in_double = options.precision == Precision::double_precision;
-    if (options.whole_gpu || model.scheme != Scheme::flex || model.particles() > cuda::most_particles_of_a_block)
+    if (options.whole_gpu || !scene.goals.empty() || !scene.companions.empty() || model.scheme != Scheme::flex || model.particles() > cuda::most_particles_of_a_block)
         return in_double ? cuda::evaluate_large<double>(scene, model, members, options.times)
                          : cuda::evaluate_large<float>(scene, model, members, options.times);
     if (in_double) {

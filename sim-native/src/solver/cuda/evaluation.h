@@ -34,9 +34,10 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
         if (model.inverse_mass[particle_of[number]] > 0) density[particle_of[number]] = densities[number];
     evaluation.errors = conservation_errors(model, end, density);
     if (gait && !tail.empty())
-        evaluation.swimming = swimming_numbers(model, *gait, evaluation.distance, evaluation.simulated, tail);
+        evaluation.swimming = swimming_numbers(model, *gait, scene.through_water(evaluation.distance, evaluation.simulated),
+                                                evaluation.simulated, tail);
     if (has_muscle_work(model)) evaluation.work = progress.muscle_work;
-    if (!model.body.particles.empty()) evaluation.course = course_of(model, end, evaluation.distance);
+    if (!model.body.particles.empty()) evaluation.course = course_of(model, model.body, end, evaluation.distance);
     return evaluation;
 }
 

@@ -115,12 +115,14 @@ private:
         const auto row = [](double value) { return std::vector<double>{value}; };
         using Numbers = cuda::DeviceBuffer<double>;
         const Numbers frequency(row(gait ? gait->frequency : 0)), power(row(gait ? gait->power : 1)),
-            amplitude(gait ? gait->amplitude : row(0)), phase(gait ? gait->phase : row(0));
+            amplitude(gait ? gait->amplitude : row(0)), phase(gait ? gait->phase : row(0)),
+            offset(gait ? gait->offset : std::vector<double>{});
         cuda::BatchView<Real> batch = runner_.view_of(states_, 1);
         batch.start_time = state.time;
         batch.time_step = time_step;
         batch.substeps = substeps;
-        if (gait) batch.gait = {frequency.data(), power.data(), amplitude.data(), phase.data()};
+        if (gait) batch.gait = {frequency.data(), power.data(), amplitude.data(), phase.data(),
+                               gait->offset.empty() ? nullptr : offset.data()};
         cuda::DeviceBuffer<Real> density(view.fluid);
         cuda::DeviceBuffer<int> neighbours(view.particles);
         batch.density = density.data();
@@ -192,7 +194,7 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     cuda::choose_device(options.device);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
-    const bool small = model.particles() <= cuda::most_particles_of_a_block;
+    const bool small = model.particles() <= cuda::most_particles_of_a_block && model.companions.empty();
     if (path == GpuPath::by_size)
         path = model.scheme == Scheme::flex && small ? GpuPath::block : GpuPath::whole_gpu;
     if (path == GpuPath::block && model.scheme != Scheme::flex)

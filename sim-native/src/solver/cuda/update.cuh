@@ -29,7 +29,8 @@ __device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int 
         const int a = state * model.actuators + muscle.actuator;
         const double activation =
             physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
-        const double drive = gait.amplitude[a] * activation;
+        double drive = gait.amplitude[a] * activation;
+        if (gait.offset) drive += gait.offset[a];
         block.rest_length()[muscle.spring] =
             static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }

@@ -6,10 +6,11 @@
 #include <map>
 #include <tuple>
 
+#include "evaluate/companions.h"
 #include "evaluate/perturb.h"
+#include "evaluate/swim_record.h"
 #include "large_runner.h"
 #include "natator/model_builder.h"
-#include "physics/early_stop.h"
 #include "solver/cuda/evaluation.h"
 
 namespace natator::cuda {
@@ -62,13 +63,12 @@ public:
         typename Runner::Update update{0, scene_.time_step, company_.model.parameters.substeps, {}, false};
         for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
         runner_.prepare(update);
-        path_.assign(runner_.states(), {});
-        tail_.assign(runner_.states(), {});
+        records_.clear();
+        for (int k = 0; k < runner_.states(); ++k) records_.emplace_back(scene_, company_.model);
         const std::vector<typename Runner::Place> begin = runner_.places();
-        for (int k = 0; k < runner_.states(); ++k) {
-            path_[k].push_back(begin[k].mean_x);
-            tail_[k].push_back(begin[k].tail_z);
-        }
+        const std::vector<Quad<Real>> bodies = places_of_bodies();
+        for (int k = 0; k < runner_.states(); ++k)
+            records_[k].start({begin[k].mean_x, begin[k].tail_z, false, body_of(bodies, k)});
         const HostClock watch;
         const auto frames = static_cast<int>(std::lround(scene_.duration / scene_.time_step));
         for (int frame = 0; frame < frames && let_rest(count); ++frame) {
@@ -80,11 +80,17 @@ public:
         const std::size_t fluid = runner_.model().view().fluid;
         for (int k = 0; k < count; ++k) {
             const auto own = densities.begin() + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : k * fluid);
+            const SwimRecord& record = records_[k];
+            State<Real> end = runner_.download(k, initial_state<Real>(company_.model));
+            end.origin = record.origin();
             evaluations.push_back(evaluation_of(
                 scene_, company_.model, runner_.model().particle_of(), progress_[k],
-                settled[k].stopped >= 0 ? nullptr : &members[k].gait, path_[k].data(), tail_[k],
-                runner_.download(k, initial_state<Real>(company_.model)),
+                settled[k].stopped >= 0 ? nullptr : &members[k].gait, record.path().data(), record.tail(), end,
                 std::vector<Real>(own, own + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : fluid))));
+            if (evaluations.back().instability) continue;
+            evaluations.back().companions =
+                companion_results(scene_, company_.model, settled_.at(start_of(members[k], scene_)).first, end);
+            record.tell(evaluations.back());
         }
     }
 
@@ -156,20 +162,36 @@ private:
     }
 
     void note(const std::vector<typename Runner::End>& ends, const typename Runner::Update& update) {
-        const bool swims = !company_.model.body.particles.empty();
-        const long window = swims ? std::lround(scene_.stopping.no_progress_after / scene_.time_step) : 0;
+        const std::vector<Quad<Real>> bodies = places_of_bodies();
         for (int k = 0; k < runner_.states(); ++k) {
             Progress& progress = progress_[k];
             if (idle_[k] || note_instability(ends[k], update, progress)) continue;
-            path_[k].push_back(ends[k].mean_x);
-            tail_[k].push_back(ends[k].tail_z);
             progress.muscle_work += ends[k].muscle_work;
             ++progress.frames;
-            if (scene_.stopping.plane_contact && ends[k].touches_plane)
-                progress.stopped = static_cast<int>(StopReason::touched_plane);
-            else if (physics::without_progress(path_[k].data(), progress.frames, window))
-                progress.stopped = static_cast<int>(StopReason::no_progress);
+            SwimRecord& record = records_[k];
+            const auto over = record.add({ends[k].mean_x, ends[k].tail_z, ends[k].touches_plane, body_of(bodies, k)});
+            if (over) progress.stopped = static_cast<int>(*over);
+            if (record.tank_is_due()) move_tank(k);
         }
+    }
+
+    /// Once for every step that a swimmer gets on; its State goes to the host and back.
+    void move_tank(int k) {
+        State<Real> state = runner_.download(k, runner_.muscles(k));
+        records_[k].move_tank(state);
+        runner_.upload(k, state);
+    }
+
+    std::vector<Quad<Real>> places_of_bodies() const {
+        return records_.front().needs_body() ? runner_.body_places() : std::vector<Quad<Real>>{};
+    }
+
+    Points body_of(const std::vector<Quad<Real>>& bodies, int k) const {
+        Points body;
+        if (bodies.empty()) return body;
+        const std::size_t count = company_.model.body.particles.size();
+        for (std::size_t b = k * count; b < (k + 1) * count; ++b) body.emplace_back(bodies[b].x, bodies[b].y, bodies[b].z);
+        return body;
     }
 
     static bool note_instability(const typename Runner::End& end, const typename Runner::Update& update,
@@ -186,7 +208,7 @@ private:
     BatchTimes* times_;
     Runner runner_;
     std::vector<Progress> progress_;
-    std::vector<std::vector<double>> path_, tail_;  ///< mean x of the body, mean z of its last slice
+    std::vector<SwimRecord> records_;
     std::vector<bool> idle_;
     std::map<Start, std::pair<State<Real>, Progress>> settled_;
 };

@@ -385,6 +385,14 @@ std::vector<typename LargeRunner<Real>::Place> LargeRunner<Real>::places() {
 }
 
 template <class Real>
+std::vector<Quad<Real>> LargeRunner<Real>::body_places() const {
+    const DeviceBuffer<Quad<Real>> places(std::size_t(base_.states) * base_.model.body);
+    launch_body_places(base_, places.data());
+    wait();
+    return places.download();
+}
+
+template <class Real>
 std::vector<Real> LargeRunner<Real>::densities() const {
     if (!base_.model.plan.fluid && !base_.model.plan.water) return {};
     const DeviceBuffer<Real> densities(std::size_t(base_.states) * base_.model.fluid);

@@ -57,11 +57,19 @@ public:
     /// one by one then, as for a trace, which is of the first State.
     std::vector<End> run(const Update& update, StageProfile* profile = nullptr, const Trace<Real>& trace = {});
 
+    /// A State of the model with the spring rest lengths of State k, and nothing else of it.
+    State<Real> muscles(int k) const {
+        State<Real> like = initial_state<Real>(host_model_);
+        like.spring_rest_length = muscles_[k].spring_rest_length;
+        return like;
+    }
     /// Of the bodies as they are: mean x, and mean z of the last slice.
     struct Place {
         double mean_x = 0, tail_z = 0;
     };
     std::vector<Place> places();
+    /// Places of the body's particles, in the order of Body::particles, one State after the other.
+    std::vector<Quad<Real>> body_places() const;
     /// As the last substep left them, by State and device number.
     std::vector<Real> densities() const;
     std::vector<int> neighbour_counts() const;

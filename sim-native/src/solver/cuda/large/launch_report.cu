@@ -31,6 +31,12 @@ __device__ void pressure_impulses_large(const ModelView<Real>& model, const Slot
 }
 
 template <class Real>
+__device__ void body_places_large(const ModelView<Real>& model, const Slots<Real>& slots, int b, Quad<Real>* places) {
+    places += static_cast<std::size_t>(blockIdx.y) * model.body;
+    places[b] = slots.position()[slots.slot_of_solid()[model.body_particle[b]]];
+}
+
+template <class Real>
 __device__ void measure_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     measure_path(model, slots, &slots.shared().mean_x);
     measure_tail(model, slots, &slots.shared().tail_z);
@@ -112,6 +118,11 @@ void launch_pressure_impulses(const LargeLaunch<Real>& launch, Real* impulses) {
 }
 
 template <class Real>
+void launch_body_places(const LargeLaunch<Real>& launch, Quad<Real>* places) {
+    at_the_end(launch).template report_slots<body_places_large<Real>>(launch.model.body, places);
+}
+
+template <class Real>
 void launch_measure(const LargeLaunch<Real>& launch) {
     at_the_end(launch).template report_states<measure_large<Real>, threads>();
 }
@@ -140,6 +151,7 @@ void launch_far_slot(const LargeLaunch<Real>& launch) {
     template void launch_densities(const LargeLaunch<Real>&, Real*);            \
     template void launch_neighbour_counts(const LargeLaunch<Real>&, int*);      \
     template void launch_pressure_impulses(const LargeLaunch<Real>&, Real*);    \
+    template void launch_body_places(const LargeLaunch<Real>&, Quad<Real>*);    \
     template void launch_measure(const LargeLaunch<Real>&);                     \
     template void launch_work(const LargeLaunch<Real>&);                        \
     template void launch_rest(const LargeLaunch<Real>&);                        \

@@ -24,7 +24,7 @@ final class ExecutionOptions {
 
     @Option(names = "--simulator-command", paramLabel = "COMMAND", description = "A command line that starts a program "
             + "like natator-sim serve, say \"ssh host natator-sim serve\". Several, each with its own option, share the "
-            + "evaluations; --workers says how many at once over all of them. They must have this machine's "
+            + "evaluations; the workers are those of all of them together. They must have this machine's "
             + "instruction set, or all the same NATATOR_ISA. Default: the native program here.")
     private List<String> commands = List.of();
 

@@ -12,8 +12,9 @@ import picocli.CommandLine.ParameterException;
 @Section(Topic.SCENE)
 final class SceneChoice {
 
-    @Option(names = "--creature", paramLabel = "1..4", description = "Creature of the thesis. Default: 1.")
-    private Integer creature;
+    @Option(names = "--creature", paramLabel = "1..4|NAME", description = "Creature of the thesis, or another bundled body "
+            + "in open water: eel, ray, tadpole, tuna. Default: 1.")
+    private String creature;
 
     @Option(names = "--scene", paramLabel = "NAME|FILE", description = "Default: thesis/creature-N; of evolve the preset's.")
     private String scene;
@@ -23,7 +24,7 @@ final class SceneChoice {
         return creature != null || scene != null;
     }
 
-    /** Whether a scene is the one that was named, or a numbered creature's as any preset has it; any if none was given. */
+    /** Whether a scene is the one that was named, or the chosen creature's as any preset has it; any if none was given. */
     boolean admits(String other) {
         return scene != null ? SceneOptions.scene(scene).equals(other)
                 : creature == null || Arrays.stream(Preset.values()).anyMatch(one -> one.sceneOf(creature).equals(other));
@@ -39,9 +40,10 @@ final class SceneChoice {
         if (creature != null && scene != null) {
             throw new ParameterException(command.commandLine(), "--creature and --scene exclude each other");
         }
-        if (creature != null && (creature < 1 || creature > 4)) {
-            throw new InvalidInputException("--creature is " + creature + "; expected 1, 2, 3 or 4");
+        if (creature != null && !Preset.isCreature(creature)) {
+            throw new InvalidInputException("--creature is " + creature
+                    + "; expected 1, 2, 3 or 4, or the name of a bundled body such as eel");
         }
-        return scene != null ? SceneOptions.scene(scene) : preset.sceneOf(creature != null ? creature : 1);
+        return scene != null ? SceneOptions.scene(scene) : preset.sceneOf(creature != null ? creature : "1");
     }
 }

@@ -27,11 +27,12 @@ import java.util.function.Function;
  * @param work      of the muscles, mean, in mass times length squared by seconds squared; null where no run has it
  * @param costOfTransport mean work by mean distance, in mass times length by seconds squared; null without work, and for
  *                  what does not come forwards
+ * @param goals     score by the scene's goals; null where it has none
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SwimSample(int substeps, int runs, double completed, Map<String, Integer> stopped, Spread distance,
         Spread speed, Spread bodyLengths, Spread perBeat, Double reynolds, Double strouhal, Double work,
-        Double costOfTransport) {
+        Double costOfTransport, Spread goals) {
 
     /**
      * Of these results, at least one.
@@ -50,7 +51,9 @@ public record SwimSample(int substeps, int runs, double completed, Map<String, I
         return new SwimSample(substeps, results.size(), stopped.getOrDefault("completed", 0) / (double) results.size(),
                 stopped, distance, speed, lengths, lengths == null ? null : lengths.times(1 / gait.frequency()),
                 meanNumber(results, SwimmingNumbers::reynolds), meanNumber(results, SwimmingNumbers::strouhal), work,
-                work == null || distance.mean() <= 0 ? null : work / distance.mean());
+                work == null || distance.mean() <= 0 ? null : work / distance.mean(),
+                results.stream().allMatch(one -> one.goals() == null) ? null
+                        : Spread.of(results.stream().map(SimulationResult::goalScore).toList()));
     }
 
     private static Double meanNumber(List<SimulationResult> results, Function<SwimmingNumbers, Double> number) {

@@ -4,6 +4,7 @@ import com.fasterxml.jackson.annotation.JsonProperty;
 import io.natator.encoding.DenseEncoding;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.SparseEncoding;
+import io.natator.encoding.SteeredEncoding;
 
 /** How genes stand for a gait. */
 public enum EncodingKind {
@@ -12,7 +13,13 @@ public enum EncodingKind {
     DENSE,
     /** Frequency, first and last amplitude, phase difference. */
     @JsonProperty("sparse")
-    SPARSE;
+    SPARSE,
+    /** The dense genes and an offset to one side. */
+    @JsonProperty("dense-steered")
+    DENSE_STEERED,
+    /** The sparse genes and an offset to one side. */
+    @JsonProperty("sparse-steered")
+    SPARSE_STEERED;
 
     /**
      * The encoding of this kind for a creature.
@@ -21,11 +28,22 @@ public enum EncodingKind {
      * @throws IllegalArgumentException if there are too few for this kind
      */
     public Encoding forActuators(int actuators) {
-        return this == DENSE ? new DenseEncoding(actuators) : new SparseEncoding(actuators);
+        return switch (this) {
+            case DENSE -> new DenseEncoding(actuators);
+            case SPARSE -> new SparseEncoding(actuators);
+            case DENSE_STEERED -> new SteeredEncoding(new DenseEncoding(actuators));
+            case SPARSE_STEERED -> new SteeredEncoding(new SparseEncoding(actuators));
+        };
     }
 
-    /** The encoding that the thesis used for a creature (2.7), by the scene's name: sparse for creature 2, else dense. */
+    /**
+     * The encoding that the thesis used for a creature (2.7), by the scene's name: sparse for creature 2, else dense. Scenes
+     * whose goals are to one side have an offset too.
+     */
     public static EncodingKind usualFor(String scene) {
+        if (scene.startsWith("goals/")) {
+            return SPARSE_STEERED;
+        }
         return scene.matches("[a-z-]+/creature-2(-vacuum)?") ? SPARSE : DENSE;
     }
 }

@@ -21,5 +21,8 @@ public enum Objective {
     WORK,
     /** Distance by work: one by the cost of transport, so that what stays where it is has none. */
     @JsonProperty("efficiency")
-    EFFICIENCY
+    EFFICIENCY,
+    /** The weighted sum of the scores of the scene's own goals. */
+    @JsonProperty("goals")
+    GOALS
 }

@@ -6,20 +6,22 @@ public enum Preset {
      * Some 90 evaluations of 2 s in a small pool of water in which only swimming pays: some two minutes on two cores.
      * Each gait swims once, or it would take four times as long; only the winner is run from fresh starts.
      */
-    QUICK(16, 3, "pool", 2.0, 1),
+    QUICK(16, 3, "pool", "pool", 2.0, 1),
     /** The thesis' size (2.6): some 22 500 gaits in its tank, as the scene has it (scheme flex, 4 s), four runs each. */
-    THESIS(150, 100, "thesis", null, 4);
+    THESIS(150, 100, "thesis", "open-water", null, 4);
 
     private final int population;
     private final int generations;
     private final String scenes;
+    private final String otherScenes;
     private final Double duration;
     private final int starts;
 
-    Preset(int population, int generations, String scenes, Double duration, int starts) {
+    Preset(int population, int generations, String scenes, String otherScenes, Double duration, int starts) {
         this.population = population;
         this.generations = generations;
         this.scenes = scenes;
+        this.otherScenes = otherScenes;
         this.duration = duration;
         this.starts = starts;
     }
@@ -34,9 +36,21 @@ public enum Preset {
         return generations;
     }
 
-    /** Name of the scene of a creature, 1 to 4. */
-    public String sceneOf(int creature) {
-        return scenes + "/creature-" + creature;
+    /** Whether a word can be a creature: 1 to 4, or the name of another body. */
+    public static boolean isCreature(String creature) {
+        return creature.matches("[1-4]|[a-z][a-z0-9-]*");
+    }
+
+    /**
+     * Name of the scene of a creature: 1 to 4 are the thesis'; others, which its tank does not know, are in open water.
+     *
+     * @param creature for example {@code 2} or {@code eel}
+     */
+    public String sceneOf(String creature) {
+        if (creature.matches("[1-4]")) {
+            return scenes + "/creature-" + creature;
+        }
+        return (creature.matches("creature-[1-4]") ? scenes : otherScenes) + "/" + creature;
     }
 
     /** Simulated time of an evaluation in seconds, or null for the scene's own. */

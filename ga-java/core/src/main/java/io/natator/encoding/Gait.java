@@ -13,14 +13,16 @@ import java.util.Objects;
  * @param amplitude a per actuator, the head's first, without unit; evolution stays within [0, 1]
  * @param phase     φ per actuator in the same order, in periods, within [0, 1]
  * @param power     p of thesis 4.2 within [0.5, 4], or null for the plain sine
+ * @param offset    what drives the muscles beside the beat, per actuator, above 0 to the left; null for none
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record Gait(double frequency, List<Double> amplitude, List<Double> phase, Double power) {
+public record Gait(double frequency, List<Double> amplitude, List<Double> phase, Double power,
+        List<Double> offset) {
 
     /**
      * Copies the lists.
      *
-     * @throws IllegalArgumentException if there are not as many phases as amplitudes
+     * @throws IllegalArgumentException if there are not as many phases as amplitudes, or offsets but not as many
      */
     public Gait {
         Objects.requireNonNull(amplitude, "amplitude");
@@ -29,8 +31,18 @@ public record Gait(double frequency, List<Double> amplitude, List<Double> phase,
             throw new IllegalArgumentException("gait has " + amplitude.size() + " amplitudes and " + phase.size()
                     + " phases; expected as many of both");
         }
+        if (offset != null && offset.size() != amplitude.size()) {
+            throw new IllegalArgumentException("gait has " + amplitude.size() + " amplitudes and " + offset.size()
+                    + " offsets; expected as many of both, or no offsets");
+        }
+        offset = offset == null ? null : List.copyOf(offset);
         amplitude = List.copyOf(amplitude);
         phase = List.copyOf(phase);
+    }
+
+    /** A gait that goes straight on. */
+    public Gait(double frequency, List<Double> amplitude, List<Double> phase, Double power) {
+        this(frequency, amplitude, phase, power, null);
     }
 
     /** A gait that follows the plain sine. */
@@ -43,9 +55,18 @@ public record Gait(double frequency, List<Double> amplitude, List<Double> phase,
         return new Gait(frequency, Collections.nCopies(actuators(), 0.0), phase, power);
     }
 
-    /** Left and right exchanged: all muscles half a period later, which is the mirror image of a plain sine. */
+    /**
+     * Left and right exchanged: all muscles half a period later, which is the mirror image of a plain sine, and offsets to
+     * the other side.
+     */
     public Gait mirrored() {
-        return new Gait(frequency, amplitude, phase.stream().map(one -> one < 0.5 ? one + 0.5 : one - 0.5).toList(), power);
+        return new Gait(frequency, amplitude, phase.stream().map(one -> one < 0.5 ? one + 0.5 : one - 0.5).toList(), power,
+                offset == null ? null : offset.stream().map(one -> -one).toList());
+    }
+
+    /** This gait with all actuators driven so far to one side beside their beat. */
+    public Gait steered(double toOneSide) {
+        return new Gait(frequency, amplitude, phase, power, Collections.nCopies(actuators(), toOneSide));
     }
 
     /** Number of actuators that this gait drives. */

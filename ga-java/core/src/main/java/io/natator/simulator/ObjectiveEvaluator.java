@@ -55,7 +55,15 @@ public final class ObjectiveEvaluator implements Evaluator {
             case STRAIGHT -> -Math.abs(known(result.course(), objective, result).yaw()) - Math.abs(result.course().roll());
             case WORK -> -known(result.work(), objective, result);
             case EFFICIENCY -> known(result.work(), objective, result) > 0 ? result.distance() / result.work() : 0;
+            case GOALS -> goals(result);
         };
+    }
+
+    private static double goals(SimulationResult result) {
+        if (result.goals() == null) {
+            throw new InvalidInputException("objective goals: the scene has none; expected a scene with goals, such as goals/turn");
+        }
+        return result.goalScore();
     }
 
     private static <T> T known(T figure, Objective objective, SimulationResult result) {

@@ -25,6 +25,7 @@ import java.util.List;
  * @param swimming  dimensionless numbers of the swim, or null: not of every scene, nor of every program
  * @param work      mechanical work of the muscles, in mass times length squared by seconds squared, or null likewise
  * @param course    where it went by its own heading, or null: not of every program
+ * @param goals     what became of the scene's goals, or null where it has none
  * @param vacuumDrift with fitness net: signed distance of the same gait in vacuum in the same time; else null. Never
  *                  said by the simulator itself
  * @param objectives what it is worth by each of the run's objectives, or null where it has none
@@ -35,11 +36,12 @@ import java.util.List;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
         Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
-        SwimmingNumbers swimming, Double work, Course course, Double vacuumDrift, List<Double> objectives, Double worth,
+        SwimmingNumbers swimming, Double work, Course course, List<GoalScore> goals, Double vacuumDrift, List<Double> objectives, Double worth,
         Effort effort) {
 
-    /** Copies the list. */
+    /** Copies the lists. */
     public SimulationResult {
+        goals = goals == null ? null : List.copyOf(goals);
         objectives = objectives == null ? null : List.copyOf(objectives);
     }
 
@@ -47,7 +49,7 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     public SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated, Integer frames,
             String scheme, String precision, String hash, Instability unstable, String error, SwimmingNumbers swimming,
             Double work, Double vacuumDrift) {
-        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, swimming, work, null,
+        this(id, status, distance, stopped, simulated, frames, scheme, precision, hash, unstable, error, swimming, work, null, null,
                 vacuumDrift, null, null, null);
     }
 
@@ -92,25 +94,25 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** This result under another id. */
     public SimulationResult withId(long newId) {
         return new SimulationResult(newId, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, vacuumDrift, objectives, worth, effort);
+                unstable, error, swimming, work, course, goals, vacuumDrift, objectives, worth, effort);
     }
 
     /** This result with what the same gait drifts in vacuum. */
     public SimulationResult withVacuumDrift(double drift) {
         return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, drift, objectives, worth, effort);
+                unstable, error, swimming, work, course, goals, drift, objectives, worth, effort);
     }
 
     /** This result with what it is worth. */
     public SimulationResult withWorth(List<Double> byObjective, double together) {
         return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, vacuumDrift, byObjective, together, effort);
+                unstable, error, swimming, work, course, goals, vacuumDrift, byObjective, together, effort);
     }
 
     /** This result with what the swim took. */
     public SimulationResult withEffort(Effort taken) {
         return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, vacuumDrift, objectives, worth, taken);
+                unstable, error, swimming, work, course, goals, vacuumDrift, objectives, worth, taken);
     }
 
     /** The signed distance swum, or 0 where there is none because the evaluation was unstable or failed. */
@@ -119,10 +121,16 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     }
 
     /**
-     * What is to be great: the worth by the run's objectives if it has any, else {@link #netDistance()}.
+     * What is to be great: the worth by the run's objectives if it has any, else by the scene's goals if that has any, else
+     * {@link #netDistance()}.
      */
     public double score() {
-        return worth != null ? worth : netDistance();
+        return worth != null ? worth : goals != null ? goalScore() : netDistance();
+    }
+
+    /** The weighted sum of the scores of the scene's goals; 0 without any. */
+    public double goalScore() {
+        return goals == null ? 0 : goals.stream().mapToDouble(goal -> goal.weight() * goal.score()).sum();
     }
 
     /**

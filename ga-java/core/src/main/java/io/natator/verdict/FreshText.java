@@ -32,6 +32,11 @@ public final class FreshText {
             lines.put("half step", spread(half.distance(), 4) + " at half the time step; " + ends(half)
                     + (half.bodyLengths() == null ? "" : "; " + spread(half.bodyLengths(), 3) + " body lengths/s"));
         }
+        if (base.goals() != null) {
+            SwimSample half = fresh.halfStep();
+            lines.put("goals", "score " + spread(base.goals(), 4) + (half == null || half.goals() == null ? ""
+                    : "; " + spread(half.goals(), 4) + " at half the time step"));
+        }
         lines.put("speed", spread(base.speed(), 4) + " units/s" + (base.bodyLengths() == null ? ""
                 : ", " + spread(base.bodyLengths(), 3) + " body lengths/s, " + spread(base.perBeat(), 3) + " per beat"));
         lines.put("selected", Numbers.fixed(fresh.selected(), 4) + " by " + (fresh.selectedRuns() == 1 ? "one run"

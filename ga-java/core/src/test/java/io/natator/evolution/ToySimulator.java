@@ -25,7 +25,7 @@ public final class ToySimulator implements Simulator {
                 : distance(request.gait()) + luck(request.gait(), request.start());
         return new SimulationResult(request.id(), SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex",
                 "float", "0123456789abcdef", null, null, null, work(request.gait()), new Course(distance, 0.1, -0.2), null, null,
-                null, null);
+                null, null, null);
     }
 
     /** Best at f = 1.2, a = 0.6, φ = 0.3; negative far from there. */

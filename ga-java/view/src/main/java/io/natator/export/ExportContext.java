@@ -31,6 +31,11 @@ record ExportContext(StreamScene scene, ParticleSet shown, ParticleSet water, Pa
         return water != null && water.size() > 0;
     }
 
+    /** Whether the body comes with the mesh that it was made of. */
+    boolean hasSkin() {
+        return scene.skin() != null;
+    }
+
     boolean hasVelocity() {
         return scene.has(StreamField.VELOCITY);
     }

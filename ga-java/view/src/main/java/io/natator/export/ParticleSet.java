@@ -116,6 +116,15 @@ final class ParticleSet {
         }
     }
 
+    /** The values of these particles, out of those of all. */
+    float[] values(float[] all, int components) {
+        float[] values = new float[index.length * components];
+        for (int i = 0; i < index.length; i++) {
+            System.arraycopy(all, index[i] * components, values, i * components, components);
+        }
+        return values;
+    }
+
     /** The values of these particles in a buffer of their own. */
     ByteBuffer floats(float[] values, int components) {
         ByteBuffer out = LittleEndian.buffer((long) size() * components * Float.BYTES);

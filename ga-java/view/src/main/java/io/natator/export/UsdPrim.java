@@ -13,7 +13,7 @@ final class UsdPrim implements Closeable {
 
     private final String type;
     private final String name;
-    private final ParticleSet particles;
+    private final Points points;
     private final Path folder;
     private final float margin;
     private final StringBuilder fixed = new StringBuilder();
@@ -30,21 +30,27 @@ final class UsdPrim implements Closeable {
         void add(UsdSamples samples, StreamFrame frame) throws IOException;
     }
 
+    /** Where its points are in a frame: x, y, z each. */
+    @FunctionalInterface
+    interface Points {
+        float[] of(StreamFrame frame);
+    }
+
     /**
-     * A prim at these particles.
+     * A prim at these points.
      *
      * @param folder where values wait
      * @param type   its schema, for example {@code Points}
      * @param width  of what is drawn at a point, length
      */
-    UsdPrim(Path folder, String type, String name, ParticleSet particles, double width) throws IOException {
+    UsdPrim(Path folder, String type, String name, Points points, double width) throws IOException {
         this.folder = folder;
         this.type = type;
         this.name = name;
-        this.particles = particles;
+        this.points = points;
         this.margin = (float) (width / 2);
         this.extent = new UsdSamples(folder.resolve(name + "-extent"), "float3[] extent");
-        sample("point3f[] points", (samples, frame) -> samples.add(frame.frame(), particles, frame.position(), 3));
+        sample("point3f[] points", (samples, frame) -> samples.add(frame.frame(), points.of(frame), 3));
     }
 
     /** An attribute with a value at every time. */
@@ -58,19 +64,19 @@ final class UsdPrim implements Closeable {
     }
 
     void frame(StreamFrame frame) throws IOException {
-        extent.add(frame.frame(), extentOf(frame.position()), 3);
+        extent.add(frame.frame(), extentOf(points.of(frame)), 3);
         for (Sampled one : sampled) {
             one.source.add(one.samples, frame);
         }
     }
 
-    private float[] extentOf(float[] position) {
+    private float[] extentOf(float[] places) {
         float[] corners = new float[6];
         for (int axis = 0; axis < 3; axis++) {
             float low = Float.POSITIVE_INFINITY;
             float high = Float.NEGATIVE_INFINITY;
-            for (int i = 0; i < particles.size(); i++) {
-                float value = position[3 * particles.index(i) + axis];
+            for (int i = axis; i < places.length; i += 3) {
+                float value = places[i];
                 low = Math.min(low, value);
                 high = Math.max(high, value);
             }

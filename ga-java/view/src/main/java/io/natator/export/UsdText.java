@@ -42,8 +42,12 @@ final class UsdText {
 
     /** A colour for each particle's cluster. */
     static String colours(ParticleSet particles) {
-        return IntStream.range(0, particles.size())
-                .mapToObj(i -> PALETTE[Math.max(0, particles.cluster(i)) % PALETTE.length])
+        return colours(IntStream.range(0, particles.size()).map(particles::cluster).toArray());
+    }
+
+    /** A colour for each of these clusters. */
+    static String colours(int[] clusters) {
+        return IntStream.of(clusters).mapToObj(cluster -> PALETTE[Math.max(0, cluster) % PALETTE.length])
                 .collect(Collectors.joining(", ", "[", "]"));
     }
 }

@@ -1,5 +1,6 @@
 package io.natator.export;
 
+import io.natator.stream.Skin;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamScene;
 import java.io.BufferedWriter;
@@ -8,11 +9,12 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.stream.IntStream;
 
 /**
  * For USD: {@code swim.usda}, a time code for each simulated frame. {@code Water} and {@code BodyParticles} are
- * points, {@code Muscles} are curves. {@code Body} is the body's surface; where its slices have one, its particles are
- * there but invisible. The unit of length counts as a metre.
+ * points, {@code Muscles} are curves. {@code Body} is the body's surface: the mesh that it was made of, or that of its slices. Where there is
+ * one, its particles are there but invisible. The unit of length counts as a metre.
  */
 final class UsdWriter implements FrameWriter {
 
@@ -34,13 +36,15 @@ final class UsdWriter implements FrameWriter {
             water.fix("float[] primvars:displayOpacity = [0.3] (interpolation = \"constant\")");
         }
         if (swim.solids().size() > 0) {
-            if (swim.surface().size() > 0) {
+            if (swim.hasSkin()) {
+                addSkin();
+            } else if (swim.surface().size() > 0) {
                 addSurface();
             }
             UsdPrim body = points("BodyParticles", swim.solids(), scene.solidRestDistance() / 2);
             body.fix("int[] primvars:cluster = " + UsdText.clusters(swim.solids()) + " (interpolation = \"vertex\")");
             body.fix(colours());
-            if (swim.surface().size() > 0) {
+            if (swim.hasSkin() || swim.surface().size() > 0) {
                 body.fix("token visibility = \"invisible\"");
             }
         }
@@ -50,7 +54,11 @@ final class UsdWriter implements FrameWriter {
     }
 
     private UsdPrim prim(String type, String name, ParticleSet particles, double width) throws IOException {
-        UsdPrim prim = new UsdPrim(folder, type, name, particles, width);
+        return prim(type, name, frame -> particles.values(frame.position(), 3), width);
+    }
+
+    private UsdPrim prim(String type, String name, UsdPrim.Points points, double width) throws IOException {
+        UsdPrim prim = new UsdPrim(folder, type, name, points, width);
         prims.add(prim);
         return prim;
     }
@@ -70,6 +78,18 @@ final class UsdWriter implements FrameWriter {
                     (samples, frame) -> samples.add(frame.frame(), particles, frame.density(), 1));
         }
         return points;
+    }
+
+    /** The mesh that the body was made of. */
+    private void addSkin() throws IOException {
+        Skin skin = swim.scene().skin();
+        SkinMotion motion = new SkinMotion(swim.scene());
+        UsdPrim mesh = prim("Mesh", "Body", frame -> motion.places(frame.position()), 0);
+        mesh.fix("int[] faceVertexCounts = " + UsdText.list(skin.triangles().size(), 3));
+        mesh.fix("int[] faceVertexIndices = "
+                + UsdText.list(skin.triangles().stream().flatMapToInt(IntStream::of).toArray()));
+        mesh.fix("uniform token subdivisionScheme = \"none\"");
+        mesh.fix("color3f[] primvars:displayColor = " + UsdText.colours(skin.cluster()) + " (interpolation = \"vertex\")");
     }
 
     private void addSurface() throws IOException {

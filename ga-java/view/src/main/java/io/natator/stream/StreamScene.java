@@ -38,6 +38,7 @@ import java.util.List;
  * @param joints            indices of the slices that are joints
  * @param actuators         their number A; 0 = nearest the head
  * @param muscles           springs that contract
+ * @param skin              the mesh that the body was made of, or null
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode program,
@@ -51,7 +52,7 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         @JsonProperty(required = true) List<Integer> body, @JsonProperty(required = true) List<List<Integer>> slices,
         double bodyLength, @JsonProperty(required = true) List<List<Integer>> clusters,
         @JsonProperty(required = true) List<Integer> joints, @JsonProperty(required = true) int actuators,
-        @JsonProperty(required = true) List<Muscle> muscles) {
+        @JsonProperty(required = true) List<Muscle> muscles, Skin skin) {
 
     /** The version of the protocol that is read here. */
     public static final int PROTOCOL = 2;
@@ -76,7 +77,7 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
      * @param a          particle
      * @param b          particle
      * @param actuator   0 = nearest the head
-     * @param lateral    −1 at the left edge to +1 at the right edge
+     * @param lateral    −1 at the left edge to +1 at the right edge; of one that bends up and down, lower and upper
      * @param restLength length
      */
     @JsonIgnoreProperties(ignoreUnknown = true)
@@ -127,6 +128,8 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
                     && muscle.actuator >= 0 && muscle.actuator < actuators, "muscle " + muscle
                     + "; expected particles below " + particles + " and an actuator below " + actuators);
         }
+        expect(skin == null || skin.fits(body.size(), clusters.size()),
+                "skin: expected vertices, triangles and places of rest that fit the body");
     }
 
     private void lists(String key, List<List<Integer>> lists) throws StreamException {

@@ -83,5 +83,9 @@ record ClientCommand(String what, ObjectNode content) {
         if (creature.endsWith(FILE_ENDING) && !files.contains(creature)) {
             throw new InvalidInputException("overrides.creature.name: expected a named creature");
         }
+        String mesh = content.path("overrides").path("creature").path("mesh").path("file").asText();
+        if (mesh.contains("/")) {
+            throw new InvalidInputException("overrides.creature.mesh.file: expected a bundled mesh");
+        }
     }
 }

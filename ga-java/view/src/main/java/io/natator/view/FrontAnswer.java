@@ -36,6 +36,7 @@ record FrontAnswer(List<Goal> goals, List<Point> points) {
                 case STRAIGHT -> new Goal("yaw and roll", "rad", true);
                 case WORK -> new Goal("work of the muscles", "mass · length²/s²", true);
                 case EFFICIENCY -> new Goal("distance by work", "s²/(mass · length)", false);
+                case GOALS -> new Goal("score by the scene's goals", "", false);
             };
         }
     }

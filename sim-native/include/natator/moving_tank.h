@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "natator/model.h"
+#include "natator/scene.h"
+#include "natator/state.h"
+
+namespace natator {
+
+/// What moving a tank has taken from its water: what is put in front is at rest.
+struct WaterRenewal {
+    int times = 0;
+    long particles = 0;                                      ///< sum over all times
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();      ///< taken away, mass length/s
+    double kinetic_energy = 0;                               ///< taken away, mass length^2/s^2
+};
+
+/// Keeps a tank about its swimmer. One for each run.
+class TankFollower {
+public:
+    /// Throws InputError unless the scene has water of scheme `conserving`, a creature, and for each
+    /// axis that the tank moves along two planes across it with room enough between them.
+    TankFollower(const Scene& scene, const Model& model);
+
+    /// A frame of `time` s has gone by: the current takes the tank along.
+    void drift(double time) { origin_ += time * tank_.current; }
+    /// Is the mean of the body's particles, in the tank's coordinates, a step from where it began?
+    bool is_due(const Eigen::Vector3d& centre) const;
+    /// Moves the tank where it is due, and tells the State where it stands.
+    template <class Real>
+    void follow(const Eigen::Vector3d& centre, State<Real>& state);
+
+    /// The tank goes on from here, `origin` as State::origin.
+    void stand_at(const Eigen::Vector3d& origin) { origin_ = origin; }
+    /// Where the tank's coordinates begin over ground, length: State::origin.
+    const Eigen::Vector3d& origin() const { return origin_; }
+    const WaterRenewal& renewal() const { return renewal_; }
+
+private:
+    /// One that the tank moves along, and the walls across it.
+    struct Axis {
+        int axis = 0;
+        double low = 0, high = 0;
+        double home = 0;  ///< of the body's centre
+    };
+    template <class Real>
+    void move(const Axis& axis, int direction, State<Real>& state);
+
+    const Model& model_;
+    MovingTank tank_;
+    std::vector<Axis> axes_;
+    Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+    WaterRenewal renewal_;
+};
+
+}  // namespace natator

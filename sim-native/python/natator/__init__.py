@@ -1,0 +1,17 @@
+"""Client of the Natator simulator: evaluations, trajectories as arrays, swimmers that a program drives.
+
+`natator.gym` has the Gymnasium environments; importing it registers them.
+"""
+
+from natator.errors import InputError, NatatorError, ProgramError, Unstable
+from natator.gait import Gait
+from natator.simulator import Simulator, evaluate
+from natator.stream import Frame, Senses, Stream
+from natator.trajectory import Trajectory, record
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Frame", "Gait", "InputError", "NatatorError", "ProgramError", "Senses", "Simulator", "Stream", "Trajectory",
+    "Unstable", "evaluate", "record",
+]

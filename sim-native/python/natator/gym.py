@@ -1,0 +1,243 @@
+"""Gymnasium environments of a swimmer in the closed loop; importing this registers "natator/Swimmer-v0"."""
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from gymnasium.vector.utils import batch_space
+
+from natator.errors import InputError, Unstable
+from natator.gait import as_json, wave
+from natator.stream import SIDES, Stream
+
+
+class SwimmerEnv(gymnasium.Env):
+    """One swimmer. README.md has the table of observations, actions and rewards.
+
+    scene: name or path, with a creature that has muscles. actions: "drive" (values of the actuators) or "gait" (changes of
+    `gait`, by default a wave from head to tail). frames: of the scene that an action takes. duration: of an episode, s.
+    starts: how many starts of the scene resets draw from. flow: places of the skin as (slice, side), or a number of
+    slices, evenly from head to tail, both sides of each. target: None (the reward is progress along x), a point, or a
+    box (low, high) that each reset draws one from (the reward is coming nearer). reached: at this distance, in body lengths,
+    an episode with a target ends. work_cost: taken off the reward per unit of work, mass length²/s², in all schemes but flex.
+    options: those of Stream, such as overrides, scheme, arguments, program.
+    """
+
+    metadata = {"render_modes": []}
+
+    def __init__(self, scene="pool/tadpole", actions="drive", gait=None, frames=3, duration=4.0, starts=16, flow=3,
+                 target=None, reached=0.25, work_cost=0.0, render_mode=None, **options):
+        if actions not in ("drive", "gait"):
+            raise InputError(f'actions = {actions!r}: must be "drive" or "gait"')
+        if not (int(frames) == frames and frames >= 1 and starts >= 1 and duration > 0):
+            raise InputError("frames and starts must be whole numbers from 1 on, duration more than 0 s")
+        self.render_mode = render_mode
+        self.frames, self.duration, self.starts = int(frames), float(duration), int(starts)
+        self.target, self.reached, self.work_cost = _box_of(target), float(reached), float(work_cost)
+        self._stream = Stream(scene, **options)
+        try:
+            self._prepare(actions, gait, flow)
+        except Exception:
+            self._stream.close()
+            raise
+
+    def _prepare(self, actions, gait, flow):
+        stream = self._stream
+        self.actuators, self.length = stream.actuators, stream.scene["bodyLength"]
+        if self.actuators == 0:
+            raise InputError(f"scene \"{stream.scene['scene']}\": must have a creature with actuators")
+        self.by_gait = actions == "gait"
+        self.gait = None
+        if self.by_gait:
+            self.gait = as_json(gait if gait is not None else wave(self.actuators))
+            stream.set_gait(self.gait)
+        self._places = places_of(flow, len(stream.scene["slices"]))
+        stream.sense(flow=self._places)
+        self._senses, self._work, self._action, self._sent = None, 0.0, self._rest(), 0
+        size = 9 + 2 * self.actuators + 3 * len(self._places) + 2 * self.by_gait + 4 * (self.target is not None)
+        self.observation_space = spaces.Box(-LARGEST, LARGEST, (size,), np.float32)
+        self.action_space = spaces.Box(-1, 1, (self.actuators * (2 if self.by_gait else 1),), np.float32)
+
+    def reset(self, *, seed=None, options=None):
+        self.begin_reset(seed, options)
+        return self.end_reset()
+
+    def begin_reset(self, seed=None, options=None):
+        """The first half of `reset`: does not wait."""
+        super().reset(seed=seed)
+        start = (options or {}).get("start")
+        self._stream.begin_reset(int(self.np_random.integers(self.starts)) if start is None else start)
+        self._point = None
+        if self.target is not None:
+            self._point = self.np_random.uniform(*self.target)
+
+    def end_reset(self):
+        """The second half."""
+        self._stream.end_reset()
+        self._action, self._work = self._rest(), 0.0
+        self._senses = self._stream.sense(target=self._point)
+        return self._observation(), self._info()
+
+    def step(self, action):
+        self.begin_step(action)
+        return self.end_step()
+
+    def begin_step(self, action):
+        """The first half of `step`: does not wait."""
+        action = np.asarray(action, float)
+        if self._senses is None:
+            raise gymnasium.error.ResetNeeded("step before the first reset")
+        if action.shape != self.action_space.shape or not np.all(np.abs(action) <= 1):
+            raise InputError(f"action {action.tolist()}: must be {self.action_space.shape[0]} numbers in [-1, 1]")
+        parts = np.arange(1, self.frames + 1)[:, None] / self.frames
+        rows = self._action + parts * (action - self._action)
+        self._action, self._sent = action, 1
+        if not self.by_gait:
+            self._stream.begin_step(drive=rows)
+            return
+        self._sent = len(rows)
+        for row in rows:
+            scale, offset = np.split(row, 2)
+            self._stream.begin_step(1, scale=(1 + scale) / 2, offset=LARGEST_OFFSET * offset)
+
+    def end_step(self):
+        """The second half."""
+        before, unstable = self._senses, False
+        for left in range(self._sent, 0, -1):
+            try:
+                self._senses = self._stream.end_step()
+            except Unstable:
+                unstable = True
+                for _ in range(left - 1):
+                    self._drain()
+                break
+        now = self._senses
+        reward = self._progress(before, now) - self.work_cost * self._work_since()
+        there = self.target is not None and now.target_distance <= self.reached * self.length
+        info = self._info() | {"unstable": unstable, "reached": there}
+        late = now.time >= self.duration - 1e-9
+        return self._observation(), float(reward), bool(unstable or there or now.touches_plane), bool(late), info
+
+    def close(self):
+        self._stream.close()
+
+    def _drain(self):
+        """An answer that says no more than the one before: refused, or unstable."""
+        try:
+            self._stream.end_step()
+        except (InputError, Unstable):
+            pass
+
+    def _rest(self):
+        """The action at the start: muscles at rest, or the gait as it is."""
+        rest = np.zeros(self.actuators)
+        return np.concatenate([rest + 1, rest]) if self.by_gait else rest
+
+    def _progress(self, before, now):
+        way = before.target_distance - now.target_distance if self.target is not None else now.distance - before.distance
+        return way / self.length
+
+    def _work_since(self):
+        """Work of the muscles since the last call."""
+        work = np.nan_to_num(self._senses.work)
+        since, self._work = work - self._work, work
+        return since
+
+    def _observation(self):
+        senses = self._senses
+        vertical = [senses.forward[1], senses.up[1], senses.right[1]]
+        parts = [senses.velocity / self.length, senses.turn_rate, vertical, senses.drive, senses.bend,
+                 (senses.flow / self.length).ravel()]
+        if self.by_gait:
+            turns = 2 * np.pi * self.gait["frequency"] * senses.time
+            parts.append([np.sin(turns), np.cos(turns)])
+        if self.target is not None:
+            parts += [senses.target, [senses.target_distance / self.length]]
+        return np.clip(np.concatenate(parts), -LARGEST, LARGEST).astype(np.float32)
+
+    def _info(self):
+        senses = self._senses
+        return {"time": senses.time, "distance": senses.distance, "work": float(np.nan_to_num(senses.work)),
+                "centre": senses.centre}
+
+
+class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
+    """Swimmers side by side, each by a program of its own: they swim at the same time, as far as there are processors.
+    Same arguments as SwimmerEnv; the same bits as so many of those."""
+
+    metadata = {"render_modes": [], "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+
+    def __init__(self, num_envs=1, **arguments):
+        self.envs = []
+        try:
+            for _ in range(num_envs):
+                self.envs.append(SwimmerEnv(**arguments))
+        except Exception:
+            self.close_extras()
+            raise
+        self.num_envs, first = num_envs, self.envs[0]
+        self.render_mode = first.render_mode
+        self.single_observation_space, self.single_action_space = first.observation_space, first.action_space
+        self.observation_space = batch_space(first.observation_space, num_envs)
+        self.action_space = batch_space(first.action_space, num_envs)
+        self._over = np.zeros(num_envs, bool)
+
+    def reset(self, *, seed=None, options=None):
+        """seed: one for each, or an int, which gives them seed, seed + 1 …"""
+        seeds = list(seed) if isinstance(seed, (list, tuple)) else [
+            None if seed is None else seed + i for i in range(self.num_envs)]
+        if len(seeds) != self.num_envs:
+            raise InputError(f"{len(seeds)} seeds: must be {self.num_envs}, one for each environment")
+        for env, own in zip(self.envs, seeds):
+            env.begin_reset(own, options)
+        self._over[:] = False
+        infos = {}
+        observations = []
+        for i, env in enumerate(self.envs):
+            observation, info = env.end_reset()
+            observations.append(observation)
+            infos = self._add_info(infos, info, i)
+        return np.stack(observations), infos
+
+    def step(self, actions):
+        for env, action, over in zip(self.envs, np.asarray(actions), self._over):
+            env.begin_reset() if over else env.begin_step(action)
+        observations, infos = [], {}
+        rewards, terminated, truncated = np.zeros(self.num_envs), np.zeros(self.num_envs, bool), np.zeros(self.num_envs, bool)
+        for i, (env, over) in enumerate(zip(self.envs, self._over)):
+            if over:
+                observation, info = env.end_reset()
+            else:
+                observation, rewards[i], terminated[i], truncated[i], info = env.end_step()
+            observations.append(observation)
+            infos = self._add_info(infos, info, i)
+        self._over = terminated | truncated
+        return np.stack(observations), rewards, terminated, truncated, infos
+
+    def close_extras(self, **_):
+        for env in self.envs:
+            env.close()
+
+
+def places_of(flow, slices):
+    """Places of the skin: as they are given, or both sides of so many slices, evenly from head to tail."""
+    if not isinstance(flow, int):
+        return [(int(place), side) for place, side in flow]
+    along = np.linspace(0, slices - 1, flow + 2)[1:-1] if flow > 0 else []
+    return [(int(round(at)), side) for at in along for side in SIDES[:2]]
+
+
+def _box_of(target):
+    """A point, or (low, high), as (low, high)."""
+    if target is None:
+        return None
+    corners = np.asarray(target, float)
+    if corners.shape not in ((3,), (2, 3)) or not np.all(np.isfinite(corners)):
+        raise InputError(f"target = {target}: must be a point of 3 numbers, or two corners of a box")
+    return (corners, corners) if corners.shape == (3,) else (corners[0], corners[1])
+
+
+LARGEST = 1000.0      # of an observation, beyond which it is cut
+LARGEST_OFFSET = 0.5  # of a change of the gait
+
+gymnasium.register("natator/Swimmer-v0", entry_point="natator.gym:SwimmerEnv",
+                   vector_entry_point="natator.gym:SwimmerVectorEnv")

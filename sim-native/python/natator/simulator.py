@@ -1,0 +1,96 @@
+"""Evaluations through `natator-sim serve`."""
+
+import json
+import os
+from concurrent.futures import ThreadPoolExecutor
+
+from natator import program as programs
+from natator.errors import InputError, ProgramError
+from natator.gait import as_json
+
+
+class Simulator:
+    """Keeps programs that evaluate requests, one for each worker; each is single-threaded.
+
+    workers: how many at a time, by default as many as there are processors. With --backend cuda one worker does, which
+    computes what it is given together. arguments: more arguments of `natator-sim serve`. To be closed; a context manager.
+    """
+
+    def __init__(self, workers=None, arguments=(), program=None):
+        count = workers or (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count())
+        self._processes = []
+        try:
+            for _ in range(count):
+                self._processes.append(programs.start(program, ["serve", *arguments]))
+        except Exception:
+            self.close()
+            raise
+
+    def evaluate(self, scene, gait=None, **request):
+        """The result of one gait, a dict as result.schema.json describes it. `request`: more of its fields, such as
+        duration, scheme, start, overrides. Raises InputError for a request that can't be used; an unstable simulation is a
+        result, with status "unstable" and fitness 0."""
+        return self.evaluate_all([make_request(scene, gait, **request)])[0]
+
+    def evaluate_all(self, requests):
+        """Results of many requests (make_request, or dicts as request.schema.json describes them), in their order. What
+        one request gives does not depend on the others, nor on the number of workers. Raises InputError for the first that
+        can't be used, when all are done."""
+        if not self._processes:
+            raise ProgramError("the simulator is closed")
+        numbered = [dict(request, id=number) for number, request in enumerate(requests)]
+        shares = [numbered[k::len(self._processes)] for k in range(len(self._processes))]
+        with ThreadPoolExecutor(len(shares)) as pool:
+            answers = [answer for part in pool.map(_exchange, self._processes, shares) for answer in part]
+        answers.sort(key=lambda answer: answer["id"])
+        for answer in answers:
+            if answer["status"] == "error":
+                raise InputError(answer["error"])
+        return answers
+
+    def close(self):
+        for process in self._processes:
+            programs.stop(process)
+        self._processes = []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def make_request(scene, gait=None, **request):
+    """A request of `natator-sim serve`: what is None is left out."""
+    given = dict(request, scene=scene, gait=None if gait is None else as_json(gait))
+    return {key: value for key, value in given.items() if value is not None}
+
+
+def evaluate(scene, gait=None, program=None, **request):
+    """Simulator.evaluate by a program of its own."""
+    with Simulator(workers=1, program=program) as simulator:
+        return simulator.evaluate(scene, gait, **request)
+
+
+def _exchange(process, requests):
+    """Gives a program its requests while it answers: neither waits for the other with a full pipe."""
+    with ThreadPoolExecutor(1) as writer:
+        written = writer.submit(_write, process, requests)
+        answers = [_read(process) for _ in requests]
+        written.result()
+    return answers
+
+
+def _write(process, requests):
+    try:
+        process.stdin.write(b"".join(json.dumps(request).encode() + b"\n" for request in requests))
+        process.stdin.flush()
+    except BrokenPipeError:
+        pass  # its end is seen by the reader
+
+
+def _read(process):
+    line = process.stdout.readline()
+    if not line:
+        raise programs.ended(process)
+    return json.loads(line)

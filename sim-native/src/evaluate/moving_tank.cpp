@@ -1,0 +1,106 @@
+#include "natator/moving_tank.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "io/strict_json.h"
+#include "natator/error.h"
+
+namespace natator {
+namespace {
+
+constexpr double square = 1e-9;  // 1 - |cosine| of what stands across an axis
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& what) {
+    throw InputError("scene " + quoted(scene.name) + ": movingTank: " + what);
+}
+
+const char* name_of(int axis) { return axis == 0 ? "x" : "z"; }
+
+/// Where the two planes across an axis stand.
+std::pair<double, double> walls_across(const Scene& scene, int axis) {
+    std::vector<double> low, high;
+    for (const Plane& plane : scene.planes) {
+        if (plane.normal[axis] > 1 - square) low.push_back(-plane.offset);
+        if (plane.normal[axis] < square - 1) high.push_back(plane.offset);
+    }
+    if (low.size() != 1 || high.size() != 1)
+        refuse(scene, std::string("planes: needs one plane at each end of the tank along ") + name_of(axis) + ", found " +
+                          std::to_string(low.size()) + " at the low end and " + std::to_string(high.size()) +
+                          " at the high end");
+    return {low.front(), high.front()};
+}
+
+}  // namespace
+
+TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(model), tank_(*scene.moving_tank) {
+    if (scene.scheme != Scheme::conserving) refuse(scene, "works in scheme conserving only");
+    if (!scene.fluid) refuse(scene, "needs fluid");
+    if (model.body.particles.empty()) refuse(scene, "needs a creature to follow");
+    if (!scene.companions.empty() || !scene.obstacles.empty())
+        refuse(scene, "has no room for companions and obstacles, which would be left behind");
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const int i : model.body.particles) centre += model.position[i];
+    centre /= static_cast<double>(model.body.particles.size());
+    const double reach = model.body.length / 2 + tank_.step + 2 * model.parameters.kernelSupport * model.parameters.fluidRestDistance;
+    for (const int axis : {0, 2}) {
+        if (axis == 2 && !tank_.along_z) continue;
+        const auto [low, high] = walls_across(scene, axis);
+        const double room = std::min(centre[axis] - low, high - centre[axis]);
+        if (room < reach) {
+            std::ostringstream text;
+            text << "the body's centre is " << room << " from the nearer end of the tank along " << name_of(axis)
+                 << "; must be at least " << reach << " (half the body, a step and two kernel radii)";
+            refuse(scene, text.str());
+        }
+        axes_.push_back({axis, low, high, centre[axis]});
+    }
+}
+
+bool TankFollower::is_due(const Eigen::Vector3d& centre) const {
+    for (const Axis& axis : axes_)
+        if (std::abs(centre[axis.axis] - axis.home) >= tank_.step) return true;
+    return false;
+}
+
+template <class Real>
+void TankFollower::follow(const Eigen::Vector3d& centre, State<Real>& state) {
+    for (const Axis& axis : axes_) {
+        const double ahead = centre[axis.axis] - axis.home;
+        if (std::abs(ahead) >= tank_.step) move(axis, ahead > 0 ? 1 : -1, state);
+    }
+    state.origin = origin_;
+}
+
+/// Everything goes back by a step. Water that would then be beyond the wall behind comes to stand as far before the wall
+/// in front: its layer at the one wall closes up with the layer that was at the other.
+template <class Real>
+void TankFollower::move(const Axis& axis, int direction, State<Real>& state) {
+    const int a = axis.axis;
+    const Real step = static_cast<Real>(direction * tank_.step);
+    const Real low = static_cast<Real>(axis.low), high = static_cast<Real>(axis.high), length = high - low;
+    for (int i = 0; i < model_.particles(); ++i) {
+        Real& x = state.position[i][a];
+        x -= step;
+        if (!model_.is_fluid(i)) continue;
+        const bool behind = direction > 0 ? x < low : x > high;
+        if (!behind) continue;
+        x += direction > 0 ? length : -length;
+        Vector3<Real>& velocity = state.velocity[i];
+        const Eigen::Vector3d v = velocity.template cast<double>();
+        const double mass = model_.inverse_mass[i] > 0 ? 1 / model_.inverse_mass[i] : 0;
+        renewal_.momentum += mass * v;
+        renewal_.kinetic_energy += mass * v.squaredNorm() / 2;
+        ++renewal_.particles;
+        velocity.setZero();
+    }
+    for (Vector3<Real>& centre : state.cluster_centre) centre[a] -= step;
+    origin_[a] += direction * tank_.step;
+    ++renewal_.times;
+}
+
+template void TankFollower::follow(const Eigen::Vector3d&, State<float>&);
+template void TankFollower::follow(const Eigen::Vector3d&, State<double>&);
+
+}  // namespace natator

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace natator {
+
+/// Triangles as a file has them, in its units.
+struct TriangleMesh {
+    std::vector<Eigen::Vector3d> vertices;   ///< no two in the same place
+    std::vector<Eigen::Vector3i> triangles;  ///< corners go round counter-clockwise seen from outside
+    std::vector<long> source;                ///< of each triangle: its line in the file, or its number if that is binary
+    bool has_lines = true;                   ///< whether `source` counts lines
+
+    Eigen::Vector3d corner(std::size_t triangle, int i) const { return vertices[static_cast<std::size_t>(triangles[triangle][i])]; }
+    /// "the face of line 12", "facet 3".
+    std::string name(std::size_t triangle) const;
+};
+
+/// "(0.1, 0.2, 0.3)".
+std::string shown(const Eigen::Vector3d& place);
+
+/// Volume inside a closed mesh, less than 0 if its faces look inwards.
+double signed_volume(const TriangleMesh& mesh);
+
+/// A mesh of its file's bytes: Wavefront .obj (`v` and `f`; faces of more corners are cut into fans; other lines do not
+/// count) if `name` ends so, else .stl, text or binary. Equal vertices become one. Throws InputError that says where:
+/// numbers that are none or not finite, corners that are not there, no faces, an end in the middle, more than
+/// limits::mesh_faces.
+TriangleMesh read_mesh(const std::string& bytes, const std::string& name);
+
+}  // namespace natator

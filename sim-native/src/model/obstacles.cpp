@@ -1,0 +1,42 @@
+#include "obstacles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace natator {
+namespace {
+
+constexpr std::uint32_t obstacle_phase = phase::group_mask;  // a group that no body has
+
+Eigen::Vector3d half_size(const Obstacle& obstacle) {
+    return obstacle.shape == Obstacle::Shape::sphere ? Eigen::Vector3d::Constant(obstacle.radius)
+                                                     : Eigen::Vector3d(obstacle.size / 2);
+}
+
+/// Lattice points on each side of the centre.
+Eigen::Vector3d points_aside(const Obstacle& obstacle) {
+    return (half_size(obstacle) / obstacle.spacing).array().floor();
+}
+
+}  // namespace
+
+std::int64_t most_particles(const Obstacle& obstacle) {
+    const double count = (2 * points_aside(obstacle).array() + 1).prod();
+    return static_cast<std::int64_t>(std::min(count, 1e15));
+}
+
+void add_obstacle(const Obstacle& obstacle, Model& model) {
+    const Eigen::Vector3d aside = points_aside(obstacle);
+    for (double x = -aside.x(); x <= aside.x(); ++x)
+        for (double y = -aside.y(); y <= aside.y(); ++y)
+            for (double z = -aside.z(); z <= aside.z(); ++z) {
+                const Eigen::Vector3d place = obstacle.centre + obstacle.spacing * Eigen::Vector3d(x, y, z);
+                if (!obstacle.holds(place)) continue;
+                model.position.push_back(place);
+                model.velocity.push_back(Eigen::Vector3d::Zero());
+                model.inverse_mass.push_back(0);
+                model.phase.push_back(obstacle_phase);
+            }
+}
+
+}  // namespace natator

@@ -1,0 +1,60 @@
+#include "io/protocol.h"
+#include "readers.h"
+
+namespace natator::fields {
+namespace {
+
+constexpr std::size_t max_companions = 64, max_obstacles = 1000;
+
+const json& checked_array(const json& value, const Place& place, std::size_t most, const char* what) {
+    if (!value.is_array() || value.size() > most)
+        refuse(place, value, "an array of at most " + std::to_string(most) + " " + what);
+    return value;
+}
+
+Obstacle read_obstacle(const json& value, const Place& place) {
+    static const std::vector<Field<Obstacle>> table = {
+        {"centre", &Obstacle::centre, {-10000, 10000, false, "length"}},
+        {"spacing", &Obstacle::spacing, {0, 1000, true, "length"}},
+    };
+    Obstacle obstacle;
+    if (!value.is_object()) refuse(place, value, "an object with `shape`");
+    obstacle.shape =
+        read_choice<Obstacle::Shape>(required(value, place, "shape"), place.key("shape"),
+                                     {{"sphere", Obstacle::Shape::sphere}, {"box", Obstacle::Shape::box}});
+    const char* extent = obstacle.shape == Obstacle::Shape::sphere ? "radius" : "size";
+    read_object(value, place, table, {"shape", extent}, obstacle);
+    required(value, place, "centre");
+    const json& size = required(value, place, extent);
+    const Range length{0, 10000, true, "length"};
+    if (obstacle.shape == Obstacle::Shape::sphere)
+        read(size, place.key(extent), length, obstacle.radius);
+    else
+        read(size, place.key(extent), length, obstacle.size);
+    return obstacle;
+}
+
+}  // namespace
+
+std::vector<Companion> read_companions(const json& value, const Place& place, const std::filesystem::path& data) {
+    std::vector<Companion> companions;
+    for (const json& one : checked_array(value, place, max_companions, "companions")) {
+        const Place at = place.item(companions.size());
+        check_keys(one, at, {"creature", "gait"});
+        Companion companion;
+        companion.creature = read_creature(required(one, at, "creature"), at.key("creature"), data);
+        companion.gait = one.contains("gait") ? parse_gait(one.at("gait"), at.document + ": " + at.key("gait").path)
+                                              : resting_gait(companion.creature.actuators());
+        companions.push_back(std::move(companion));
+    }
+    return companions;
+}
+
+std::vector<Obstacle> read_obstacles(const json& value, const Place& place) {
+    std::vector<Obstacle> obstacles;
+    for (const json& one : checked_array(value, place, max_obstacles, "obstacles"))
+        obstacles.push_back(read_obstacle(one, place.item(obstacles.size())));
+    return obstacles;
+}
+
+}  // namespace natator::fields

@@ -1,0 +1,104 @@
+// More than one body in a tank, and obstacles.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "natator/actuate.h"
+#include "natator/evaluate.h"
+#include "natator/model_builder.h"
+#include "scene/scene_json.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+
+const Gait first_gait{1.861, {0.973, 0.69}, {0, 0.648}, 1}, second_gait{1, {0.5, 0.25}, {0.25, 0.5}, 1};
+
+json creature_1_at(double x, double z) {
+    return {{"name", "creature-1"}, {"rearCentre", {x, 0.6, z}}};
+}
+
+json company_of(double x, double z) {
+    return json::array({{{"creature", creature_1_at(x, z)},
+                         {"gait", {{"frequency", 1}, {"amplitude", {0.5, 0.25}}, {"phase", {0.25, 0.5}}}}}});
+}
+
+/// Creature 1 in vacuum, with a twin beside it, gaits of their own.
+Scene pair_in_vacuum(double aside, const json& more = json::object()) {
+    json overrides{{"scheme", "conserving"}, {"duration", 0.5}, {"companions", company_of(0.45, 0.6 + aside)}};
+    overrides.merge_patch(more);
+    return load_scene("thesis/creature-1-vacuum", overrides);
+}
+
+TEST(Company, ACompanionIsACopyOfItsCreatureBehindTheBody) {
+    const Scene scene = pair_in_vacuum(1);
+    const Model pair = build_model(scene), alone = build_model(load_scene("thesis/creature-1-vacuum", json::object()));
+    const int n = alone.particles();
+    ASSERT_EQ(pair.particles(), 2 * n);
+    ASSERT_EQ(pair.companions.size(), 1u);
+    EXPECT_EQ(pair.actuators, 2);
+    EXPECT_EQ(pair.companions[0].first_actuator, 2);
+    for (int i = 0; i < n; ++i) {
+        EXPECT_NEAR((pair.position[n + i] - pair.position[i] - Eigen::Vector3d(0, 0, 1)).norm(), 0, 1e-12);
+        EXPECT_NE(pair.phase[n + i] & phase::group_mask, pair.phase[i] & phase::group_mask);
+    }
+    ASSERT_EQ(pair.muscles.size(), 2 * alone.muscles.size());
+    for (std::size_t k = 0; k < alone.muscles.size(); ++k) {
+        const Muscle& one = pair.muscles[k];
+        const Muscle& two = pair.muscles[alone.muscles.size() + k];
+        EXPECT_EQ(two.actuator, one.actuator + 2);
+        EXPECT_EQ(pair.springs[two.spring].a, pair.springs[one.spring].a + n);
+    }
+}
+
+TEST(Company, EachIsDrivenByItsOwnGait) {
+    const Model pair = build_model(pair_in_vacuum(1));
+    const Model alone = build_model(load_scene("thesis/creature-1-vacuum", json{{"scheme", "conserving"}}));
+    State<double> both = initial_state<double>(pair), first = initial_state<double>(alone), second = first;
+    actuate(pair, first_gait, 0.4, both);
+    actuate(alone, first_gait, 0.4, first);
+    actuate(alone, second_gait, 0.4, second);
+    const std::size_t springs = first.spring_rest_length.size();
+    for (std::size_t k = 0; k < springs; ++k) {
+        EXPECT_EQ(both.spring_rest_length[k], first.spring_rest_length[k]);
+        EXPECT_EQ(both.spring_rest_length[springs + k], second.spring_rest_length[k]);
+    }
+}
+
+/// Two bodies far from each other in vacuum know nothing of each other.
+TEST(Company, FarApartEachMovesAsIfAlone) {
+    const EvaluationOptions in_double{.precision = Precision::double_precision};
+    const Evaluation pair = evaluate(pair_in_vacuum(1, {{"solver", {{"gravity", {1, 0, 0}}}}}), first_gait, in_double);
+    const Evaluation alone =
+        evaluate(load_scene("thesis/creature-1-vacuum",
+                            json{{"scheme", "conserving"}, {"duration", 0.5}, {"solver", {{"gravity", {1, 0, 0}}}}}),
+                 first_gait, in_double);
+    EXPECT_NEAR(pair.distance, alone.distance, 1e-9);
+    ASSERT_EQ(pair.companions.size(), 1u);
+    EXPECT_EQ(pair.companions[0].creature, "creature-1");
+    EXPECT_NEAR(pair.companions[0].distance, alone.distance, 1e-3);  // both fall alike; their beats differ
+    EXPECT_GT(pair.companions[0].distance, 0.1);
+}
+
+/// A body that falls onto an obstacle stays above it; without the obstacle it falls on.
+TEST(Company, AnObstacleHoldsABodyUp) {
+    const json fall{{"duration", 1}, {"companions", json::array()}, {"solver", {{"gravity", {0, -10, 0}}}}};
+    json held = fall;
+    held["obstacles"] = json::array({{{"shape", "box"}, {"centre", {1, 0.15, 0.6}}, {"size", {2, 0.2, 1}}}});
+    const auto height_at_end = [](const json& overrides) {
+        double height = 0;
+        EvaluationOptions options;
+        options.on_frame = [&](double, const auto& places) {
+            height = 0;
+            for (const Eigen::Vector3d& place : places) height += place.y() / static_cast<double>(places.size());
+        };
+        evaluate(pair_in_vacuum(1, overrides), resting_gait(2), options);
+        return height;
+    };
+    EXPECT_LT(height_at_end(fall), -1);
+    EXPECT_GT(height_at_end(held), 0.25);
+}
+
+}  // namespace
+}  // namespace natator

@@ -1,0 +1,560 @@
+// Bodies from a mesh: its file, what bounds a solid, the particles inside, the skin, the bundled ray, and what is refused.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "mesh/check_mesh.h"
+#include "mesh/mesh_slices.h"
+#include "mesh/triangle_mesh.h"
+#include "model/skin_weights.h"
+#include "model/water_volumes.h"
+#include "natator/error.h"
+#include "natator/evaluate.h"
+#include "natator/limits.h"
+#include "natator/model_builder.h"
+#include "refusal.h"
+#include "scene/scene_json.h"
+#include "test_name.h"
+
+namespace natator {
+namespace {
+
+using nlohmann::json;
+using Eigen::Vector3d;
+
+/// A mesh to be changed and written.
+struct Shape {
+    std::vector<Vector3d> vertices;
+    std::vector<std::array<int, 3>> faces;
+
+    Shape& add(const Shape& other) {
+        const int first = static_cast<int>(vertices.size());
+        vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+        for (const auto& [a, b, c] : other.faces) faces.push_back({a + first, b + first, c + first});
+        return *this;
+    }
+    Shape& moved(const std::function<Vector3d(const Vector3d&)>& change) {
+        for (Vector3d& vertex : vertices) vertex = change(vertex);
+        return *this;
+    }
+    Shape& turned() {
+        for (auto& face : faces) std::swap(face[1], face[2]);
+        return *this;
+    }
+    std::string obj() const {
+        std::ostringstream text;
+        text.precision(17);
+        for (const Vector3d& v : vertices) text << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+        for (const auto& [a, b, c] : faces) text << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+        return text.str();
+    }
+    std::string text_stl() const {
+        std::ostringstream text;
+        text << "solid test\n";
+        for (const auto& face : faces) {
+            text << " facet normal 0 0 0\n  outer loop\n";
+            for (const int i : face) text << "   vertex " << vertices[i].x() << ' ' << vertices[i].y() << ' ' << vertices[i].z() << '\n';
+            text << "  endloop\n endfacet\n";
+        }
+        return text.str() + "endsolid test\n";
+    }
+    std::string binary_stl() const {
+        std::string bytes(80, ' ');
+        bytes.replace(0, 5, "solid");  // as some programs begin it
+        const auto append = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+        append(static_cast<std::uint32_t>(faces.size()));
+        for (const auto& face : faces) {
+            for (int i = 0; i < 3; ++i) append(0.0f);
+            for (const int i : face)
+                for (int k = 0; k < 3; ++k) append(static_cast<float>(vertices[i][k]));
+            append(std::uint16_t{0});
+        }
+        return bytes;
+    }
+};
+
+Shape box(const Vector3d& low, const Vector3d& high) {
+    Shape shape;
+    for (int i = 0; i < 8; ++i)
+        shape.vertices.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
+    shape.faces = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+    return shape;
+}
+
+Shape octahedron(double radius) {
+    Shape shape;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double way : {radius, -radius}) shape.vertices.push_back(way * Vector3d::Unit(axis));
+    shape.faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    return shape;
+}
+
+/// Each face becomes four, and all corners lie on the unit sphere, scaled along the axes.
+Shape ellipsoid(const Vector3d& radii, int levels) {
+    Shape shape = octahedron(1);
+    for (int level = 0; level < levels; ++level) {
+        Shape finer;
+        for (const auto& [a, b, c] : shape.faces) {
+            const Vector3d &p = shape.vertices[a], &q = shape.vertices[b], &r = shape.vertices[c];
+            const int first = static_cast<int>(finer.vertices.size());
+            for (const Vector3d& v : {p, q, r, Vector3d(p + q), Vector3d(q + r), Vector3d(r + p)})
+                finer.vertices.push_back(v.normalized());
+            for (const auto& face : {std::array{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}})
+                finer.faces.push_back({first + face[0], first + face[1], first + face[2]});
+        }
+        shape = finer;
+    }
+    return shape.moved([&](const Vector3d& v) { return v.cwiseProduct(radii).eval(); });
+}
+
+TriangleMesh mesh_of(const Shape& shape) {
+    return read_mesh(shape.obj(), "test.obj");
+}
+
+/// A folder for files of one test, removed afterwards.
+class Mesh : public testing::Test {
+protected:
+    Mesh() {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = std::filesystem::temp_directory_path() / ("natator-mesh-" + std::to_string(::getpid()) + test->name());
+        std::filesystem::create_directories(folder_);
+    }
+    ~Mesh() override { std::filesystem::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return (folder_ / name).string();
+    }
+    static json creature(const std::string& file) {
+        return {{"mesh", {{"file", file}, {"joints", {0.3, 0.6}}}}, {"spacing", 0.1}, {"rearCentre", {0.5, 0.5, 0.5}}};
+    }
+    static Model model_of(const json& creature) {
+        return build_model(scene_from_json({{"creature", creature}}, "test"));
+    }
+
+    std::filesystem::path folder_;
+};
+
+TEST_F(Mesh, IsTheSameFromEveryKindOfFile) {
+    const Shape shape = ellipsoid({1, 0.25, 0.25}, 3);
+    std::string quads;  // a box's faces whole, corners counted backwards, with texture coordinates and normals
+    for (const Vector3d& v : box({0, 0, 0}, {2, 0.5, 0.25}).vertices) {
+        std::ostringstream line;
+        line << "v +" << v.x() << ' ' << v.y() << ' ' << v.z() << " 1.0 # corner\r\n";
+        quads += line.str();
+    }
+    quads += "vn 0 0 1\nvt 0 0\no box\nf -8/1/1 -4//1 -2/1 -6\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
+    const Model whole = model_of(creature(write("quads.obj", quads)));
+    const Model cut = model_of(creature(write("box.obj", box({0, 0, 0}, {2, 0.5, 0.25}).obj())));
+    EXPECT_EQ(whole.position, cut.position);
+    EXPECT_EQ(whole.particles(), 20 * 5 * 2);
+
+    const Model obj = model_of(creature(write("a.obj", shape.obj())));
+    const Model text = model_of(creature(write("a.stl", shape.text_stl())));
+    const Model binary = model_of(creature(write("b.stl", shape.binary_stl())));
+    EXPECT_GT(obj.particles(), 200);
+    EXPECT_EQ(text.position, obj.position);
+    EXPECT_EQ(binary.position, obj.position);
+}
+
+TEST_F(Mesh, OfABoxIsThatBoxOfSlices) {
+    json slices = {{"slices", {{{"height", 5}, {"width", 4}, {"count", 20}}}}, {"joints", {6, 12}}, {"spacing", 0.1},
+                   {"rearCentre", {0.5, 0.5, 0.5}}};
+    json mesh = creature(write("box.obj", box({3, -7, 4}, {5, -6.5, 4.4}).obj()));
+    for (const char* bend : {"sideways", "vertical"}) {
+        slices["bend"] = mesh["bend"] = bend;
+        const Model expected = model_of(slices), model = model_of(mesh);
+        ASSERT_EQ(model.particles(), expected.particles());
+        for (int i = 0; i < model.particles(); ++i) EXPECT_LT((model.position[i] - expected.position[i]).norm(), 1e-12);
+        ASSERT_EQ(model.muscles.size(), expected.muscles.size());
+        ASSERT_GT(model.muscles.size(), 0u);
+        for (std::size_t i = 0; i < model.muscles.size(); ++i) {
+            EXPECT_EQ(model.springs[i].a, expected.springs[i].a);
+            EXPECT_EQ(model.springs[i].b, expected.springs[i].b);
+            EXPECT_EQ(model.muscles[i].lateral, expected.muscles[i].lateral);
+        }
+        ASSERT_EQ(model.clusters.size(), 3u);
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(model.clusters[i].particles, expected.clusters[i].particles);
+    }
+}
+
+TEST_F(Mesh, IsTurnedAndScaledAsTheCreatureSays) {
+    const Shape plain = box({0, 0, 0}, {2, 0.5, 0.4}).add(box({1.5, 0.6, 0.1}, {1.9, 0.9, 0.3}));  // a hump on the front
+    Shape turned = plain;  // forward is -z, up x, right -y; a unit is 0.01
+    turned.moved([](const Vector3d& v) { return Vector3d(100 * v.y(), -100 * v.z(), -100 * v.x()); });
+    json described = creature(write("turned.obj", turned.obj()));
+    described["mesh"].update({{"forward", "-z"}, {"up", "x"}, {"unit", 0.01}});
+    const json straight = creature(write("plain.obj", plain.obj()));
+    EXPECT_GT(model_of(straight).particles(), 20 * 5 * 4);
+    EXPECT_EQ(model_of(described).particles(), model_of(straight).particles());
+    described["mesh"].erase("unit");
+    described["mesh"]["length"] = 2;
+    const Model model = model_of(described);
+    const Model expected = model_of(straight);
+    for (int i = 0; i < model.particles(); ++i) EXPECT_LT((model.position[i] - expected.position[i]).norm(), 1e-9);
+}
+
+/// The lines of the lattice go through edges and corners of these, where a face must count once.
+TEST_F(Mesh, CountsEdgesOnce) {
+    for (const double radius : {7.25, 8.0, 9.25}) {  // no particle is on the surface
+        const MeshSlices body = slice_mesh(mesh_of(octahedron(radius)), 1);
+        int expected = 0, found = 0;
+        const auto half = static_cast<int>(std::lround(2 * radius));  // slices, rows; columns are even
+        for (int x = 0; x < half; ++x)
+            for (int y = 0; y < half; ++y)
+                for (int z = -10; z < 10; ++z) {
+                    const double sum = std::abs(x - (half - 1) / 2.0) + std::abs(y - (half - 1) / 2.0) + std::abs(z + 0.5);
+                    // Slices of the tips, which are one particle high, are left out.
+                    const bool tip = std::abs(x - (half - 1) / 2.0) + (half % 2 == 0 ? 1 : 1.5) >= radius;
+                    if (sum < radius - 1e-9 && !tip) ++expected;
+                }
+        for (const Slice& slice : body.slices) found += slice.particles();
+        EXPECT_EQ(found, expected) << radius;
+        EXPECT_GT(expected, 50);
+    }
+}
+
+TEST_F(Mesh, HasTheVolumeOfItsSolid) {
+    const TriangleMesh mesh = mesh_of(ellipsoid({1, 0.5, 0.25}, 5));
+    EXPECT_NEAR(signed_volume(mesh) / (4 * std::numbers::pi / 3 * 0.125), 1, 0.005);
+    for (const auto& [spacing, tolerance] : {std::pair{0.1, 0.06}, std::pair{0.05, 0.02}, std::pair{0.02, 0.006}}) {
+        double particles = 0;
+        for (const Slice& slice : slice_mesh(mesh, spacing).slices) particles += slice.particles();
+        EXPECT_NEAR(particles * std::pow(spacing, 3) / signed_volume(mesh), 1, tolerance) << spacing;
+    }
+}
+
+/// A cavity is empty, and no muscle runs through it.
+TEST_F(Mesh, LeavesACavityEmpty) {
+    Shape hollow = box({0, 0, 0}, {2, 0.6, 0.6});
+    hollow.add(box({0.5, 0.2, 0.2}, {1.3, 0.4, 0.4}).turned());
+    const json solid = creature(write("solid.obj", box({0, 0, 0}, {2, 0.6, 0.6}).obj()));
+    const json with_cavity = creature(write("hollow.obj", hollow.obj()));
+    const Model full = model_of(solid), empty = model_of(with_cavity);
+    EXPECT_EQ(full.particles() - empty.particles(), 8 * 2 * 2);
+    EXPECT_LT(empty.springs.size(), full.springs.size());
+    for (const Spring& spring : empty.springs) {  // joints at 14 and 8 from the rear, where y, z in (0.4, 0.6) is empty
+        const Vector3d middle = (empty.position[spring.a] + empty.position[spring.b]) / 2 - Vector3d(0.5, 0.5, 0.5);
+        EXPECT_GT(std::max(std::abs(middle.y()), std::abs(middle.z())), 0.1);
+    }
+}
+
+TEST_F(Mesh, IsTheSameFileWhereverItIsNamedFrom) {
+    write("box.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());
+    const std::string name = write("box.json", R"({"mesh":{"file":"box.obj","joints":[0.3,0.6]},"spacing":0.1})");
+    const json definition = scene_definition("pool/eel", {{"creature", {{"name", name}, {"profile", nullptr}}}});
+    EXPECT_EQ(definition["creature"]["mesh"]["file"], (folder_ / "box.obj").string());
+    EXPECT_EQ(definition["creature"]["mesh"]["digest"].get<std::string>().size(), 16u);
+    EXPECT_EQ(build_model(load_scene("pool/eel", {{"creature", {{"name", name}, {"rearCentre", {0.5, 0.5, 0.5}}}}})).body.particles.size(), 400u);
+}
+
+/// What an override cannot take away.
+TEST_F(Mesh, NamesWhatIsMissing) {
+    const std::string file = write("box.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());
+    for (const std::string key : {"file", "joints"}) {
+        json body = creature(file);
+        body["mesh"].erase(key);
+        try {
+            model_of(body);
+            FAIL() << key;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.what(), "scene \"test\": creature.mesh." + key + ": missing; must be given");
+        }
+    }
+    json body = creature(file);
+    body["profile"] = {{"length", 1}};
+    EXPECT_THROW(model_of(body), InputError);
+}
+
+TEST_F(Mesh, OfASceneIsScaledByWhatTheSceneSays) {
+    const Scene scene = load_scene("pool/ray", json::parse(R"({"creature":{"mesh":{"unit":0.05}}})"));
+    EXPECT_EQ(scene.creature->skin->unit, 0.05);
+    EXPECT_EQ(scene.creature->slices.size(), 20u);
+}
+
+/// A definition says which file it was made of, so that nothing that was computed is taken for what another would give.
+TEST_F(Mesh, IsToldFromAnotherOfTheSameName) {
+    const std::string file = write("box.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());
+    const json overrides = {{"creature", creature(file)}};
+    const json before = scene_definition("pool/water", overrides);
+    EXPECT_EQ(scene_definition("pool/water", overrides), before);
+    EXPECT_NO_THROW(scene_from_json(before, "before"));
+    write("box.obj", box({0, 0, 0}, {2, 0.5, 0.6}).obj());
+    EXPECT_NE(scene_definition("pool/water", overrides), before);
+    try {
+        scene_from_json(before, "before");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("creature.mesh.digest"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("which has changed"), std::string::npos);
+    }
+}
+
+struct BadMesh {
+    const char* name;
+    std::function<std::string()> content;
+    const char* file = "bad.obj";
+    std::vector<const char*> expected;
+};
+
+void PrintTo(const BadMesh& bad, std::ostream* out) {
+    test::print_name(bad.name, out);
+}
+
+const Vector3d zero{0, 0, 0}, corner{2, 0.5, 0.4};
+
+Shape without_a_face() {
+    Shape shape = box(zero, corner);
+    shape.faces.erase(shape.faces.begin() + 4);
+    return shape;
+}
+Shape with_a_turned_face() {
+    Shape shape = box(zero, corner);
+    std::swap(shape.faces[5][0], shape.faces[5][1]);
+    return shape;
+}
+Shape with_a_flat_face() {
+    Shape shape = box(zero, corner);
+    shape.vertices.emplace_back(1, 0, 0);  // halfway between corners 0 and 1
+    shape.faces.push_back({0, 8, 1});
+    return shape;
+}
+Shape with_a_fin() {
+    Shape shape = box(zero, corner);
+    shape.vertices.emplace_back(1, 1, 0.2);
+    shape.faces.push_back({0, 1, 8});
+    shape.faces.push_back({1, 0, 8});
+    return shape;
+}
+/// A bar whose sections are wide at the ends, and in the middle as thin as `waist`.
+Shape dumbbell(double waist) {
+    Shape shape = ellipsoid({1, 0.3, 0.3}, 4);
+    return shape.moved([&](const Vector3d& v) {
+        const double thin = waist + (1 - waist) * std::min(1.0, std::max(0.0, std::abs(v.x()) - 0.2) * 4);
+        return Vector3d(v.x(), v.y() * thin, v.z() * thin);
+    });
+}
+
+const BadMesh bad_meshes[] = {
+    {"empty", [] { return std::string(); }, "bad.obj", {"has no faces"}},
+    {"number", [] { return std::string("v 0 0 0\nv 1 x 0\n"); }, "bad.obj", {"line 2", "\"x\" is no coordinate"}},
+    {"missing", [] { return std::string("v 0 0\n"); }, "bad.obj", {"line 1", "a coordinate is missing"}},
+    {"nan", [] { return std::string("v 0 0 nan\n"); }, "bad.obj", {"line 1", "\"nan\""}},
+    {"huge", [] { return std::string("v 0 0 1e12\n"); }, "bad.obj", {"line 1", "within 1e9"}},
+    {"corner", [] { return std::string("v 0 0 0\nv 1 0 0\nf 1 2 3\n"); }, "bad.obj", {"line 3", "corner \"3\"", "2 vertices"}},
+    {"corner0", [] { return std::string("v 0 0 0\nf 0 1 1\n"); }, "bad.obj", {"line 2", "corner \"0\""}},
+    {"face", [] { return std::string("v 0 0 0\nf 1 1\n"); }, "bad.obj", {"line 2", "2 corners"}},
+    {"repeated", [] { return std::string("v 0 0 0\nv 1 0 0\nf 1 1 2\n"); }, "bad.obj", {"line 3", "no area"}},
+    {"hole", [] { return without_a_face().obj(); }, "bad.obj", {"a hole at the edge from", "(0, 0, 0)", "alone"}},
+    {"turned", [] { return with_a_turned_face().obj(); }, "bad.obj", {"inverted faces at the edge", "the face of line 14"}},
+    {"insideOut", [] { return box(zero, corner).turned().obj(); }, "bad.obj", {"inside out", "-0.4"}},
+    {"flat", [] { return with_a_flat_face().obj(); }, "bad.obj", {"the face of line 22", "(0, 0, 0)", "no area"}},
+    {"fin", [] { return with_a_fin().obj(); }, "bad.obj", {"belongs to 4 faces"}},
+    {"crossed", [] { return box(zero, corner).add(box({0.5, -0.1, 0.1}, {0.8, 0.6, 0.3})).obj(); }, "bad.obj",
+     {"intersects itself", "the face of line"}},
+    {"touching", [] { return box(zero, corner).add(box({0.5, 0.5, 0.1}, {0.8, 0.7, 0.3})).obj(); }, "bad.obj",
+     {"intersects itself"}},
+    {"inner", [] { return box(zero, corner).add(box({0.5, 0.1, 0.1}, {0.8, 0.4, 0.3})).obj(); }, "bad.obj",
+     {"a part inside another"}},
+    {"apartTurned", [] { return box(zero, corner).add(box({0.5, 0.6, 0.1}, {0.8, 0.9, 0.3}).turned()).obj(); }, "bad.obj",
+     {"a part whose faces look inwards"}},
+    {"thin", [] { return dumbbell(0.1).obj(); }, "bad.obj", {"thinner than two particles at 0.", "of the length"}},
+    {"wing", [] { return box(zero, corner).add(box({1, 0.21, 0.5}, {1.3, 0.24, 1.5})).add(
+                             box({1, 0.21, -1.1}, {1.3, 0.24, -0.1})).obj(); }, "bad.obj",
+     {"too thin for particles around", "1.5"}},
+    {"flatBody", [] { return box(zero, {2, 0.5, 0.1}).obj(); }, "bad.obj", {"is wide 1 spacings", "two particles"}},
+    {"short", [] { return box(zero, {0.1, 0.5, 0.4}).obj(); }, "bad.obj", {"is 1 spacings long", "unit and length"}},
+    {"tenThousand", [] { return box(zero, 10000 * Vector3d(0.1, 0.1, 0.1)).obj(); }, "bad.obj", {"is 10000 spacings long", "1000"}},
+    {"millions", [] { return box(zero, 900 * Vector3d(0.1, 0.1, 0.1)).obj(); }, "bad.obj", {"more than 16000000 particles"}},
+    {"oneSided", [] { return box(zero, corner).add(box({0.5, 0.6, 0.6}, {1.5, 0.9, 1.2})).obj(); }, "bad.obj",
+     {"different halves", "mirrored"}},
+    {"facet", [] { return std::string("solid a\nfacet normal 0 0 1\nvertex 0 0 0\nendfacet\n"); }, "bad.stl",
+     {"line 4", "1 vertices"}},
+    {"outside", [] { return std::string("solid a\nvertex 0 0 0\n"); }, "bad.stl", {"line 2", "outside of a facet"}},
+    {"within", [] { return std::string("solid a\nfacet\nfacet\n"); }, "bad.stl", {"line 3", "within a facet"}},
+    {"word", [] { return std::string("solid a\nfacette\n"); }, "bad.stl", {"line 2", "\"facette\""}},
+    {"cutText", [] { return box(zero, corner).text_stl().substr(0, 400); }, "bad.stl", {"ends at line"}},
+    {"cutBinary", [] { return box(zero, corner).binary_stl().substr(0, 300); }, "bad.stl",
+     {"has 300 bytes", "12 facets", "684"}},
+    {"noStl", [] { return std::string("stl"); }, "bad.stl", {"has 3 bytes"}},
+    {"nanBinary",
+     [] {
+         Shape shape = box(zero, corner);
+         shape.vertices[1].x() = std::nan("");
+         return shape.binary_stl();
+     },
+     "bad.stl", {"facet 3", "no number"}},
+};
+
+class BadMeshTest : public Mesh, public testing::WithParamInterface<BadMesh> {};
+
+TEST_P(BadMeshTest, IsRefusedWithOneLineThatSaysWhere) {
+    const BadMesh& bad = GetParam();
+    const std::string file = write(bad.file, bad.content());
+    for (const char* expected : bad.expected)
+        expect_refused("pool/water", {{"creature", creature(file)}}, "creature.mesh.file: \"", expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadMeshTest, testing::ValuesIn(bad_meshes));
+
+struct BadBody {
+    const char* overrides;  ///< merged into pool/ray
+    const char* field;
+    const char* expected;
+};
+
+void PrintTo(const BadBody& bad, std::ostream* out) {
+    test::print_name(bad.overrides, out);
+}
+
+const BadBody bad_bodies[] = {
+    {R"({"mesh":{"file":"none.obj"}})", "creature.mesh.file: \"none.obj\"", "no such file"},
+    {R"({"mesh":{"file":"ray.json"}})", "creature.mesh.file: \"ray.json\"", ".obj or .stl"},
+    {R"({"mesh":{"file":"/dev/zero.obj"}})", "creature.mesh.file", "no such file"},
+    {R"({"mesh":{"file":7}})", "creature.mesh.file", "string"},
+    {R"({"mesh":{"unit":1,"length":2}})", "creature.mesh.length = 2", "left out beside unit"},
+    {R"({"mesh":{"unit":0}})", "creature.mesh.unit = 0", "(0,"},
+    {R"({"mesh":{"length":-2}})", "creature.mesh.length = -2", "(0,"},
+    {R"({"mesh":{"length":1000}})", "creature.mesh.file: \"ray.obj\"", "spacings long"},
+    {R"({"mesh":{"length":0.01}})", "creature.mesh.file: \"ray.obj\"", "spacings long"},
+    {R"({"mesh":{"forward":"up"}})", "creature.mesh.forward", "\"x\" or \"-x\""},
+    {R"({"mesh":{"up":"-x"}})", "creature.mesh.up", "right angle"},
+    {R"({"mesh":{"digest":"0"}})", "creature.mesh.digest", "which has changed"},
+    {R"({"mesh":{"joint":[0.5]}})", "creature.mesh.joint", "did you mean joints?"},
+    {R"({"mesh":{"joints":[0.5,0.4]}})", "creature.mesh.joints[1] = 0.4", "behind slice"},
+    {R"({"mesh":7})", "creature.mesh", "an object"},
+    {R"({"joints":[3,5]})", "creature.joints", "left out beside mesh"},
+    {R"({"bend":"sidewise"})", "creature.bend", "\"sideways\" or \"vertical\" or \"both\""},
+    {R"({"bend":["both","vertical"]})", "creature.bend", "each of the 5 gaps"},
+    {R"({"bend":["both","vertical","both","both",1]})", "creature.bend[4] = 1", "\"sideways\""},
+    {R"({"joint":"hinge"})", "creature.joint", "\"slice\" or \"line\""},
+};
+
+class BadBodyTest : public testing::TestWithParam<BadBody> {};
+
+TEST_P(BadBodyTest, IsRefusedWithOneLineThatSaysWhere) {
+    const BadBody& bad = GetParam();
+    expect_refused("pool/ray", {{"creature", json::parse(bad.overrides)}}, bad.field, bad.expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadBodyTest, testing::ValuesIn(bad_bodies));
+
+TEST_F(Mesh, OfTooManyFacesIsRefused) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+    for (long i = 0; i < limits::mesh_faces + 3; ++i) text += " 1";
+    EXPECT_THROW(read_mesh(text, "many.obj"), InputError);
+}
+
+class RayTest : public testing::Test {
+protected:
+    Scene scene = load_scene("pool/ray");
+    Model model = build_model(scene);
+};
+
+TEST_F(RayTest, IsSymmetricLeftAndRight) {
+    using Place = std::array<long, 3>;  // in half spacings from the rear centre
+    std::set<Place> places;
+    for (const int i : model.body.particles) {
+        const Vector3d at = (model.position[i] - scene.creature->rear_centre) / scene.creature->spacing * 2;
+        EXPECT_LT((at - at.array().round().matrix()).norm(), 1e-9);  // on the lattice
+        places.insert({std::lround(at.x()), std::lround(at.y()), std::lround(at.z())});
+    }
+    EXPECT_EQ(places.size(), model.body.particles.size());
+    for (const Place& place : places) EXPECT_TRUE(places.count({place[0], place[1], -place[2]}));
+}
+
+TEST_F(RayTest, BendsUpAndDown) {
+    ASSERT_EQ(model.actuators, 5);
+    for (const Muscle& muscle : model.muscles) {
+        const Spring& spring = model.springs[muscle.spring];
+        const double y = (model.position[spring.a] + model.position[spring.b]).y() / 2 - scene.creature->rear_centre.y();
+        EXPECT_GT(y * muscle.lateral, 0);
+        EXPECT_LE(std::abs(muscle.lateral), 1);
+    }
+}
+
+/// Its volume is that of the mesh, and its weight that of the water it displaces.
+TEST_F(RayTest, IsAsLargeAsItsMeshAndAsHeavyAsItsWater) {
+    const std::vector<double> volumes = particle_volumes(model);
+    double mass = 0, volume = 0;
+    for (const int i : model.body.particles) {
+        mass += 1 / model.inverse_mass[i];
+        volume += volumes[i];
+    }
+    EXPECT_NEAR(volume / scene.creature->skin->volume, 1, 0.08);
+    EXPECT_NEAR(mass / (volume * fluid_density(model, volumes)), 1, 0.005);
+}
+
+/// At rest the skin fits around the particles, and each vertex follows the one or two clusters that it is nearest to.
+TEST_F(RayTest, HasASkin) {
+    const Skin& skin = *scene.creature->skin;
+    const std::vector<SkinWeight> weights = skin_weights(*scene.creature, model);
+    ASSERT_EQ(weights.size(), skin.vertices.size());
+    EXPECT_EQ(skin.file, "ray.obj");
+    std::set<int> used;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        EXPECT_GT(weights[i].share, 0);
+        EXPECT_LE(weights[i].share, 1);
+        used.insert(weights[i].cluster);
+        double nearest = 1e9;
+        for (const int particle : model.body.particles)
+            nearest = std::min(nearest, (model.position[particle] - scene.creature->rear_centre - skin.vertices[i]).norm());
+        EXPECT_LT(nearest, 3 * scene.creature->spacing);
+        // What the file has, by the transformation that is told.
+        const Vector3d in_file = skin.origin + skin.axes.transpose() * skin.vertices[i] / skin.unit;
+        EXPECT_LT(in_file.x(), 1e-9);
+        EXPECT_GT(in_file.x(), -30 - 1e-9);
+    }
+    EXPECT_EQ(used.size(), model.clusters.size());
+}
+
+TEST_F(RayTest, IsRefinedLikeAnyOther) {
+    const Model fine = build_model(load_scene("pool/ray", json::parse(R"({"creature":{"refinement":2}})")));
+    EXPECT_EQ(fine.body.particles.size(), 8 * model.body.particles.size());
+    ASSERT_EQ(fine.springs.size(), 8 * model.springs.size());
+    std::vector<double> sum(5), size(5);
+    for (const Muscle& muscle : fine.muscles) {
+        const Spring& spring = fine.springs[muscle.spring];
+        const double y = (fine.position[spring.a] + fine.position[spring.b]).y() / 2 - scene.creature->rear_centre.y();
+        EXPECT_GT(y * muscle.lateral, 0);
+        sum[muscle.actuator] += muscle.lateral;
+        size[muscle.actuator] += std::abs(muscle.lateral);
+    }
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_NEAR(sum[i], 0, 1e-9);
+        EXPECT_GT(size[i], 1);
+    }
+}
+
+/// A wave that travels to the tail drives it forward, and without water nowhere.
+TEST_F(RayTest, SwimsByATravellingWave) {
+    Gait gait = resting_gait(model.actuators);
+    gait.frequency = 1.5;
+    for (int i = 0; i < model.actuators; ++i) {
+        gait.amplitude[i] = 1;
+        gait.phase[i] = i == 0 ? 0 : 1 - 0.08 * i;
+    }
+    scene.duration = 1;
+    scene.stopping = {.plane_contact = false, .no_progress_after = 0};
+    const Evaluation water = evaluate(scene, gait);
+    EXPECT_EQ(water.stopped, StopReason::completed);
+    EXPECT_GT(water.distance, 0.02);
+    scene.fluid.reset();
+    scene.planes.clear();
+    scene.solver.gravity = {0, 0, 0};
+    EXPECT_NEAR(evaluate(scene, gait).distance, 0, 0.001);
+}
+
+}  // namespace
+}  // namespace natator

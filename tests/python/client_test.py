@@ -1,0 +1,162 @@
+"""Evaluations, trajectories and driven swimmers through the Python client."""
+
+import json
+import re
+import subprocess
+import unittest
+from pathlib import Path
+
+import natator
+import numpy as np
+from natator.program import simulator_path
+from natator.simulator import make_request
+
+ROOT = Path(__file__).resolve().parents[2]
+TANK = "bench/small-tank"
+GAIT = natator.Gait(1.861, [0.973, 0.69], [0, 0.648])
+ALL_THE_WAY = {"stopping": {"planeContact": False, "noProgressAfter": 0}}
+
+
+def evaluated(**request):
+    """The simulator's own answer."""
+    text = json.dumps(make_request(TANK, GAIT, id=1, **request))
+    return json.loads(subprocess.run([simulator_path(), "evaluate"], input=text.encode(), capture_output=True).stdout)
+
+
+class EvaluationTest(unittest.TestCase):
+    def test_one_is_what_the_program_says(self):
+        result = natator.evaluate(TANK, GAIT, duration=0.1, start=2)
+        self.assertEqual(result["hash"], evaluated(duration=0.1, start=2)["hash"])
+        self.assertEqual(result["fitness"], result["distance"])
+
+    def test_a_gait_is_given_as_a_whole(self):
+        gait = natator.Gait(1.5, np.array([0.5, 0.6]), (0, 0.5), offset=[0.2, -0.1], power=2)
+        request = {"id": 1, "scene": TANK, "duration": 0.1, "gait": {
+            "frequency": 1.5, "amplitude": [0.5, 0.6], "phase": [0, 0.5], "offset": [0.2, -0.1], "power": 2}}
+        done = subprocess.run([simulator_path(), "evaluate"], input=json.dumps(request).encode(), capture_output=True)
+        self.assertEqual(natator.evaluate(TANK, gait, duration=0.1)["hash"], json.loads(done.stdout)["hash"])
+
+    def test_many_come_in_order_whatever_the_number_of_workers(self):
+        requests = [make_request(TANK, GAIT, duration=0.05 + 0.05 * (k % 3), start=k) for k in range(7)]
+        with natator.Simulator(workers=1) as one, natator.Simulator(workers=3) as three:
+            expected, results = one.evaluate_all(requests), three.evaluate_all(requests)
+            self.assertEqual(three.evaluate_all([]), [])
+        self.assertEqual([r["hash"] for r in results], [r["hash"] for r in expected])
+        self.assertEqual([r["frames"] for r in results], [3, 6, 9, 3, 6, 9, 3])
+
+    def test_bad_requests_are_refused_and_others_go_on(self):
+        with natator.Simulator(workers=1) as simulator:
+            with self.assertRaisesRegex(natator.InputError, r"gait.amplitude has length 1: must have length 2"):
+                simulator.evaluate(TANK, natator.Gait(1, [1], [0]))
+            with self.assertRaisesRegex(natator.InputError, "speed"):
+                simulator.evaluate(TANK, GAIT, speed=3)
+            self.assertEqual(simulator.evaluate(TANK, GAIT, duration=0.05)["status"], "ok")
+        with self.assertRaisesRegex(natator.ProgramError, "closed"):
+            simulator.evaluate(TANK, GAIT)
+
+    def test_an_unstable_one_is_a_result(self):
+        result = natator.evaluate(TANK, GAIT, duration=1, overrides={"solver": {"relaxationMode": "global"}})
+        self.assertEqual((result["status"], result["fitness"]), ("unstable", 0))
+
+    def test_a_program_that_is_not_there_is_named(self):
+        with self.assertRaisesRegex(natator.ProgramError, "/no/such: must be the program natator-sim"):
+            natator.evaluate(TANK, GAIT, program="/no/such")
+        with self.assertRaisesRegex(natator.ProgramError, "exit code 0"):
+            natator.evaluate(TANK, GAIT, program="/bin/true")
+
+
+class TrajectoryTest(unittest.TestCase):
+    def test_arrays_are_the_swim(self):
+        every = natator.record(TANK, GAIT, duration=0.1, fields=("position", "velocity", "density"), overrides=ALL_THE_WAY)
+        third = natator.record(TANK, GAIT, duration=0.1, every=3, overrides=ALL_THE_WAY)
+        self.assertEqual((every.position.shape, every.velocity.shape, every.density.shape), ((7, 938, 3), (7, 938, 3), (7, 938)))
+        self.assertEqual((every.drive.shape, every.body.shape, every.fluid), ((7, 2), (81,), slice(81, 938)))
+        np.testing.assert_array_equal(third.position, every.position[::3])
+        np.testing.assert_allclose(third.time, [0, 0.05, 0.1])
+        self.assertIsNone(third.velocity)
+        result = evaluated(duration=0.1, overrides=ALL_THE_WAY)
+        self.assertEqual(every.distance[-1], result["distance"])
+        hashed = 0xcbf29ce484222325  # FNV-1a, as measure.h says
+        for byte in every.position[-1].tobytes() + every.velocity[-1].tobytes():
+            hashed = (hashed ^ byte) * 0x100000001b3 % 2**64
+        self.assertEqual(f"{hashed:016x}", result["hash"])
+
+    def test_bad_lengths_are_refused(self):
+        with self.assertRaisesRegex(natator.InputError, "every = 0"):
+            natator.record(TANK, GAIT, every=0)
+
+
+class StreamTest(unittest.TestCase):
+    def test_the_same_commands_give_the_same_senses_and_frames(self):
+        def swim(start, frames=6):
+            with natator.Stream(TANK, start=start, fields="position") as stream:
+                stream.sense(flow=[(2, "left"), (4, "above")], target=(3, 0.5, 0.5))
+                for k in range(frames):
+                    senses = stream.step(drive=[0.1 * k, -0.2])
+                return senses, stream.frame
+
+        (first, frame), (again, same), (other, _) = swim(3), swim(3), swim(4)
+        for name in vars(first):
+            np.testing.assert_array_equal(getattr(first, name), getattr(again, name), name)
+        np.testing.assert_array_equal(frame.position, same.position)
+        self.assertEqual((first.frame, frame.number, first.flow.shape, first.target.shape), (6, 6, (2, 3), (3,)))
+        self.assertGreater(np.abs(first.velocity - other.velocity).max(), 0)
+        np.testing.assert_allclose(frame.position[:81].mean(axis=0), first.centre, atol=1e-6)
+        np.testing.assert_array_equal(first.drive, [0.5, -0.2])
+
+    def test_rows_are_frames(self):
+        rows = np.array([[0.1, 0.2], [0.5, -0.4], [0, 0.3]])
+        with natator.Stream(TANK) as together, natator.Stream(TANK) as apart:
+            at_once = together.step(drive=rows)
+            for row in rows:
+                one_by_one = apart.step(drive=row)
+            np.testing.assert_array_equal(at_once.centre, one_by_one.centre)
+            self.assertEqual(at_once.frame, 3)
+
+    def test_steering_and_reset(self):
+        with natator.Stream(TANK, gait=GAIT) as stream:
+            before = stream.step(5)
+            stream.reset()
+            steered = stream.step(5, offset=[0.3, 0.3])
+            np.testing.assert_allclose(steered.drive - before.drive, [0.3, 0.3])
+            stream.steer()
+            np.testing.assert_array_equal(stream.step(1).drive, stream.sense().drive)
+            stream.reset()
+            np.testing.assert_array_equal(stream.step(5).centre, before.centre)
+            stream.reset(start=9)
+            self.assertEqual(stream.scene["start"], 9)
+            stream.set_gait(natator.Gait(1, [0, 0], [0, 0]))
+            np.testing.assert_array_equal(stream.step(3).drive, [0, 0])
+
+    def test_refusals_say_what_and_change_nothing(self):
+        with natator.Stream(TANK) as stream:
+            for bad, reason in (([1, 3], r"drive\[1\] = 3: must be a number in \[-2, 2\]"), ([1], "must have length 2"),
+                                ([np.nan, 0], "not valid JSON")):
+                with self.assertRaisesRegex(natator.InputError, reason):
+                    stream.step(drive=bad)
+            with self.assertRaisesRegex(natator.InputError, "flow.0..slice = 99"):
+                stream.sense(flow=[(99, "left")])
+            self.assertEqual(stream.sense().frame, 0)
+        with self.assertRaisesRegex(natator.ProgramError, "closed"):
+            stream.step()
+        with self.assertRaisesRegex(natator.InputError, "unknown scene \"none/such\""):
+            natator.Stream("none/such")
+
+    def test_instability_is_an_error_until_a_reset(self):
+        with natator.Stream(TANK, gait=GAIT) as stream:
+            stream.ask({"do": "overrides", "overrides": {"solver": {"relaxationMode": "global"}}})
+            with self.assertRaises(natator.Unstable) as caught:
+                stream.step(600)
+            self.assertGreater(caught.exception.time, 0)
+            stream.ask({"do": "overrides", "overrides": {"solver": {"relaxationMode": "local"}}})
+            self.assertEqual(stream.step().frame, 1)
+
+
+class PackageTest(unittest.TestCase):
+    def test_the_version_is_the_projects(self):
+        project = re.search(r"project\(natator VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+        self.assertEqual(natator.__version__, project)
+
+
+if __name__ == "__main__":
+    unittest.main()

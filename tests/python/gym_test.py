@@ -1,0 +1,154 @@
+"""The Gymnasium environments, by Gymnasium's own checker and against each other."""
+
+import unittest
+import warnings
+
+import gymnasium
+import natator
+import natator.gym
+import numpy as np
+from gymnasium.utils.env_checker import check_env
+
+TANK = {"scene": "bench/small-tank", "duration": 0.2}
+CONSERVING = {**TANK, "overrides": {"scheme": "conserving", "settling": {"updates": 5}, "solver": {"substeps": 1}}}
+
+
+def play(env, seed, steps=6):
+    """Observations and rewards of so many seeded actions."""
+    env.action_space.seed(seed)
+    seen = [env.reset(seed=seed)[0]]
+    for _ in range(steps):
+        observation, reward, terminated, truncated, _ = env.step(env.action_space.sample())
+        seen += [observation, reward, terminated, truncated]
+    return seen
+
+
+class EnvironmentTest(unittest.TestCase):
+    def test_gymnasiums_checker(self):
+        for more in ({}, {"actions": "gait"}, {"target": ((1, 0.3, 0.3), (1.4, 0.6, 0.5))}, CONSERVING | {"work_cost": 1e-6}):
+            with self.subTest(more), warnings.catch_warnings():
+                warnings.simplefilter("error")
+                env = gymnasium.make("natator/Swimmer-v0", **{**TANK, **more})
+                check_env(env.unwrapped)
+                env.close()
+
+    def test_the_same_seed_gives_the_same_bits(self):
+        for more in ({}, {"actions": "gait", "target": (1.4, 0.4, 0.6)}, CONSERVING | {"work_cost": 1e-6}):
+            with self.subTest(more):
+                env, again = (natator.gym.SwimmerEnv(**{**TANK, **more}) for _ in range(2))
+                first = play(env, 7)
+                for seen in (play(again, 7), play(env, 7)):  # by another program; by the same after a reset
+                    for one, other in zip(first, seen):
+                        np.testing.assert_array_equal(one, other)
+                self.assertFalse(np.array_equal(first[-4], play(env, 8)[-4]))
+                env.close()
+                again.close()
+
+    def test_observations_are_in_the_order_that_is_documented(self):
+        env = natator.gym.SwimmerEnv(**TANK, actions="gait", target=(1.4, 0.4, 0.6), flow=[(2, "left"), (4, "right")])
+        env.reset(seed=1)
+        observation = env.step(np.array([1, 0, 0.5, -0.5], np.float32))[0]
+        senses = env._stream.sense()
+        length = env._stream.scene["bodyLength"]
+        turns = 2 * np.pi * 1.5 * senses.time
+        expected = np.concatenate([
+            senses.velocity / length, senses.turn_rate, [senses.forward[1], senses.up[1], senses.right[1]], senses.drive,
+            senses.bend, senses.flow.ravel() / length, [np.sin(turns), np.cos(turns)], senses.target,
+            [senses.target_distance / length]])
+        np.testing.assert_allclose(observation, expected, rtol=1e-6, atol=1e-6)
+        self.assertEqual(observation.shape, env.observation_space.shape)
+        env.close()
+
+    def test_an_action_is_reached_in_a_straight_line(self):
+        env = natator.gym.SwimmerEnv(**TANK, frames=4)
+        env.reset(seed=1, options={"start": 5})
+        env.step(np.array([0.8, -0.4]))
+        with natator.Stream(TANK["scene"], start=5) as stream:
+            for part in (0.25, 0.5, 0.75, 1):
+                senses = stream.step(drive=[0.8 * part, -0.4 * part])
+        np.testing.assert_array_equal(env._senses.centre, senses.centre)
+        env.close()
+
+    def test_rewards_are_progress_less_work(self):
+        plain, target, costly = (natator.gym.SwimmerEnv(**{**CONSERVING, **more}) for more in (
+            {}, {"target": (1.4, 0.4, 0.6)}, {"work_cost": 0.5}))
+        for env in (plain, target, costly):
+            env.reset(seed=3)
+        length = plain._stream.scene["bodyLength"]
+        before = target._senses.target_distance
+        action = np.array([0.5, -0.5])
+        (_, reward, *_, info), (_, nearer, *_), (_, dearer, *_) = (env.step(action) for env in (plain, target, costly))
+        self.assertAlmostEqual(reward, info["distance"] / length)
+        self.assertAlmostEqual(nearer, (before - target._senses.target_distance) / length)
+        self.assertAlmostEqual(dearer, reward - 0.5 * info["work"])
+        self.assertNotEqual(info["work"], 0)
+        for env in (plain, target, costly):
+            env.close()
+
+    def test_episodes_end(self):
+        env = natator.gym.SwimmerEnv(**TANK)
+        ends = play(env, 1, steps=4)[-2:]
+        self.assertEqual(ends, [False, True])  # truncated at its duration
+        env.close()
+        there = natator.gym.SwimmerEnv(**TANK, target=(0.75, 0.42, 0.41))
+        there.reset(seed=1)
+        _, _, terminated, _, info = there.step(np.zeros(2))
+        self.assertTrue(terminated and info["reached"])
+        there.close()
+        broken = natator.gym.SwimmerEnv(**TANK, frames=50, actions="gait")
+        broken.reset(seed=1)
+        broken._stream.ask({"do": "overrides", "overrides": {"solver": {"relaxationMode": "global"}}})
+        observation, _, terminated, _, info = broken.step(np.ones(4))
+        self.assertTrue(terminated and info["unstable"] and np.all(np.isfinite(observation)))
+        broken.close()
+
+    def test_bad_arguments_and_actions_are_refused(self):
+        for more, reason in (({"actions": "push"}, 'actions = .push.: must be "drive" or "gait"'), ({"frames": 0}, "frames"),
+                             ({"target": (1, 2)}, "target"), ({"flow": [(99, "left")]}, "flow.0..slice = 99"),
+                             ({"scene": "thesis/tank"}, "must have a creature with actuators")):
+            with self.assertRaisesRegex(natator.InputError, reason):
+                natator.gym.SwimmerEnv(**{**TANK, **more})
+        env = natator.gym.SwimmerEnv(**TANK)
+        with self.assertRaises(gymnasium.error.ResetNeeded):
+            env.step(np.zeros(2))
+        env.reset(seed=1)
+        for action in ([0, np.nan], [2, 0], [0]):
+            with self.assertRaisesRegex(natator.InputError, r"must be 2 numbers in \[-1, 1\]"):
+                env.step(np.array(action))
+        env.close()
+
+
+class VectorTest(unittest.TestCase):
+    def test_it_gives_what_single_ones_give(self):
+        for more in ({}, {"actions": "gait"}):
+            vector = gymnasium.make_vec("natator/Swimmer-v0", num_envs=3, **TANK, **more)
+            self.assertIsInstance(vector.unwrapped, natator.gym.SwimmerVectorEnv)
+            singles = gymnasium.vector.SyncVectorEnv(
+                [lambda: natator.gym.SwimmerEnv(**TANK, **more) for _ in range(3)])
+            seen = [[env.reset(seed=11)[0]] for env in (vector, singles)]
+            vector.action_space.seed(1)
+            for _ in range(7):  # beyond the end of an episode
+                actions = vector.action_space.sample()
+                for env, observed in zip((vector, singles), seen):
+                    observed.extend(env.step(actions)[:4])
+            for one, other in zip(*seen):
+                np.testing.assert_array_equal(one, other)
+            self.assertTrue(np.all(seen[0][1 + 4 * 3 + 3]))  # the fourth step's truncations
+            vector.close()
+            singles.close()
+
+    def test_seeds(self):
+        vector = natator.gym.SwimmerVectorEnv(2, **TANK)
+        with self.assertRaisesRegex(natator.InputError, "3 seeds: must be 2"):
+            vector.reset(seed=[1, 2, 3])
+        vector.action_space.seed(1)
+        action = vector.action_space.sample()
+        vector.reset(seed=[4, 4])
+        action[1] = action[0]
+        same = vector.step(action)[0]
+        np.testing.assert_array_equal(same[0], same[1])
+        vector.close()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Installs the Python client as its users do, into a folder of its own, and runs its tests: run.sh PYTHON SIMULATOR FOLDER
+set -euo pipefail
+readonly python=$1 simulator=$2 folder=$3
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+
+if [[ ! -x $python ]]; then
+    echo "the packages that the Python client is tested with are missing; install them by: ./setup.sh --readers" >&2
+    exit 1
+fi
+rm -rf "$folder"
+"$python" -m pip --quiet --disable-pip-version-check install --no-index --no-deps --no-build-isolation \
+    --target "$folder" "$root/sim-native/python"
+export PYTHONPATH=$folder PYTHONDONTWRITEBYTECODE=1 NATATOR_SIM=$simulator
+exec "$python" -W error -m unittest discover --start-directory "$root/tests/python" --pattern '*_test.py'

@@ -1,0 +1,74 @@
+"""stream.schema.json against the program that reads the commands: what one takes the other takes."""
+
+import json
+import unittest
+from pathlib import Path
+
+import natator
+from jsonschema import Draft202012Validator
+from referencing import Registry, Resource
+
+PROTOCOL = Path(__file__).resolve().parents[2] / "sim-native/protocol"
+GAIT = {"frequency": 1, "amplitude": [0.5, 0.5], "phase": [0, 0.5]}
+
+TAKEN = [
+    {"do": "run"}, {"do": "pause", "id": 3}, {"do": "credit"}, {"do": "credit", "frames": 1000}, {"do": "reset"},
+    {"do": "reset", "start": 2147483647}, {"do": "step"}, {"do": "step", "frames": 2, "drive": [0.1, -2]},
+    {"do": "step", "drive": [[0, 0], [0.5, 2]], "sense": True}, {"do": "step", "scale": [0, 0.5], "offset": [0.2, 0]},
+    {"do": "drive", "drive": [2, -2]}, {"do": "steer"}, {"do": "steer", "scale": [4, 0]}, {"do": "sense"},
+    {"do": "sense", "flow": [{"slice": 8, "side": "below"}], "within": 1000, "target": [1, -1e6, 0.5], "each": True},
+    {"do": "sense", "target": None, "flow": [], "each": False}, {"do": "rate", "value": 0}, {"do": "rate", "value": 0.001},
+    {"do": "gait", "gait": GAIT}, {"do": "overrides", "overrides": {"duration": 3}},
+    {"do": "scene", "scene": "bench/small-tank", "overrides": {}, "gait": GAIT, "start": 3},
+]
+REFUSED = [
+    {}, {"do": "swim"}, {"do": "run", "now": True}, {"do": "pause", "id": -1}, {"do": "credit", "frames": 1001},
+    {"do": "reset", "start": 2147483648}, {"do": "reset", "start": 1.5}, {"do": "step", "frames": 0},
+    {"do": "step", "drive": [0.1, 2.01]}, {"do": "step", "drive": [[0.1, 0], [0, 3]]}, {"do": "step", "sense": 1},
+    {"do": "step", "drive": [0, 0], "offset": [0, 0]}, {"do": "step", "drive": [0, "a"]}, {"do": "drive"},
+    {"do": "drive", "drive": 1}, {"do": "drive", "drive": [None, 0]}, {"do": "drive", "drive": [[0, 0]]},
+    {"do": "steer", "drive": [0, 0]}, {"do": "steer", "scale": [4.1, 0]}, {"do": "steer", "scale": [-0.1, 0]},
+    {"do": "steer", "offset": [2.5, 0]}, {"do": "sense", "flow": [{"slice": 1}]}, {"do": "sense", "within": -1},
+    {"do": "sense", "flow": [{"slice": 1, "side": "port"}]}, {"do": "sense", "target": [1, 2]}, {"do": "sense", "each": 1},
+    {"do": "sense", "target": [1, 2, 2e6]}, {"do": "rate"}, {"do": "rate", "value": 2000}, {"do": "gait"},
+    {"do": "gait", "gait": GAIT | {"frequency": 61}}, {"do": "overrides"}, {"do": "scene"}, {"do": "scene", "scene": 3},
+]
+
+
+def validator(part=""):
+    texts = [json.loads(path.read_text()) for path in PROTOCOL.glob("*.schema.json")]
+    registry = Registry().with_resources((text["$id"], Resource.from_contents(text)) for text in texts)
+    return Draft202012Validator({"$ref": "https://natator.io/protocol/stream.schema.json" + part}, registry=registry)
+
+
+class SchemaTest(unittest.TestCase):
+    def test_it_is_one(self):
+        Draft202012Validator.check_schema(json.loads((PROTOCOL / "stream.schema.json").read_text()))
+
+    def test_schema_and_program_take_and_refuse_the_same(self):
+        schema, taken_by_program = validator(), []
+        with natator.Stream("bench/small-tank") as stream:
+            for command in TAKEN + REFUSED:
+                with self.subTest(command):
+                    try:
+                        stream.ask({"do": "pause"})
+                        stream.ask(command)
+                        taken = True
+                    except natator.InputError:
+                        taken = False
+                    self.assertEqual(taken, command in TAKEN)
+                    self.assertEqual(schema.is_valid(command), taken)
+                    taken_by_program.append(taken)
+        self.assertEqual(sum(taken_by_program), len(TAKEN))
+
+    def test_senses_fit(self):
+        schema = validator("#/$defs/senses")
+        for scheme in ("flex", "conserving"):
+            with natator.Stream("bench/small-tank", scheme=scheme) as stream:
+                for command in ({"do": "step", "sense": True}, TAKEN[14]):
+                    schema.validate(stream.ask(command)["senses"])
+        self.assertFalse(schema.is_valid({}))
+
+
+if __name__ == "__main__":
+    unittest.main()
