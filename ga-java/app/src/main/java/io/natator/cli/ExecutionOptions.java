@@ -19,7 +19,7 @@ final class ExecutionOptions {
 
     @Option(names = "--simulator", paramLabel = "MODE", description = "How evaluations reach the native program: "
             + "process (one for each), resident (processes kept alive), batch (a generation at once) or spark (a cluster). The "
-            + "results are the same. Default: batch with --backend cuda, else process; spark where spark-submit started this.")
+            + "results are the same. Default: process; batch on backend cuda; spark where spark-submit started this.")
     private SimulatorMode mode;
 
     @Option(names = "--simulator-command", paramLabel = "COMMAND", description = "A command line that starts a program "
@@ -28,8 +28,8 @@ final class ExecutionOptions {
             + "instruction set, or all the same NATATOR_ISA. Default: the native program here.")
     private List<String> commands = List.of();
 
-    @Option(names = "--master", paramLabel = "URL", description = "With --simulator spark: the cluster's master, as "
-            + "spark://host:7077 or local[4]. Default: what spark-submit was told.")
+    @Option(names = "--master", paramLabel = "URL", description = "The cluster's master in mode spark: local[4] or, for "
+            + "example, spark://host:7077. Default: what spark-submit was told.")
     private String master;
 
     @Option(names = "--backend", paramLabel = "BACKEND",

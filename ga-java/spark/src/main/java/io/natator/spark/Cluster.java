@@ -12,12 +12,15 @@ import java.util.HashSet;
 import java.util.Map;
 import java.util.Set;
 import org.apache.spark.SparkConf;
-import org.apache.spark.SparkException;
 import org.apache.spark.api.java.JavaSparkContext;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 /** The cluster that this program uses, one for all evaluators: Spark allows one context in a virtual machine. */
 final class Cluster {
 
+    private static final Logger LOG = LoggerFactory.getLogger(Cluster.class);
+    private static final long PATIENCE_NANOSECONDS = 30_000_000_000L;
     private static final String GPUS = "spark.executor.resource.gpu.amount";
 
     /**
@@ -50,10 +53,13 @@ final class Cluster {
     private final ExecutorNews news = new ExecutorNews();
     private final Path folder;
     private final Set<String> files = new HashSet<>();
+    private volatile long alone = System.nanoTime();
+    private volatile boolean toldOfWaiting;
 
     private Cluster(JavaSparkContext context) throws IOException {
         this.context = context;
         this.folder = Files.createTempDirectory("natator-cluster");
+        folder.toFile().deleteOnExit();
         context.sc().addSparkListener(news);
     }
 
@@ -160,7 +166,6 @@ final class Cluster {
                 throw new UncheckedIOException("cannot write " + copy + ": " + e.getMessage(), e);
             }
             copy.toFile().deleteOnExit();
-            folder.toFile().deleteOnExit();
             context.addFile(copy.toString());
         }
         return name;
@@ -175,7 +180,22 @@ final class Cluster {
         if (backend != Backend.CUDA) {
             return Math.max(1, context.defaultParallelism());
         }
-        int executors = Math.max(1, context.sc().statusTracker().getExecutorInfos().length - (context.isLocal() ? 0 : 1));
-        return executors * Math.max(1, context.getConf().getInt(GPUS, 1));
+        return Math.max(1, executors()) * Math.max(1, context.getConf().getInt(GPUS, 1));
+    }
+
+    private int executors() {
+        return context.sc().statusTracker().getExecutorInfos().length - (context.isLocal() ? 0 : 1);
+    }
+
+    /** Says once that nothing can happen yet, where it is so for long; Spark only warns, among much else. */
+    void tellOfWaiting() {
+        if (executors() > 0) {
+            alone = System.nanoTime();
+        } else if (System.nanoTime() - alone > PATIENCE_NANOSECONDS && !toldOfWaiting) {
+            toldOfWaiting = true;
+            LOG.error("no executor for {} s; are there workers at {} with enough free memory ({}, --executor-memory) and cores?",
+                    PATIENCE_NANOSECONDS / 1_000_000_000, context.master(),
+                    context.getConf().get("spark.executor.memory", "1g"));
+        }
     }
 }

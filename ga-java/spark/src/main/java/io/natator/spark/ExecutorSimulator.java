@@ -83,19 +83,27 @@ final class ExecutorSimulator {
                     + ": last digits would differ");
         }
         if (mission.hash() != null && (again || !done.contains(mission.hash()))) {
-            String hash = swim(mission.sample());
-            if (!mission.hash().equals(hash)) {
+            SimulationResult result = swim(mission.sample());
+            if (!mission.hash().equals(result.hash())) {
                 throw new UnfitExecutorException("swims otherwise than " + (mission.backend() == Backend.CPU ? "the driver"
-                        : "the first GPU") + " (hash " + hash + ", not " + mission.hash() + ", after "
-                        + mission.sample().duration() + " s)");
+                        : "the first GPU") + " (hash " + Objects.requireNonNullElse(result.hash(), "none: " + result.error())
+                        + ", not " + mission.hash() + ", after " + mission.sample().duration() + " s)");
             }
             done.add(mission.hash());
         }
     }
 
-    /** What the others are to be like. */
+    /**
+     * What the others are to be like.
+     *
+     * @throws UnfitExecutorException if the sample comes to no end that can be compared
+     */
     Kind kind(Mission mission) throws UnfitExecutorException, InterruptedException {
-        return new Kind(gpu(), mission.sample() == null ? null : swim(mission.sample()));
+        SimulationResult result = swim(mission.sample());
+        if (result.hash() == null) {
+            throw new UnfitExecutorException("the first swim has no end to compare others with: " + result.error());
+        }
+        return new Kind(gpu(), result.hash());
     }
 
     /** The name without the number, or null on the processor. */
@@ -105,11 +113,10 @@ final class ExecutorSimulator {
                 .map(device -> device.substring(device.indexOf(':') + 1).strip()).findFirst().orElse("none");
     }
 
-    private String swim(SimulationRequest sample) throws UnfitExecutorException, InterruptedException {
+    private SimulationResult swim(SimulationRequest sample) throws UnfitExecutorException, InterruptedException {
         SimulationRequest here = located(sample);
         try (ProcessSimulator single = new ProcessSimulator(settings)) {
-            SimulationResult result = single.evaluate(here);
-            return Objects.requireNonNullElse(result.hash(), "none: " + result.error());
+            return single.evaluate(here);
         } catch (RequestRejectedException e) {
             throw new UnfitExecutorException(e.getMessage(), e);
         }

@@ -53,6 +53,9 @@ final class SparkEvaluator implements Evaluator {
             return;
         }
         failIfClosed();
+        if (cluster.isLost()) {
+            throw new RequestRejectedException("the cluster is lost: Spark has ended the application", false);
+        }
         List<String> lines = new ArrayList<>();
         Set<Long> open = new HashSet<>();
         for (SimulationRequest request : requests) {
@@ -83,6 +86,8 @@ final class SparkEvaluator implements Evaluator {
                     left--;
                 } else if (job.hasEnded() && !job.hasResults()) {
                     throw new IllegalStateException(left + " of " + lines.size() + " results did not come");
+                } else {
+                    cluster.tellOfWaiting();
                 }
             }
         } catch (ClusterJob.FailedException e) {
