@@ -28,9 +28,6 @@ def main(file, picture, *codes):
         body = pyvista.PolyData(points - [0, drop, 0], faces.ravel())
         body["rgb"] = colours
         plotter.add_mesh(body, scalars="rgb", rgb=True, specular=0.3, ambient=0.2, smooth_shading=True)
-        seconds = float(code) / stage.GetTimeCodesPerSecond()
-        plotter.add_point_labels([[2.35, 0.85 - drop, 0.8]], [f"{seconds:.2f} s"], show_points=False, shape=None,
-                                 font_size=22, text_color="#333333")
     focus = np.array([1.75, 0.8 - 0.75 * (len(codes) - 1) / 2, 0.8])
     plotter.camera.focal_point = focus
     plotter.camera.position = focus + np.array([0.6, 2.2, 5.0])
