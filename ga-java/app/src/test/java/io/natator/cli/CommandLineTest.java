@@ -467,7 +467,6 @@ class CommandLineTest {
         "--generations many|'many' is not an int",
         "--creature 5|--creature is 5; expected 1, 2, 3 or 4, or the name of a bundled body",
         "--creature ../eel|--creature is ../eel; expected 1, 2, 3 or 4, or the name",
-        "--creature whale|unknown scene \"pool/whale\"",
         "--creature 1 --scene thesis/creature-2|exclude each other",
         "--workers 0|workers is 0",
         "--device -1|device is -1",

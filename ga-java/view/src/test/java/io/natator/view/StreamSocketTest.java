@@ -304,7 +304,8 @@ class StreamSocketTest {
         "{'do':'start','scene':'thesis/tank','gait':'/etc/passwd'}|gait: expected an object",
         "{'do':'start','scene':'thesis/tank','overrides':'x.json'}|overrides: expected an object",
         "{'do':'scene','scene':'/etc/hosts.json'}|scene: expected a named scene",
-        "{'do':'overrides','overrides':{'creature':{'name':'/etc/hosts.json'}}}|overrides.creature.name: expected"})
+        "{'do':'overrides','overrides':{'creature':{'name':'/etc/hosts.json'}}}|overrides.creature.name: expected",
+        "{'do':'overrides','overrides':{'creature':{'mesh':{'file':'/etc/x.obj'}}}}|overrides.creature.mesh.file: expected"})
     void aCommandThatIsNoneIsAnswered(String command, String error) throws InterruptedException {
         JsonNode answer = open().send(command).await("ANSW");
 
