@@ -109,7 +109,7 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
     text << "scene      " << scene.name << "\n";
     if (scene.creature) {
         const int actuators = scene.creature->actuators();
-        text << "creature   " << scene.creature->name << ", " << actuators << " actuators"
+        text << "creature   " << (scene.creature->name.empty() ? "of the scene" : scene.creature->name) << ", " << actuators << " actuators"
              << (actuators == 0         ? ", it cannot move by itself (an actuator needs two joints)"
                  : options.gait.empty() ? ", muscles at rest (no --gait)"
                                         : "")
