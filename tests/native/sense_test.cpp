@@ -131,6 +131,10 @@ TEST(SenseTest, BendIsTheDriveThatTheMusclesFollow) {
         swimmer.state.position[9].x() = 1 - (1 + drive / 2);
         EXPECT_NEAR(swimmer.senses().bend.at(0), drive, 1e-12);
     }
+    const double own = swimmer.senses().bend[0];
+    swimmer.model.springs.push_back({2, 10, 3, 1});  // of a companion
+    swimmer.model.muscles.push_back({2, 1, 1.0});
+    EXPECT_EQ(swimmer.senses().bend, std::vector<double>{own});
 }
 
 /// A moving tank's coordinates begin elsewhere: places are over ground, the water about the skin is the same.

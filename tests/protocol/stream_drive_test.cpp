@@ -1,6 +1,8 @@
 // natator-sim stream driven from outside: actuator values, steering, senses, in lock-step (sim-native/protocol/stream.md).
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "stream_runs.h"
 
 namespace natator::test {
@@ -130,6 +132,25 @@ TEST(StreamDriveTest, SensesComeInAnswersAndBeforeFrames) {
     EXPECT_EQ(client.ask({{"do", "step"}, {"sense", true}})["senses"]["flow"].size(), 3u);
     client.ask({{"do", "scene"}, {"scene", vacuum}});  // of another body it is unknown
     EXPECT_FALSE(client.ask({{"do", "step"}, {"sense", true}})["senses"].contains("flow"));
+}
+
+/// Companions beat by their own gaits; commands and senses are the swimmer's alone.
+TEST(StreamDriveTest, CompanionsAreNotDriven) {
+    const json overrides = {{"fluid", nullptr},
+                            {"companions", {{{"creature", {{"name", "ray"}, {"rearCentre", {0.5, 0.6, 3}}}},
+                                             {"gait", {{"frequency", 2}, {"amplitude", {0.5, 0.5, 0.5, 0.5, 0.5}}, {"phase", {0, 0, 0, 0, 0}}}}}}}};
+    StreamClient client(driven_in(vacuum, {"--overrides", overrides.dump()}));
+    const json scene = client.expect("SCEN");
+    ASSERT_EQ(scene["actuators"], 2);
+    std::set<std::string> ways;
+    for (const json& muscle : scene["muscles"])
+        ways.insert(muscle.value("bend", "sideways") + (muscle["actuator"] < 2 ? " own" : " companion"));
+    EXPECT_EQ(ways, (std::set<std::string>{"sideways own", "vertical companion"}));
+    const json senses = driven_step(client, {0.5, -0.5}, 3);
+    EXPECT_EQ(senses["drive"], json({0.5, -0.5}));
+    EXPECT_EQ(senses["bend"].size(), 2u);
+    EXPECT_NE(client.ask({{"do", "drive"}, {"drive", {1, 1, 1}}})["error"].get<std::string>().find("must have length 2"),
+              std::string::npos);
 }
 
 TEST(StreamDriveTest, ResetChoosesTheStart) {

@@ -85,6 +85,13 @@ class EnvironmentTest(unittest.TestCase):
         for env in (plain, target, costly):
             env.close()
 
+    def test_the_wave_bends_a_body_one_way(self):
+        for bend, amplitude in (("vertical", [0.8] * 2), ("both", [0.8, 0.8, 0, 0])):
+            env = natator.gym.SwimmerEnv(**TANK, actions="gait", overrides={"creature": {"bend": bend}})
+            self.assertEqual(env._stream.scene["gait"]["amplitude"], amplitude)
+            self.assertEqual(env.action_space.shape, (2 * len(amplitude),))
+            env.close()
+
     def test_episodes_end(self):
         env = natator.gym.SwimmerEnv(**TANK)
         ends = play(env, 1, steps=4)[-2:]

@@ -10,7 +10,7 @@ namespace natator {
 /// gives it, plus offset. One value for each actuator in both lists.
 struct Steering {
     std::vector<double> scale;   ///< of the gait's drive, [0, 4]
-    std::vector<double> offset;  ///< added to it, [-2, 2]; positive bends the body to its left side, negative to its right
+    std::vector<double> offset;  ///< added to it, [-2, 2]; positive bends the body to its left, or down
 };
 
 /// The steering that leaves the gait as it is.

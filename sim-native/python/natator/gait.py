@@ -32,6 +32,15 @@ def wave(actuators, frequency=1.5, amplitude=0.8, waves=0.6):
     return Gait(frequency, [amplitude] * actuators, phase)
 
 
+def wave_in(scene):
+    """A wave for the creature of a SCEN message. Where its actuators bend it both ways, those that are not like the first
+    rest."""
+    ways = {muscle["actuator"]: muscle.get("bend") for muscle in scene["muscles"]}
+    beating = sum(ways[i] == ways[0] for i in range(scene["actuators"]))
+    gait, rest = wave(beating), [0.0] * (scene["actuators"] - beating)
+    return Gait(gait.frequency, gait.amplitude + rest, gait.phase + rest)
+
+
 def numbers(values):
     """A list of numbers, from any sequence or array."""
     return [float(value) for value in np.asarray(values, dtype=float).ravel()]

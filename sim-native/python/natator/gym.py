@@ -6,7 +6,7 @@ from gymnasium import spaces
 from gymnasium.vector.utils import batch_space
 
 from natator.errors import InputError, Unstable
-from natator.gait import as_json, wave
+from natator.gait import as_json, wave_in
 from natator.stream import SIDES, Stream
 
 
@@ -48,7 +48,7 @@ class SwimmerEnv(gymnasium.Env):
         self.by_gait = actions == "gait"
         self.gait = None
         if self.by_gait:
-            self.gait = as_json(gait if gait is not None else wave(self.actuators))
+            self.gait = as_json(gait if gait is not None else wave_in(stream.scene))
             stream.set_gait(self.gait)
         self._places = places_of(flow, len(stream.scene["slices"]))
         stream.sense(flow=self._places)

@@ -70,6 +70,7 @@ template <class Real>
 std::vector<double> bend_of(const Model& model, const State<Real>& state) {
     std::vector<double> bend(static_cast<std::size_t>(model.actuators)), weight(bend.size());
     for (const Muscle& muscle : model.muscles) {
+        if (muscle.actuator >= model.actuators) continue;  // a companion's
         const Spring& spring = model.springs[muscle.spring];
         const double length =
             (state.position[spring.a].template cast<double>() - state.position[spring.b].template cast<double>()).norm();
