@@ -250,6 +250,19 @@ class ClusterJarCheck {
                         + "portable, the driver's is .*: last digits would differ; set NATATOR_ISA for all to what all have");
     }
 
+    /** No worker has that much memory, of which Spark itself says little. */
+    @Test
+    @Tag("nightly")
+    void waitingForExecutorsIsToldOf() throws IOException, InterruptedException {
+        Process driver = evolve(fake, folder.resolve("run"), List.of("spark.executor.memory=40g"), "--creature", "1");
+        try {
+            TestCluster.await("a line about it", () -> Files.readString(log).contains("no executor for 30 s; are there workers at "
+                    + cluster.master() + " with enough free memory (40g, --executor-memory) and cores?"));
+        } finally {
+            driver.destroyForcibly().waitFor();
+        }
+    }
+
     /** Each worker has a GPU of its own number; a task is a batch on the one that Spark gave it. */
     @Test
     void gpusAreResourcesOfSpark() throws IOException, InterruptedException {

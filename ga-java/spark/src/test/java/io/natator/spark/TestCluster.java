@@ -75,11 +75,11 @@ final class TestCluster implements AutoCloseable {
     /** Starts the program by spark-submit; its output goes to the log. */
     Process submit(Path log, List<String> configuration, String... arguments) throws IOException {
         List<String> all = new ArrayList<>(List.of("--master", master));
-        for (String each : configuration) {
-            all.addAll(List.of("--conf", each));
-        }
         for (String each : List.of("spark.ui.enabled=false", "spark.executor.memory=480m", "spark.driver.host=127.0.0.1",
                 "spark.executor.extraJavaOptions=-XX:TieredStopAtLevel=1 -XX:+UseSerialGC -Xss512k")) {
+            all.addAll(List.of("--conf", each));
+        }
+        for (String each : configuration) {
             all.addAll(List.of("--conf", each));
         }
         all.add(JAR.toString());
