@@ -48,10 +48,10 @@ TEST(SceneTest, AllNamedScenesAreThere) {
     const std::vector<std::string> expected = {
         "bench/dam-break",          "bench/pool",               "bench/small-tank",
         "open-water/creature-1",    "open-water/creature-2",    "open-water/creature-3",
-        "open-water/creature-4",    "open-water/eel",           "open-water/tadpole",
+        "open-water/creature-4",    "open-water/eel",           "open-water/ray",           "open-water/tadpole",
         "open-water/tuna",          "open-water/water",         "pool/creature-1",
         "pool/creature-2",          "pool/creature-3",          "pool/creature-4",
-        "pool/eel",                 "pool/tadpole",             "pool/tuna",
+        "pool/eel",                 "pool/ray",                 "pool/tadpole",             "pool/tuna",
         "pool/water",
         "thesis/creature-1",        "thesis/creature-1-vacuum", "thesis/creature-2",
         "thesis/creature-2-vacuum", "thesis/creature-3",        "thesis/creature-3-vacuum",

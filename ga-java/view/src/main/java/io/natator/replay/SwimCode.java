@@ -38,7 +38,7 @@ final class SwimCode {
     private static final int TRIED_ROWS = 40;
     private static final List<String> SCENE_KEYS = List.of("program", "scene", "overrides", "gait", "scheme", "precision",
             "timeStep", "solidRestDistance", "fluidRestDistance", "planes", "particles", "fluid", "body", "slices",
-            "bodyLength", "clusters", "joints", "actuators", "muscles");
+            "bodyLength", "clusters", "joints", "actuators", "muscles", "skin");
 
     private final Replay swim;
     private final int[] water;

@@ -105,6 +105,23 @@ class ModulesTest extends BrowserTest {
                 .as("lighter and lighter").isEqualTo(true);
     }
 
+    /** The front cluster is moved up by 3; the rear one turned by a right angle about z, and moved by 5 along x. */
+    @Test
+    void aSkinFollowsTheRigidMotionOfItsClusters() {
+        List<Number> places = numbers(with("skin.js", """
+                ({SkinMotion}) => {
+                  const rest = [[1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 0, 1], [-1, 0, 0], [-2, 0, 0], [-1, 1, 0], [-1, 0, 1]];
+                  const motion = new SkinMotion({body: [8, 1, 2, 3, 4, 5, 6, 7], clusters: [[8, 1, 2, 3], [4, 5, 6, 7]], skin: {
+                    vertices: [[2, 0, 0], [0, 0.5, 0], [-2, 0, 1]], cluster: [0, 0, 1], share: [1, 0.25, 1], rest}});
+                  const position = new Float32Array(27);
+                  rest.forEach(([x, y, z], i) => position.set(i < 4 ? [x, y + 3, z] : [5 - y, x, z], 3 * (i || 8)));
+                  motion.update({position});
+                  return [...motion.places].map(place => Math.round(1e4 * place) / 1e4 + 0);
+                }"""));
+
+        assertThat(places.stream().map(Number::doubleValue)).containsExactly(2.0, 3.0, 0.0, 3.375, 0.875, 0.0, 5.0, -2.0, 1.0);
+    }
+
     @Test
     void theNearestComesFirst() {
         Object order = with("sort.js", """

@@ -1,7 +1,8 @@
-/** The body: spheres coloured by cluster, joints marked. */
+/** The body: spheres coloured by cluster, joints marked, and the mesh that it was made of. */
 
 import * as THREE from 'three';
 import {clusterColours} from './colours.js';
+import {GlSkin} from './gl-skin.js';
 import {BODY_RADIUS, clusterOfBody, jointOfBody} from './scene.js';
 
 const VERTEX = `
@@ -35,6 +36,7 @@ const FRAGMENT = `
 export class GlBody {
   #scene = null;
   #position = null;
+  #skin = new GlSkin();
   #material = new THREE.ShaderMaterial({
     vertexShader: VERTEX, fragmentShader: FRAGMENT,
     uniforms: {radius: {value: 1}, pixelsPerUnit: {value: 1}},
@@ -48,12 +50,13 @@ export class GlBody {
 
   constructor() {
     this.points.frustumCulled = false;
-    this.object.add(this.points);
+    this.object.add(this.points, this.#skin.object);
   }
 
   /** Takes over what is known of a scene (SCEN). */
   setScene(scene) {
     this.#scene = scene;
+    this.#skin.setScene(scene);
     const colours = clusterColours(scene.clusters.length);
     const tint = clusterOfBody(scene).flatMap(cluster => colours[cluster] ?? [0.8, 0.6, 0.4]);
     const joint = jointOfBody(scene).map(Number);
@@ -77,6 +80,7 @@ export class GlBody {
       places[3 * i + 2] = frame.position[3 * particle + 2];
     });
     this.#position.needsUpdate = true;
+    this.#skin.update(frame);
   }
 
   /** See `GlWater.setPixels`. */

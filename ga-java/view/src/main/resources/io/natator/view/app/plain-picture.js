@@ -4,6 +4,7 @@ import {Color} from 'three';
 import {SCALES, clusterColours, colourAt, scaleBytes} from './colours.js';
 import {Discs, LIGHTS} from './discs.js';
 import {addArea, addLine, addLines} from './plain-lines.js';
+import {PlainSkin} from './plain-skin.js';
 import {SphereLayer, shades} from './plain-spheres.js';
 import {SurfaceLayer} from './plain-surface.js';
 import {Projector} from './projector.js';
@@ -31,6 +32,7 @@ export class PlainPicture {
   #surfaceProjector = new Projector();
   #surfaceColours = scaleBytes(SCALES.sequential);
   #discs = new Discs();
+  #skin = new PlainSkin();
   #order = new NearestFirst();
   #projector = new Projector();
   #lineProjector = new Projector();
@@ -72,6 +74,7 @@ export class PlainPicture {
 
   setScene(scene) {
     this.#scene = scene;
+    this.#skin.setScene(scene);
     this.#values = new Float32Array(scene.fluid[1]);
     this.#kinds = new Int16Array(scene.particles).fill(-1);
     this.#joints = new Uint8Array(scene.particles);
@@ -125,6 +128,7 @@ export class PlainPicture {
     if (this.#look.water === 'surface') {
       this.#drawSurface();
     }
+    this.#skin.draw(frame, this.#context, this.#lineProjector);
     if (this.#look.muscles) {
       this.#drawMuscles(frame);
     }
