@@ -493,7 +493,7 @@ class CommandLineTest {
         "--duration -1|duration is -1.0",
         "--gaussian-deviation 0|gaussian-deviation is 0.0",
         "--operators magic|expected corrected or stock",
-        "--encoding magic|expected dense or sparse",
+        "--encoding magic|expected dense, sparse, dense-steered or sparse-steered",
         "--preset quik|expected quick or thesis but was 'quik'; did you mean quick?",
         "--scene no/such|expected a named scene or a file",
         "--scene no/such.json|expected a named scene or an existing file",
