@@ -47,6 +47,10 @@ std::string message_of(const std::string& scene) {
 TEST(SceneTest, AllNamedScenesAreThere) {
     const std::vector<std::string> expected = {
         "bench/dam-break",          "bench/pool",               "bench/small-tank",
+        "company/pillars",          "company/school",           "endless/creature-2",
+        "endless/eel",              "endless/water",            "endless/wide-water",
+        "goals/cruise",             "goals/hold",               "goals/reach",
+        "goals/turn",
         "open-water/creature-1",    "open-water/creature-2",    "open-water/creature-3",
         "open-water/creature-4",    "open-water/eel",           "open-water/ray",           "open-water/tadpole",
         "open-water/tuna",          "open-water/water",         "pool/creature-1",
