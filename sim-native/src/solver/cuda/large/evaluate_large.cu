@@ -68,7 +68,7 @@ public:
         const std::vector<typename Runner::Place> begin = runner_.places();
         const std::vector<Quad<Real>> bodies = places_of_bodies();
         for (int k = 0; k < runner_.states(); ++k)
-            records_[k].start({begin[k].mean_x, begin[k].tail_z, false, body_of(bodies, k)});
+            records_[k].start(frame_of(begin[k], false, bodies, k));
         const HostClock watch;
         const auto frames = static_cast<int>(std::lround(scene_.duration / scene_.time_step));
         for (int frame = 0; frame < frames && let_rest(count); ++frame) {
@@ -169,7 +169,7 @@ private:
             progress.muscle_work += ends[k].muscle_work;
             ++progress.frames;
             SwimRecord& record = records_[k];
-            const auto over = record.add({ends[k].mean_x, ends[k].tail_z, ends[k].touches_plane, body_of(bodies, k)});
+            const auto over = record.add(frame_of(ends[k], ends[k].touches_plane, bodies, k));
             if (over) progress.stopped = static_cast<int>(*over);
             if (record.tank_is_due()) move_tank(k);
         }
@@ -186,12 +186,17 @@ private:
         return records_.front().needs_body() ? runner_.body_places() : std::vector<Quad<Real>>{};
     }
 
-    Points body_of(const std::vector<Quad<Real>>& bodies, int k) const {
-        Points body;
-        if (bodies.empty()) return body;
-        const std::size_t count = company_.model.body.particles.size();
-        for (std::size_t b = k * count; b < (k + 1) * count; ++b) body.emplace_back(bodies[b].x, bodies[b].y, bodies[b].z);
-        return body;
+    /// `place`: where State k's body is; `bodies`: of all States, or empty.
+    template <class Place>
+    SwimRecord::Frame frame_of(const Place& place, bool touches_plane, const std::vector<Quad<Real>>& bodies, int k) const {
+        SwimRecord::Frame frame;
+        frame.mean_x = place.mean_x;
+        frame.tail_z = place.tail_z;
+        frame.touches_plane = touches_plane;
+        const std::size_t count = bodies.empty() ? 0 : company_.model.body.particles.size();
+        for (std::size_t b = k * count; b < (k + 1) * count; ++b)
+            frame.body.emplace_back(bodies[b].x, bodies[b].y, bodies[b].z);
+        return frame;
     }
 
     static bool note_instability(const typename Runner::End& end, const typename Runner::Update& update,
