@@ -94,20 +94,12 @@ ordered_json clusters_json(const Model& model) {
     return clusters;
 }
 
-/// The creature's, then those of its companions: as muscles count them.
-std::vector<Actuator> all_actuators(const Scene& scene) {
-    std::vector<Actuator> all = scene.creature ? scene.creature->actuator_list() : std::vector<Actuator>{};
-    for (const Companion& companion : scene.companions) {
-        const std::vector<Actuator> own = companion.creature.actuator_list();
-        all.insert(all.end(), own.begin(), own.end());
-    }
-    return all;
-}
-
+/// Those of the body; companions drive their own, and no frame tells how.
 ordered_json muscles_json(const Scene& scene, const Model& model) {
     ordered_json muscles = ordered_json::array();
-    const std::vector<Actuator> actuators = all_actuators(scene);
+    const std::vector<Actuator> actuators = scene.creature ? scene.creature->actuator_list() : std::vector<Actuator>{};
     for (const Muscle& muscle : model.muscles) {
+        if (muscle.actuator >= model.actuators) continue;
         const Spring& spring = model.springs[muscle.spring];
         muscles.push_back({{"a", spring.a},
                            {"b", spring.b},
