@@ -192,6 +192,7 @@ class ClusterJarCheck {
 
     /** One worker answers nonsense, one has no room for files, one hangs: the others do the work. */
     @Test
+    @Tag("nightly")
     void machinesThatCannotAreLeftOut() throws IOException, InterruptedException {
         String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations", "1", "--seed", "3"};
         Path simulator = script("if [[ -n $TEST_NONSENSE && $1 != info ]]; then echo nonsense; exit; fi\n"
@@ -217,6 +218,7 @@ class ClusterJarCheck {
 
     /** As many as the study has, in no order. */
     @Test
+    @Tag("nightly")
     void evolutionsAtTheSameTimeShareTheCluster() throws IOException, InterruptedException {
         List<String> settings = List.of("--no-cache", "--simulator-path", fake.toString(), "--optimizers", "random,jgap-corrected",
                 "--seeds", "2", "--evaluations", "30", "--creatures", "1", "--output-dir");
@@ -265,6 +267,7 @@ class ClusterJarCheck {
 
     /** Each worker has a GPU of its own number; a task is a batch on the one that Spark gave it. */
     @Test
+    @Tag("nightly")
     void gpusAreResourcesOfSpark() throws IOException, InterruptedException {
         Path simulator = script("""
                 if [[ $1 = info && $2 = --json ]]; then
