@@ -290,7 +290,7 @@ class Stream(Resident):
                 if name == b"FRAM":
                     check_frame(body)
                 elif name in (b"SCEN", b"SENS", b"STOP"):
-                    parse(body.decode("utf-8", "strict"), ("mass",))
+                    parse(body.decode("utf-8", "strict"), ("mass", "skin"))
                 elif name == b"ANSW":
                     answer = parse(body.decode("utf-8", "strict"), ("id",))
                     if answer["id"] == mark:
