@@ -58,7 +58,6 @@ public:
     void evaluate(int first, int count, std::vector<Evaluation>& evaluations) {
         const BatchMember* const members = company_.members.data() + first;
         start(members, count);
-        forget_starts(first + count);
         const std::vector<Progress> settled = progress_;
         typename Runner::Update update{0, scene_.time_step, company_.model.parameters.substeps, {}, false};
         for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
@@ -92,6 +91,7 @@ public:
                 companion_results(scene_, company_.model, settled_.at(start_of(members[k], scene_)).first, end);
             record.tell(evaluations.back());
         }
+        forget_starts(first + count);
     }
 
 private:
