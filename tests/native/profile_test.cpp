@@ -255,17 +255,7 @@ INSTANTIATE_TEST_SUITE_P(Bundled, ProfileBodyTest,
                          testing::Values(Bundled{"eel", 8, 1 / 8.0}, Bundled{"tuna", 4, 1 / 6.0},
                                          Bundled{"tadpole", 5, 1 / 6.0}));
 
-struct BadProfile {
-    const char* overrides;  ///< merged into pool/tuna
-    const char* field;
-    const char* expected;
-};
-
-void PrintTo(const BadProfile& bad, std::ostream* out) {
-    test::print_name(bad.overrides, out);
-}
-
-const BadProfile bad_profiles[] = {
+const BadInput bad_profiles[] = {
     {R"({"profile":{"width":[[0,0.2],[0.6,0.06],[1,0.2]]}})", "creature.profile.width: ", "thinner than two particles"},
     {R"({"profile":{"height":0.1}})", "creature.profile.height: 0.1 at 0.025 of the length, slice 0 of 20", "0.1125"},
     {R"({"profile":{"height":80}})", "creature.profile.height: 80 at", "at most 1000 spacings"},
@@ -298,11 +288,11 @@ const BadProfile bad_profiles[] = {
     {R"({"springStiffness":[[0.5,0.5],[1,1]]})", "creature.springStiffness[0][0] = 0.5", "covers 0 to 1"},
 };
 
-class BadProfileTest : public testing::TestWithParam<BadProfile> {};
+class BadProfileTest : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadProfileTest, IsRefusedWithOneLineThatSaysWhere) {
-    const BadProfile& bad = GetParam();
-    expect_refused("pool/tuna", {{"creature", json::parse(bad.overrides)}}, bad.field, bad.expected);
+    const BadInput& bad = GetParam();
+    expect_refused("pool/tuna", {{"creature", json::parse(bad.overrides)}}, bad.field, bad.allowed);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadProfileTest, testing::ValuesIn(bad_profiles));

@@ -9,8 +9,20 @@
 #include "natator/error.h"
 #include "natator/model_builder.h"
 #include "scene/scene_json.h"
+#include "test_name.h"
 
 namespace natator {
+
+/// An override that a scene is refused with, and what must be in the message: the field, and what is allowed.
+struct BadInput {
+    const char* overrides;
+    const char* field;
+    const char* allowed;
+};
+
+inline void PrintTo(const BadInput& bad, std::ostream* out) {
+    test::print_name(bad.overrides, out);
+}
 
 /// The scene with these overrides is refused in one line that says which, where, and what was expected.
 inline void expect_refused(const std::string& scene, const nlohmann::json& overrides, const std::string& where,

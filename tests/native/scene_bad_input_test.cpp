@@ -11,17 +11,7 @@
 namespace natator {
 namespace {
 
-struct BadScene {
-    const char* overrides;  ///< merged into thesis/creature-1
-    const char* field;      ///< must be in the message
-    const char* allowed;    ///< must be in the message
-};
-
-void PrintTo(const BadScene& bad, std::ostream* out) {
-    test::print_name(bad.overrides, out);
-}
-
-const BadScene bad_scenes[] = {
+const BadInput bad_scenes[] = {
     // Unknown keys name the nearest one, or all.
     {R"({"solver":{"raduis":0.15}})", "solver.raduis", "did you mean radius?"},
     {R"({"solver":{"num_iterations":4}})", "solver.num_iterations", "did you mean numIterations?"},
@@ -149,10 +139,10 @@ const BadScene bad_scenes[] = {
     {R"({"creature":{"name":"creature-9"}})", "creature.name", "creature-1, creature-2"},
 };
 
-class BadSceneTest : public testing::TestWithParam<BadScene> {};
+class BadSceneTest : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadSceneTest, IsRefusedWithOneLineThatNamesTheField) {
-    const BadScene& bad = GetParam();
+    const BadInput& bad = GetParam();
     expect_refused("thesis/creature-1", nlohmann::json::parse(bad.overrides), bad.field, bad.allowed);
 }
 

@@ -18,12 +18,22 @@ struct Pose {
     double roll = 0;                   ///< of its back about its heading, from the vertical towards its right, rad
 };
 
+/// Mean of some places; 0 of none.
+Eigen::Vector3d mean_place(const std::vector<Eigen::Vector3d>& places);
+
+/// Mean of the body's particles in the model at rest, length.
+Eigen::Vector3d rest_centre(const Model& model);
+
 /// The rotation of a body from its rest shape that fits best: its columns are where its forward, up and right point.
 /// `places` as in pose_of; the identity for fewer than three.
 Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
 
 /// `places`: of a body's particles, in the order of Body::particles. A body of fewer than three has no rotation.
 Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
+
+/// Places of the body's particles in the coordinates of its tank, in the order of Body::particles.
+template <class Real>
+std::vector<Eigen::Vector3d> body_places_in_tank(const Body& body, const State<Real>& state);
 
 /// Places over ground of the body's particles, in the order of Body::particles.
 template <class Real>

@@ -40,9 +40,7 @@ SwimRecord::Frame frame_of(const Model& model, const State<Real>& state, bool st
     frame.mean_x = mean_x(model.body, state);
     frame.tail_z = tail_z(model.body, state);
     frame.touches_plane = stops_at_planes && touches_plane(model, state);
-    if (needs_body)
-        for (const int particle : model.body.particles)
-            frame.body.push_back(state.position[particle].template cast<double>());
+    if (needs_body) frame.body = body_places_in_tank(model.body, state);
     return frame;
 }
 

@@ -17,12 +17,6 @@ using Measure = Goal::Measure;
     throw InputError("scene " + quoted(scene.name) + ": goals[" + std::to_string(goal) + "]: " + what);
 }
 
-Eigen::Vector3d rest_centre(const Model& model) {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (const int i : model.body.particles) centre += model.position[i];
-    return centre / static_cast<double>(model.body.particles.size());
-}
-
 /// A place that the body is sent to must lie in the tank, as far as that stands still, and below the water's surface.
 void check_place(const Scene& scene, const Model& model, std::size_t number, const Eigen::Vector3d& way) {
     const Eigen::Vector3d there = rest_centre(model) + way;

@@ -6,6 +6,7 @@
 
 #include "io/strict_json.h"
 #include "natator/error.h"
+#include "natator/pose.h"
 
 namespace natator {
 namespace {
@@ -40,9 +41,7 @@ TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(mode
     if (model.body.particles.empty()) refuse(scene, "needs a creature to follow");
     if (!scene.companions.empty() || !scene.obstacles.empty())
         refuse(scene, "has no room for companions and obstacles, which would be left behind");
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (const int i : model.body.particles) centre += model.position[i];
-    centre /= static_cast<double>(model.body.particles.size());
+    const Eigen::Vector3d centre = rest_centre(model);
     const double reach = model.body.length / 2 + tank_.step + 2 * model.parameters.kernelSupport * model.parameters.fluidRestDistance;
     for (const int axis : {0, 2}) {
         if (axis == 2 && !tank_.along_z) continue;

@@ -16,8 +16,9 @@ void SwimRecord::note(const Frame& frame) {
     path_.push_back(frame.mean_x + origin().x());
     tail_.push_back(frame.tail_z + origin().z());
     if (!needs_body()) return;
+    centre_ = mean_place(frame.body);
+    if (goals_.empty()) return;  // a tank follows the centre; the rotation takes a fit
     pose_ = pose_of(model_, model_.body, frame.body);
-    centre_ = pose_.centre;
     pose_.centre += origin();
 }
 

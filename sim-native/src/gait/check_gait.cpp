@@ -1,39 +1,37 @@
+#include "check_values.h"
+
 #include <sstream>
 
 #include "natator/actuate.h"
 #include "natator/error.h"
 
 namespace natator {
-namespace {
-
-/// `open`: `low` itself is not allowed. The comparison also fails for a value that is not a number.
 void check_range(const std::string& name, double value, double low, double high, bool open, const char* unit) {
-    if ((open ? value > low : value >= low) && value <= high) return;
+    if ((open ? value > low : value >= low) && value <= high) return;  // false for what is no number
     std::ostringstream text;
     text << name << " = " << value << ": must be a number in " << (open ? '(' : '[') << low << ", " << high << "]"
          << unit;
     throw InputError(text.str());
 }
 
-void check_list(const std::string& name, const std::vector<double>& values, int actuators, double low, double high) {
+void check_values(const std::string& name, const std::vector<double>& values, int actuators, double low, double high,
+                  const char* none) {
     if (values.size() != static_cast<std::size_t>(actuators)) {
         throw InputError(name + " has length " + std::to_string(values.size()) + ": must have length " +
                          std::to_string(actuators) + ", one value per actuator of the creature" +
-                         (actuators == 0 ? " (there is none: an actuator needs two joints)" : ""));
+                         (actuators == 0 ? " (" + std::string(none) + ")" : ""));
     }
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i)
         check_range(name + "[" + std::to_string(i) + "]", values[i], low, high, false, "");
-    }
 }
 
-}  // namespace
-
 void check_gait(const Gait& gait, int actuators) {
+    constexpr auto none = "there is none: an actuator needs two joints";
     check_range("gait.frequency", gait.frequency, 0, 60, true, " (1/s)");
-    check_list("gait.amplitude", gait.amplitude, actuators, 0, 2);
-    check_list("gait.phase", gait.phase, actuators, 0, 1);
+    check_values("gait.amplitude", gait.amplitude, actuators, 0, 2, none);
+    check_values("gait.phase", gait.phase, actuators, 0, 1, none);
     check_range("gait.power", gait.power, 0.5, 4, false, "");
-    if (!gait.offset.empty()) check_list("gait.offset", gait.offset, actuators, -2, 2);
+    if (!gait.offset.empty()) check_values("gait.offset", gait.offset, actuators, -2, 2, none);
     for (std::size_t i = 0; i < gait.offset.size(); ++i) {
         const double most = 2 - gait.amplitude[i];
         check_range("gait.offset[" + std::to_string(i) + "]", gait.offset[i], -most, most, false,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "check_values.h"
 #include "natator/error.h"
 
 namespace natator {
@@ -12,20 +13,7 @@ namespace {
 constexpr double most_drive = 2;  // at which the outermost muscle of a side has no length left
 constexpr double most_scale = 4;
 
-/// Refuses a list of another length, and values beyond the range or that are none.
-void check_values(const std::string& name, const std::vector<double>& values, int actuators, double low, double high) {
-    std::ostringstream text;
-    if (values.size() != static_cast<std::size_t>(actuators)) {
-        text << name << " has length " << values.size() << ": must have length " << actuators
-             << ", one value per actuator of the creature" << (actuators == 0 ? " (there is none)" : "");
-        throw InputError(text.str());
-    }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i] >= low && values[i] <= high) continue;  // false for what is no number
-        text << name << '[' << i << "] = " << values[i] << ": must be a number in [" << low << ", " << high << ']';
-        throw InputError(text.str());
-    }
-}
+constexpr auto none = "there is none";
 
 }  // namespace
 
@@ -44,12 +32,12 @@ bool leaves_gait(const Steering& steering) {
 }
 
 void check_drive(const std::vector<double>& values, int actuators, const char* name) {
-    check_values(name, values, actuators, -most_drive, most_drive);
+    check_values(name, values, actuators, -most_drive, most_drive, none);
 }
 
 void check_steering(const Steering& steering, const Gait& gait, int actuators) {
-    check_values("scale", steering.scale, actuators, 0, most_scale);
-    check_values("offset", steering.offset, actuators, -most_drive, most_drive);
+    check_values("scale", steering.scale, actuators, 0, most_scale, none);
+    check_values("offset", steering.offset, actuators, -most_drive, most_drive, none);
     for (std::size_t i = 0; i < steering.scale.size(); ++i) {
         const double offset = gait.offset.empty() ? 0 : gait.offset[i], beat = gait.amplitude[i] + std::abs(offset);
         const double most = steering.scale[i] * beat + std::abs(steering.offset[i]);

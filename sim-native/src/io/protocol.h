@@ -4,6 +4,7 @@
 #include <string>
 
 #include "natator/evaluate.h"
+#include "scene/field.h"
 
 /// The pipe protocol: one request in, one result out, both JSON objects on one line (sim-native/protocol).
 namespace natator {
@@ -26,6 +27,9 @@ Request parse_request(const nlohmann::json& value);
 
 /// The request's id, or null if it has no usable one.
 nlohmann::json request_id(const nlohmann::json& value);
+
+/// An array of numbers, one per actuator, as gaits and commands have them. Their number and range are not checked.
+std::vector<double> read_actuator_values(const nlohmann::json& value, const fields::Place& place);
 
 /// A gait as requests have it.
 nlohmann::ordered_json gait_json(const Gait& gait);

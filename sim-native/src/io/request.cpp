@@ -9,16 +9,6 @@ using fields::Place;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-std::vector<double> read_numbers(const json& value, const Place& place) {
-    if (!value.is_array()) fields::refuse(place, value, "an array of numbers, one per actuator");
-    std::vector<double> numbers;
-    for (std::size_t i = 0; i < value.size(); ++i) {
-        if (!value[i].is_number()) fields::refuse(place.item(i), value[i], "a number");
-        numbers.push_back(value[i].get<double>());
-    }
-    return numbers;
-}
-
 double read_number(const json& value, const Place& place) {
     if (!value.is_number()) fields::refuse(place, value, "a number");
     return value.get<double>();
@@ -39,14 +29,24 @@ Gait read_gait(const json& value, const Place& place) {
     fields::check_keys(value, place, {"frequency", "amplitude", "phase", "offset", "power"});
     Gait gait;
     gait.frequency = read_number(fields::required(value, place, "frequency"), place.key("frequency"));
-    gait.amplitude = read_numbers(fields::required(value, place, "amplitude"), place.key("amplitude"));
-    gait.phase = read_numbers(fields::required(value, place, "phase"), place.key("phase"));
-    if (value.contains("offset")) gait.offset = read_numbers(value.at("offset"), place.key("offset"));
+    gait.amplitude = read_actuator_values(fields::required(value, place, "amplitude"), place.key("amplitude"));
+    gait.phase = read_actuator_values(fields::required(value, place, "phase"), place.key("phase"));
+    if (value.contains("offset")) gait.offset = read_actuator_values(value.at("offset"), place.key("offset"));
     if (value.contains("power")) gait.power = read_number(value.at("power"), place.key("power"));
     return gait;
 }
 
 }  // namespace
+
+std::vector<double> read_actuator_values(const json& value, const fields::Place& place) {
+    if (!value.is_array()) fields::refuse(place, value, "an array of numbers, one per actuator");
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        if (!value[i].is_number()) fields::refuse(place.item(i), value[i], "a number");
+        numbers.push_back(value[i].get<double>());
+    }
+    return numbers;
+}
 
 ordered_json gait_json(const Gait& gait) {
     ordered_json json = {

@@ -31,21 +31,11 @@ stream::Rate read_rate(const json& value) {
     return rate;
 }
 
-std::vector<double> read_values(const json& value, const Place& at) {
-    if (!value.is_array()) fields::refuse(at, value, "an array of numbers, one per actuator");
-    std::vector<double> values;
-    for (std::size_t i = 0; i < value.size(); ++i) {
-        if (!value[i].is_number()) fields::refuse(at.item(i), value[i], "a number");
-        values.push_back(value[i].get<double>());
-    }
-    return values;
-}
-
 /// The keys `drive`, `scale` and `offset`.
 stream::Steer read_steer(const json& value) {
     stream::Steer steer;
     for (const auto& [key, list] : {std::pair{"drive", &steer.drive}, {"scale", &steer.scale}, {"offset", &steer.offset}})
-        if (value.contains(key)) *list = read_values(value.at(key), place.key(key));
+        if (value.contains(key)) *list = read_actuator_values(value.at(key), place.key(key));
     if (steer.drive && (steer.scale || steer.offset))
         fields::refuse(place.key("drive"), "must not be given together with scale or offset");
     return steer;
@@ -71,7 +61,7 @@ stream::Step read_step(const json& value) {
         if (rows.size() != static_cast<std::size_t>(step.frames))
             fields::refuse(place.key("drive"), has + "one for each of the " + std::to_string(step.frames) + " frames");
         for (std::size_t k = 0; k < rows.size(); ++k)
-            step.drive.push_back(read_values(rows[k], place.key("drive").item(k)));
+            step.drive.push_back(read_actuator_values(rows[k], place.key("drive").item(k)));
         other.erase("drive");
     }
     if (other.contains("drive") || other.contains("scale") || other.contains("offset")) step.steer = read_steer(other);
@@ -111,11 +101,10 @@ stream::Sense read_sense(const json& value) {
     return sense;
 }
 
-stream::Reset read_reset(const json& value) {
-    stream::Reset reset;
-    if (value.contains("start"))
-        fields::read(value.at("start"), place.key("start"), {0, 2147483647}, reset.start.emplace());
-    return reset;
+std::optional<int> read_start(const json& value) {
+    std::optional<int> start;
+    if (value.contains("start")) fields::read(value.at("start"), place.key("start"), {0, 2147483647}, start.emplace());
+    return start;
 }
 
 json read_overrides(const json& value) {
@@ -129,8 +118,7 @@ LiveSetup read_setup(const json& value) {
     fields::read(fields::required(value, place, "scene"), place.key("scene"), {}, setup.scene);
     if (value.contains("overrides")) setup.overrides = read_overrides(value).dump();
     if (value.contains("gait")) setup.gait = parse_gait(value.at("gait"), "gait");
-    if (value.contains("start"))
-        fields::read(value.at("start"), place.key("start"), {0, 2147483647}, setup.start.emplace());
+    setup.start = read_start(value);
     return setup;
 }
 
@@ -156,7 +144,7 @@ StreamCommand parse_stream_command(const json& value) {
     if (name == "steer") return only({"scale", "offset"}), read_steer(value);
     if (name == "sense") return only({"flow", "within", "target", "each"}), read_sense(value);
     if (name == "rate") return only({"value"}), read_rate(value);
-    if (name == "reset") return only({"start"}), read_reset(value);
+    if (name == "reset") return only({"start"}), stream::Reset{read_start(value)};
     if (name == "gait")
         return only({"gait"}), stream::NewGait{parse_gait(fields::required(value, place, "gait"), "gait")};
     if (name == "overrides") return only({"overrides"}), stream::Overrides{read_overrides(value)};

@@ -123,28 +123,24 @@ ordered_json triples_json(const Vectors& vectors) {
 ordered_json skin_json(const Scene& scene, const Model& model) {
     if (!scene.creature || !scene.creature->skin) return nullptr;
     const Skin& skin = *scene.creature->skin;
-    ordered_json axes = ordered_json::array();
-    for (Eigen::Index i = 0; i < 3; ++i) axes.push_back({skin.axes(i, 0), skin.axes(i, 1), skin.axes(i, 2)});
     const std::vector<SkinWeight> weights = skin_weights(*scene.creature, model);
-    ordered_json clusters = ordered_json::array(), shares = ordered_json::array(), rest = ordered_json::array();
+    ordered_json clusters = ordered_json::array(), shares = ordered_json::array();
     for (const SkinWeight& weight : weights) {
         clusters.push_back(weight.cluster);
         shares.push_back(weight.share);
     }
-    for (const int particle : model.body.particles) {
-        const Eigen::Vector3d at = model.position[particle] - scene.creature->rear_centre;
-        rest.push_back({at.x(), at.y(), at.z()});
-    }
+    std::vector<Eigen::Vector3d> rest;
+    for (const int particle : model.body.particles) rest.push_back(model.position[particle] - scene.creature->rear_centre);
     return {{"file", skin.file},
             {"digest", skin.digest},
             {"unit", skin.unit},
-            {"axes", axes},
+            {"axes", triples_json(skin.axes.rowwise())},
             {"origin", {skin.origin.x(), skin.origin.y(), skin.origin.z()}},
             {"vertices", triples_json(skin.vertices)},
             {"triangles", triples_json(skin.triangles)},
             {"cluster", clusters},
             {"share", shares},
-            {"rest", rest}};
+            {"rest", triples_json(rest)}};
 }
 
 template <class Real>

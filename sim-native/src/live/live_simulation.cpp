@@ -10,6 +10,7 @@
 #include "natator/load_scene.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
+#include "natator/pose.h"
 #include "same_layout.h"
 
 namespace natator {
@@ -186,9 +187,7 @@ bool LiveSimulation<Real>::frame() {
 template <class Real>
 void LiveSimulation<Real>::follow(TankFollower& follower) {
     follower.drift(scene().time_step);
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (const int particle : model().body.particles) centre += state_.position[particle].template cast<double>();
-    follower.follow(centre / static_cast<double>(model().body.particles.size()), state_);
+    follower.follow(mean_place(body_places_in_tank(model().body, state_)), state_);
 }
 
 template <class Real>

@@ -5,6 +5,19 @@
 #include <cmath>
 
 namespace natator {
+
+Eigen::Vector3d mean_place(const std::vector<Eigen::Vector3d>& places) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& place : places) sum += place;
+    return places.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(places.size()));
+}
+
+Eigen::Vector3d rest_centre(const Model& model) {
+    std::vector<Eigen::Vector3d> places;
+    for (const int particle : model.body.particles) places.push_back(model.position[particle]);
+    return mean_place(places);
+}
+
 Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
     if (places.size() < 3) return Eigen::Matrix3d::Identity();
     const auto count = static_cast<Eigen::Index>(places.size());
@@ -18,10 +31,7 @@ Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::v
 
 Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
     Pose pose;
-    if (places.empty()) return pose;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& place : places) sum += place;
-    pose.centre = sum / static_cast<double>(places.size());
+    pose.centre = mean_place(places);
     if (places.size() < 3) return pose;
     const Eigen::Matrix3d rotation = body_rotation(model, body, places);
     const Eigen::Vector3d back = rotation.col(1);
@@ -35,14 +45,22 @@ Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vect
 }
 
 template <class Real>
-std::vector<Eigen::Vector3d> body_places(const Body& body, const State<Real>& state) {
+std::vector<Eigen::Vector3d> body_places_in_tank(const Body& body, const State<Real>& state) {
     std::vector<Eigen::Vector3d> places;
     places.reserve(body.particles.size());
-    for (const int particle : body.particles)
-        places.push_back(state.position[particle].template cast<double>() + state.origin);
+    for (const int particle : body.particles) places.push_back(state.position[particle].template cast<double>());
     return places;
 }
 
+template <class Real>
+std::vector<Eigen::Vector3d> body_places(const Body& body, const State<Real>& state) {
+    std::vector<Eigen::Vector3d> places = body_places_in_tank(body, state);
+    for (Eigen::Vector3d& place : places) place += state.origin;
+    return places;
+}
+
+template std::vector<Eigen::Vector3d> body_places_in_tank(const Body&, const State<float>&);
+template std::vector<Eigen::Vector3d> body_places_in_tank(const Body&, const State<double>&);
 template std::vector<Eigen::Vector3d> body_places(const Body&, const State<float>&);
 template std::vector<Eigen::Vector3d> body_places(const Body&, const State<double>&);
 

@@ -24,6 +24,11 @@ namespace {
     throw InputError("scene " + quoted(scene.name) + ": " + what);
 }
 
+/// What a creature's shape was given by.
+std::string shape_key(const Creature& creature) {
+    return creature.skin ? "mesh" : creature.of_profile ? "profile" : "slices";
+}
+
 std::int64_t particles_of(const Creature& creature) {
     std::int64_t particles = 0;
     for (const Slice& slice : creature.slices) particles += std::int64_t{slice.particles()} * creature.parts();
@@ -39,11 +44,8 @@ void check_size(const Scene& scene) {
         const auto count = scene.fluid->count.cast<std::int64_t>();
         particles += count.x() * count.y() * count.z();
     }
-    const char* body = !scene.creature             ? "creature.slices"
-                       : scene.creature->skin      ? "creature.mesh"
-                       : scene.creature->of_profile ? "creature.profile"
-                                                    : "creature.slices";
-    const std::string found = std::to_string(particles) + " particles (fluid.count and " + body + " together)";
+    const std::string body = scene.creature ? shape_key(*scene.creature) : "slices";
+    const std::string found = std::to_string(particles) + " particles (fluid.count and creature." + body + " together)";
     if (particles == 0) refuse(scene, "0 particles: needs a creature or fluid");
     if (particles > limits::particles) refuse(scene, found + ": must be at most " + std::to_string(limits::particles));
 }
@@ -80,12 +82,10 @@ void check_muscles(const Scene& scene, const Creature& creature, const std::stri
         if (count[i] > 0) continue;
         const auto [gap, bend] = actuators[static_cast<std::size_t>(i)];
         const std::vector<int>& ends = creature.muscle_ends();
-        const bool by_part = creature.of_profile || creature.skin;  // joints are given in parts of the length
+        const std::string shape = shape_key(creature);
+        const bool by_part = shape != "slices";  // joints are given in parts of the length
         std::ostringstream text;
-        text << place << (!creature.muscle_slices.empty() ? ".muscleSlices["
-                 : creature.skin                 ? ".mesh.joints["
-                 : creature.of_profile           ? ".profile.joints["
-                                                 : ".joints[")
+        text << place << (!creature.muscle_slices.empty() ? ".muscleSlices[" : by_part ? "." + shape + ".joints[" : ".joints[")
              << gap << "], [" << gap + 1 << "] = " << (by_part ? "slices " : "") << ends[gap] << ", " << ends[gap + 1]
              << ": no muscle " << (bend == Bend::vertical ? "that bends up and down " : "")
              << "fits between these slices (actuator " << i << "); both must be at least 2 "
@@ -119,14 +119,20 @@ void check_inside_tank(const Scene& scene, const Model& model) {
     }
 }
 
-/// A creature alone: its particles, clusters and muscles.
-Model model_of(const Scene& scene, const Creature& creature, const std::string& place) {
-    check_springs(scene, creature, place);
+/// What a model has of its scene before there is a particle.
+Model empty_model(const Scene& scene) {
     Model model;
     model.scheme = scene.scheme;
     model.parameters = scene.solver;
     model.time_step = scene.time_step;
     model.planes = scene.planes;
+    return model;
+}
+
+/// A creature alone: its particles, clusters and muscles.
+Model model_of(const Scene& scene, const Creature& creature, const std::string& place) {
+    check_springs(scene, creature, place);
+    Model model = empty_model(scene);
     const BodyLayout layout(creature);
     add_body(creature, layout, model);
     add_muscles(creature, layout, model);
@@ -139,15 +145,7 @@ Model model_of(const Scene& scene, const Creature& creature, const std::string& 
 
 Model build_model(const Scene& scene) {
     check_size(scene);
-    Model model;
-    if (scene.creature) {
-        model = model_of(scene, *scene.creature, "creature");
-    } else {
-        model.scheme = scene.scheme;
-        model.parameters = scene.solver;
-        model.time_step = scene.time_step;
-        model.planes = scene.planes;
-    }
+    Model model = scene.creature ? model_of(scene, *scene.creature, "creature") : empty_model(scene);
     for (std::size_t k = 0; k < scene.companions.size(); ++k) {
         const Companion& companion = scene.companions[k];
         const std::string place = "companions[" + std::to_string(k) + "]";

@@ -10,11 +10,11 @@ using Measure = Goal::Measure;
 
 constexpr std::size_t max_goals = 16;
 
-const std::vector<std::pair<std::string_view, Measure>>& measures() {
-    static const std::vector<std::pair<std::string_view, Measure>> words = {
-        {"distance", Measure::distance}, {"forward", Measure::forward}, {"turn", Measure::turn},
-        {"depth", Measure::depth},       {"reach", Measure::reach},     {"hold", Measure::hold},
-        {"economy", Measure::economy}};
+std::vector<std::pair<std::string_view, Measure>> measures() {
+    std::vector<std::pair<std::string_view, Measure>> words;
+    for (const Measure measure : {Measure::distance, Measure::forward, Measure::turn, Measure::depth, Measure::reach,
+                                  Measure::hold, Measure::economy})
+        words.emplace_back(to_string(measure), measure);
     return words;
 }
 
