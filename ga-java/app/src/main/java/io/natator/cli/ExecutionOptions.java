@@ -5,6 +5,7 @@ import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
+import io.natator.simulator.ProgramInfo;
 import java.time.Duration;
 import java.util.List;
 import picocli.CommandLine.Mixin;
@@ -38,8 +39,9 @@ final class ExecutionOptions {
     private Backend backend;
 
     @Option(names = "--device", paramLabel = "N", defaultValue = "0",
-            description = "Number of the GPU. Default: ${DEFAULT-VALUE}.")
-    private int device;
+            description = "Number of the GPU, several with commas between them, or all: each gets its share of every "
+                    + "batch, and one that fails leaves it to the others. Default: ${DEFAULT-VALUE}.")
+    private String device;
 
     @Option(names = "--workers", paramLabel = "N",
             description = "Evaluations at the same time; the result does not depend on it. Default: all processors.")
@@ -61,8 +63,9 @@ final class ExecutionOptions {
      * The settings, with a null time limit if none was given.
      *
      * @param otherwise the backend if none was given
+     * @throws InterruptedException if the calling thread is interrupted while the simulator is asked for its GPUs
      */
-    ExecutionSettings execution(Backend otherwise) {
+    ExecutionSettings execution(Backend otherwise) throws InterruptedException {
         if (timeoutSeconds != null) {
             Limits.checkSeconds("--timeout", timeoutSeconds);
         }
@@ -70,9 +73,12 @@ final class ExecutionOptions {
         SimulatorMode usual = !commands.isEmpty() ? SimulatorMode.RESIDENT
                 : master != null || System.getProperty(SUBMITTED) != null ? SimulatorMode.SPARK
                 : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
-        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, device,
-                workers != null ? workers : Runtime.getRuntime().availableProcessors(),
+        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, devices(), workers != null ? workers : Runtime.getRuntime().availableProcessors(),
                 timeoutSeconds == null ? null
                         : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null, commands, master);
+    }
+
+    private List<Integer> devices() throws InterruptedException {
+        return device.matches("\\d{1,4}") ? List.of(Integer.valueOf(device)) : ProgramInfo.of(simulator.path()).devices(device);
     }
 }

@@ -7,6 +7,7 @@ import io.natator.config.SimulatorMode;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
+import java.util.List;
 
 /**
  * Where and how a run was carried out; {@code environment.json}. Nothing in it changes the outcome but the simulator's
@@ -20,8 +21,8 @@ import java.time.temporal.ChronoUnit;
  * @param instructionSet  kernels that it uses on this processor
  * @param mode            how evaluations reach the native program
  * @param backend         what it computes on
- * @param device          number of the GPU
- * @param gpu             its name; null if none is used
+ * @param devices         numbers of the GPUs
+ * @param gpu             the first one's name; null if none is used
  * @param workers         evaluations at the same time
  * @param timeoutSeconds  time limit of an attempt at an evaluation
  * @param java            version of the Java runtime
@@ -31,7 +32,8 @@ import java.time.temporal.ChronoUnit;
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record Environment(String natator, String simulator, String simulatorSha256, String version, String commit,
-        String instructionSet, SimulatorMode mode, Backend backend, int device, String gpu, int workers, double timeoutSeconds, String java, String system, int processors, String started) {
+        String instructionSet, SimulatorMode mode, Backend backend, List<Integer> devices, String gpu,
+        int workers, double timeoutSeconds, String java, String system, int processors, String started) {
 
     /**
      * The present environment.
@@ -44,7 +46,8 @@ public record Environment(String natator, String simulator, String simulatorSha2
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
                 program.simulatorSha256(), program.version(), program.commit(), program.instructionSet(), execution.mode(),
-                execution.backend(), execution.device(), program.gpu(), execution.workers(), execution.timeout().toMillis() / 1000.0,
+                execution.backend(), execution.devices(), program.gpu(), execution.workers(),
+                execution.timeout().toMillis() / 1000.0,
                 Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
                 Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString());

@@ -10,7 +10,7 @@ import java.util.List;
  * @param simulator the {@code natator-sim} program
  * @param mode      how evaluations reach it
  * @param backend   what it computes on
- * @param device    number of the GPU, from 0
+ * @param devices   numbers of the GPUs, from 0, all of one kind; evaluations are spread over them
  * @param workers   evaluations at the same time, from 1 to {@link Limits#AT_ONCE}; in mode batch the program decides
  * @param timeout   longest time for one attempt at an evaluation, or null to derive it from the scene's cost
  * @param cache     folder of evaluations that need not be done again, or null for none
@@ -18,8 +18,8 @@ import java.util.List;
  *                  {@code natator-sim serve}, maybe on another machine; evaluations are spread over them. None: {@code simulator}
  * @param master    URL of the Spark master in mode spark, or null for the one that the program was submitted to
  */
-public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
-        Duration timeout, Path cache, List<String> commands, String master) {
+public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, List<Integer> devices,
+        int workers, Duration timeout, Path cache, List<String> commands, String master) {
 
     /**
      * Checks the ranges.
@@ -28,6 +28,7 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
      */
     public ExecutionSettings {
         commands = List.copyOf(commands);
+        devices = List.copyOf(devices);
         Limits.checkCount("workers", workers, Limits.AT_ONCE);
         if (commands.stream().anyMatch(String::isBlank)) {
             throw new InvalidInputException("simulator command is blank; expected a command line");
@@ -44,12 +45,13 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
             throw new InvalidInputException("backend is auto; expected cpu or cuda in simulator mode spark, the same on "
                     + "all machines");
         }
-        if (commands.size() > 1 && mode == SimulatorMode.BATCH) {
-            throw new InvalidInputException("simulator mode batch gives whole generations to one program; expected one "
-                    + "simulator command, not " + commands.size());
+        if (devices.isEmpty() || devices.stream().anyMatch(device -> device < 0)
+                || devices.stream().distinct().count() < devices.size()) {
+            throw new InvalidInputException("devices are " + devices + "; expected whole numbers from 0, each once");
         }
-        if (device < 0) {
-            throw new InvalidInputException("device is " + device + "; expected a whole number from 0");
+        if (devices.size() > 1 && mode == SimulatorMode.SPARK) {
+            throw new InvalidInputException("devices are " + devices + "; expected one in simulator mode spark, which gives "
+                    + "executors their GPUs");
         }
         if (timeout != null && (timeout.isNegative() || timeout.isZero())) {
             throw new InvalidInputException("timeout is " + timeout.toMillis() / 1000.0
@@ -60,7 +62,7 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
     /** Settings for these processors, or what the commands reach. */
     public ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
             Duration timeout, Path cache, List<String> commands) {
-        this(simulator, mode, backend, device, workers, timeout, cache, commands, null);
+        this(simulator, mode, backend, List.of(device), workers, timeout, cache, commands, null);
     }
 
     /** Settings that start the program itself. */
@@ -72,6 +74,11 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
     /** A process for each evaluation, on the processor, without a cache. */
     public ExecutionSettings(Path simulator, int workers, Duration timeout) {
         this(simulator, SimulatorMode.PROCESS, Backend.CPU, 0, workers, timeout, null);
+    }
+
+    /** The first GPU, for what needs no more than one. */
+    public int device() {
+        return devices.get(0);
     }
 
     /**
@@ -96,27 +103,27 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
 
     /** These settings with other commands, see {@link #commands}. */
     public ExecutionSettings withCommands(List<String> newCommands) {
-        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, cache, newCommands, master);
+        return new ExecutionSettings(simulator, mode, backend, devices, workers, timeout, cache, newCommands, master);
     }
 
     /** These settings in another mode. */
     public ExecutionSettings withMode(SimulatorMode newMode) {
-        return new ExecutionSettings(simulator, newMode, backend, device, workers, timeout, cache, commands,
+        return new ExecutionSettings(simulator, newMode, backend, devices, workers, timeout, cache, commands,
                 newMode == SimulatorMode.SPARK ? master : null);
     }
 
     /** These settings on another backend. */
     public ExecutionSettings withBackend(Backend newBackend) {
-        return new ExecutionSettings(simulator, mode, newBackend, device, workers, timeout, cache, commands, master);
+        return new ExecutionSettings(simulator, mode, newBackend, devices, workers, timeout, cache, commands, master);
     }
 
     /** These settings with a time limit. */
     public ExecutionSettings withTimeout(Duration newTimeout) {
-        return new ExecutionSettings(simulator, mode, backend, device, workers, newTimeout, cache, commands, master);
+        return new ExecutionSettings(simulator, mode, backend, devices, workers, newTimeout, cache, commands, master);
     }
 
     /** These settings with another cache, or null for none. */
     public ExecutionSettings withCache(Path newCache) {
-        return new ExecutionSettings(simulator, mode, backend, device, workers, timeout, newCache, commands, master);
+        return new ExecutionSettings(simulator, mode, backend, devices, workers, timeout, newCache, commands, master);
     }
 }

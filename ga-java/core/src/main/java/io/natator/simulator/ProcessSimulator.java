@@ -3,6 +3,7 @@ package io.natator.simulator;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import java.util.List;
+import java.util.concurrent.atomic.AtomicInteger;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -22,7 +23,8 @@ public final class ProcessSimulator implements Simulator {
     private static final int EXIT_UNSTABLE = 3;
 
     private final NativeProgram program;
-    private final List<String> arguments;
+    private final List<List<String>> arguments;
+    private final AtomicInteger started = new AtomicInteger();
 
     /**
      * A simulator that starts the given program for every evaluation.
@@ -31,8 +33,9 @@ public final class ProcessSimulator implements Simulator {
      */
     public ProcessSimulator(ExecutionSettings settings) {
         this.program = new NativeProgram(settings.simulator(), settings.timeout());
-        this.arguments = List.of("evaluate", "--backend", settings.backend().argument(), "--device",
-                "" + settings.device());
+        this.arguments = settings.devices().stream()
+                .map(device -> List.of("evaluate", "--backend", settings.backend().argument(), "--device", "" + device))
+                .toList();
     }
 
     @Override
@@ -41,13 +44,18 @@ public final class ProcessSimulator implements Simulator {
         String reason = "";
         for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
             try {
-                return answer(request, program.call(arguments, input));
+                return answer(request, program.call(nextArguments(), input));
             } catch (SimulatorFailure e) {
                 reason = e.getMessage();
                 LOG.debug("evaluation {}, attempt {} of {}: {}", request.id(), attempt, ATTEMPTS, reason);
             }
         }
         return SimulationResult.failed(request.id(), reason);
+    }
+
+    /** GPUs take turns. */
+    private List<String> nextArguments() {
+        return arguments.get(Math.floorMod(started.getAndIncrement(), arguments.size()));
     }
 
     private static SimulationResult answer(SimulationRequest request, NativeProgram.Output output)

@@ -7,7 +7,9 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.Arrays;
 import java.util.List;
+import java.util.stream.IntStream;
 
 /**
  * What the simulator says about itself ({@code natator-sim info --json}).
@@ -42,6 +44,35 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("simulator does not describe itself: " + Json.reason(e), e);
         }
+    }
+
+    /**
+     * The numbers of GPUs that a choice means: {@code all}, or numbers with commas between them.
+     *
+     * @return at least one; 0 for {@code all} where there is none, which the simulator then says
+     * @throws InvalidInputException if it is neither, or the GPUs are not all of one kind
+     */
+    public List<Integer> devices(String choice) {
+        List<Integer> numbers;
+        if (choice.equals("all")) {
+            numbers = IntStream.range(0, Math.max(1, devices.size())).boxed().toList();
+        } else if (choice.matches("\\d{1,4}(,\\d{1,4})*")) {
+            numbers = Arrays.stream(choice.split(",")).map(Integer::valueOf).toList();
+        } else {
+            throw new InvalidInputException("--device is " + choice + "; expected a GPU's number, several with commas between "
+                    + "them, or all");
+        }
+        List<String> kinds = numbers.stream().filter(number -> number < devices.size()).map(this::kind).distinct().toList();
+        if (kinds.size() > 1) {
+            throw new InvalidInputException("--device " + choice + " are GPUs of several kinds (" + String.join("; ", kinds)
+                    + "), whose last digits differ; expected some of one kind");
+        }
+        return numbers;
+    }
+
+    /** A GPU's description without its number. */
+    private String kind(int device) {
+        return devices.get(device).replaceFirst("^\\d+: ", "");
     }
 
     /**

@@ -85,7 +85,7 @@ public final class ResidentSimulator implements Simulator {
             process.close();
             commands.ended(process.command(), true);
         }
-        return commands.start(group, avoided, request);
+        return commands.startAny(group, avoided, request);
     }
 
     @Override

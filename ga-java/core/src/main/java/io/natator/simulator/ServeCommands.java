@@ -41,28 +41,40 @@ final class ServeCommands {
         List<String> words() {
             return words;
         }
+
+        @Override
+        public String toString() {
+            return given != null ? "--simulator-command \"" + given + "\"" : String.join(" ", words);
+        }
     }
 
     ServeCommands(ExecutionSettings settings) {
         this.settings = settings;
         if (settings.commands().isEmpty()) {
-            commands.add(new Command(List.of(settings.simulator().toString(), "serve", "--backend",
-                    settings.backend().argument(), "--device", "" + settings.device()), null));
+            for (int device : settings.devices()) {
+                commands.add(new Command(List.of(settings.simulator().toString(), "serve", "--backend",
+                        settings.backend().argument(), "--device", "" + device), null));
+            }
         }
         for (String line : settings.commands()) {
             commands.add(new Command(List.of("/bin/sh", "-c", line), line));
         }
     }
 
+    /** All of them. */
+    List<Command> all() {
+        return List.copyOf(commands);
+    }
+
     /**
-     * Starts a process.
+     * Starts a process of any of them.
      *
      * @param avoided what has just failed, or null; another one is preferred to it
      * @param request of the kind that the process is for
      * @throws SimulatorFailure         if it does not start
      * @throws RequestRejectedException if its program swims otherwise than the others
      */
-    ServeProcess start(ProcessGroup group, Command avoided, SimulationRequest request)
+    ServeProcess startAny(ProcessGroup group, Command avoided, SimulationRequest request)
             throws SimulatorFailure, InterruptedException {
         Command command;
         synchronized (commands) {
@@ -73,18 +85,30 @@ final class ServeCommands {
             command.running++;
         }
         try {
-            ServeProcess process = new ServeProcess(group, command);
-            if (command.given != null) {
-                compare(process, command, request);
-            }
-            return process;
+            return start(group, command, request);
         } catch (SimulatorFailure | InterruptedException | RuntimeException e) {
             ended(command, true);
             throw e;
         }
     }
 
-    /** To be told of the end of each process. */
+    /**
+     * Starts a process of one of them.
+     *
+     * @param request of the kind that the process is for
+     * @throws SimulatorFailure         if it does not start
+     * @throws RequestRejectedException if its program swims otherwise than the others
+     */
+    ServeProcess start(ProcessGroup group, Command command, SimulationRequest request)
+            throws SimulatorFailure, InterruptedException {
+        ServeProcess process = new ServeProcess(group, command);
+        if (command.given != null) {
+            compare(process, command, request);
+        }
+        return process;
+    }
+
+    /** To be told of the end of each process of any. */
     void ended(Command command, boolean failed) {
         synchronized (commands) {
             command.running--;
@@ -100,11 +124,11 @@ final class ServeCommands {
             process.send(Json.line(expected.request) + "\n");
             SimulationResult result = process.receive(settings.timeout().toNanos());
             if (result.status() == Status.ERROR) {
-                throw new RequestRejectedException(named(command) + ": " + result.error(), true);
+                throw new RequestRejectedException(command + ": " + result.error(), true);
             }
             String hash = hashOf(expected, result);
             if (!hash.equals(result.hash())) {
-                throw new RequestRejectedException(named(command) + " swims otherwise than "
+                throw new RequestRejectedException(command + " swims otherwise than "
                         + (settings.backend() == Backend.CPU ? "this program" : "another") + " (hash " + result.hash()
                         + ", not " + hash + ", after " + SAMPLE + " s): another version, instruction set (NATATOR_ISA) "
                         + "or kind of GPU", true);
@@ -115,10 +139,6 @@ final class ServeCommands {
                 process.close();
             }
         }
-    }
-
-    private static String named(Command command) {
-        return "--simulator-command \"" + command.given + "\"";
     }
 
     /** The swim that all are compared by, a short one of the first that was asked for. */

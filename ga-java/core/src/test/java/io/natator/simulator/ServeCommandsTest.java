@@ -108,9 +108,6 @@ class ServeCommandsTest {
         assertThatThrownBy(() -> settings(SimulatorMode.PROCESS, "ssh a natator-sim serve"))
                 .isInstanceOf(InvalidInputException.class)
                 .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not process");
-        assertThatThrownBy(() -> settings(SimulatorMode.BATCH, "a", "b")).isInstanceOf(InvalidInputException.class)
-                .hasMessage("simulator mode batch gives whole generations to one program; expected one simulator "
-                        + "command, not 2");
         assertThatThrownBy(() -> settings(SimulatorMode.RESIDENT, " ")).isInstanceOf(InvalidInputException.class)
                 .hasMessage("simulator command is blank; expected a command line");
     }
@@ -121,11 +118,23 @@ class ServeCommandsTest {
                 .hasMessage("simulator commands keep running; expected simulator mode resident or batch, not spark");
         assertThatThrownBy(() -> settings(SimulatorMode.SPARK).withBackend(Backend.AUTO)).isInstanceOf(InvalidInputException.class)
                 .hasMessage("backend is auto; expected cpu or cuda in simulator mode spark, the same on all machines");
-        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CPU, 0, 1, null, null, List.of(),
+        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CPU, List.of(0), 1, null, null, List.of(),
                 "local[2]")).isInstanceOf(InvalidInputException.class)
                 .hasMessage("master is local[2]; expected simulator mode spark with it, not batch");
-        assertThat(new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CPU, 0, 1, null, null, List.of(), "local[2]")
+        assertThat(new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CPU, List.of(0), 1, null, null, List.of(), "local[2]")
                 .withMode(SimulatorMode.RESIDENT).master()).isNull();
+    }
+
+    @Test
+    void devicesThatAreNoneAreRefused() {
+        for (List<Integer> devices : List.of(List.<Integer>of(), List.of(-1), List.of(1, 1))) {
+            assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CUDA, devices, 1, null, null,
+                    List.of(), null)).isInstanceOf(InvalidInputException.class)
+                    .hasMessage("devices are " + devices + "; expected whole numbers from 0, each once");
+        }
+        assertThatThrownBy(() -> new ExecutionSettings(fake, SimulatorMode.SPARK, Backend.CUDA, List.of(0, 1), 1, null, null,
+                List.of(), null)).isInstanceOf(InvalidInputException.class)
+                .hasMessage("devices are [0, 1]; expected one in simulator mode spark, which gives executors their GPUs");
     }
 
     @Test
