@@ -15,7 +15,7 @@ import picocli.CommandLine.Spec;
             CheckCommand.class,
             CompareCommand.class, CompareOptimizersCommand.class, CompareFlexCommand.class,
             ReportCommand.class, ViewCommand.class, PageCommand.class, ExportCommand.class, ReproduceCommand.class,
-            PlotCommand.class},
+            PlotCommand.class, ClusterEfficiencyCommand.class},
         mixinStandardHelpOptions = true,
         versionProvider = Main.Version.class,
         footer = {"", "Exit status: 0 done, 1 failure, 2 bad usage or input."})

@@ -40,7 +40,7 @@ class HelpTest {
             assertThat(help).contains("[OPTIONS]", "\nHow it is computed:\n", "natator "
                     + command.getCommandName() + " ");
             assertThat(help.contains("\nWhat swims:\n"))
-                    .isEqualTo(options.stream().anyMatch(option -> option.longestName().matches("--(gait|scheme|variants)")));
+                    .isEqualTo(options.stream().anyMatch(option -> option.longestName().matches("--(gait|scheme|scene|variants)")));
         }
         assertThat(help).as("paths in one piece").doesNotContainPattern("~[/.]*\\n");
         if (help.contains("--preset") && help.contains("--duration")) {
