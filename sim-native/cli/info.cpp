@@ -35,6 +35,7 @@ ordered_json describe_program() {
     return {{"version", NATATOR_VERSION},
             {"commit", commit()},
             {"instructionSet", to_string(instruction_set())},
+            {"schemas", (data_directory() / "protocol").string()},
             {"startCache", starts ? starts->folder().string() : "none"},
             {"devices", devices},
             {"scenes", scene_names()}};
