@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "commit.h"
 #include "evaluate/swim_record.h"
+#include "io/protocol.h"
 #include "io/strict_json.h"
 #include "natator/batch.h"
 #include "natator/error.h"
@@ -14,6 +15,7 @@
 #include "natator/plan.h"
 #include "natator/settled_state_cache.h"
 #include "natator/version.h"
+#include "natator/wave_gait.h"
 #include "scene/scene_json.h"
 
 namespace natator::cli {
@@ -23,7 +25,7 @@ using nlohmann::ordered_json;
 
 struct InfoOptions {
     std::string scene, overrides;
-    bool json = false, definition = false;
+    bool json = false, definition = false, gait_template = false;
 };
 
 ordered_json describe_program() {
@@ -35,6 +37,7 @@ ordered_json describe_program() {
     return {{"version", NATATOR_VERSION},
             {"commit", commit()},
             {"instructionSet", to_string(instruction_set())},
+            {"schemas", (data_directory() / "protocol").string()},
             {"startCache", starts ? starts->folder().string() : "none"},
             {"devices", devices},
             {"scenes", scene_names()}};
@@ -129,14 +132,39 @@ std::string as_text(const ordered_json& info) {
     return text.str();
 }
 
+/// One key a line, a list on one.
+std::string by_lines(const ordered_json& numbers) {
+    std::string text;
+    for (const auto& [key, value] : numbers.items()) {
+        text += (text.empty() ? "{\n  " : ",\n  ") + ordered_json(key).dump() + ": ";
+        for (const char c : value.dump()) text += c == ',' ? std::string(", ") : std::string(1, c);
+    }
+    return text + "\n}\n";
+}
+
+std::string gait_template(const Scene& scene, bool on_one_line) {
+    build_model(scene);  // refuses a body whose muscles can't be
+    if (!scene.creature || scene.creature->actuators() == 0)
+        throw InputError("--gait-template: scene " + quoted(scene.name) + " has no muscles to drive: " +
+                         (scene.creature ? "an actuator needs two joints" : "it has no creature"));
+    ordered_json gait = gait_json(wave_gait(*scene.creature));
+    gait.erase("power");
+    return on_one_line ? gait.dump() + "\n" : by_lines(gait);
+}
+
 void run_info(const InfoOptions& options) {
     if (options.scene.empty() && !options.overrides.empty()) throw InputError("--overrides: needs a scene");
     if (options.scene.empty() && options.definition) throw InputError("--definition: needs a scene");
+    if (options.scene.empty() && options.gait_template) throw InputError("--gait-template: needs a scene");
     const auto overrides =
         options.overrides.empty() ? nlohmann::json::object() : parse_json(options.overrides, "--overrides");
     if (options.definition) {
         load_scene(options.scene, overrides);  // refuses what is wrong
         print(scene_definition(options.scene, overrides).dump(options.json ? -1 : 2) + "\n");
+        return;
+    }
+    if (options.gait_template) {
+        print(gait_template(load_scene(options.scene, overrides), options.json));
         return;
     }
     const ordered_json info =
@@ -152,8 +180,13 @@ void add_info(CLI::App& app, int& status) {
     const auto options = std::make_shared<InfoOptions>();
     command->add_option("scene", options->scene, "Name or path of the scene.");
     command->add_flag("--json", options->json, "Write one JSON object.");
-    command->add_flag("--definition", options->definition,
-                      "Write the scene itself: with its bases, its creature and the overrides merged.");
+    auto* definition =
+        command->add_flag("--definition", options->definition,
+                          "Write the scene itself: with its bases, its creature and the overrides merged.");
+    command
+        ->add_flag("--gait-template", options->gait_template,
+                   "Write a gait to begin with for the scene's muscles, a wave from head to tail; for run and evaluate.")
+        ->excludes(definition);
     command->add_option("--overrides", options->overrides, "JSON text merged into the scene (RFC 7386).");
     command->callback([options, &status] {
         run_info(*options);

@@ -21,4 +21,5 @@ install(TARGETS natator-bench RUNTIME DESTINATION bin OPTIONAL)  # natator-sim d
 install(PROGRAMS cli/natator.sh DESTINATION bin RENAME natator)
 install(FILES ${PROJECT_SOURCE_DIR}/ga-java/target/natator.jar DESTINATION ${NATATOR_DATA_DIR} OPTIONAL)
 install(DIRECTORY scenes creatures references DESTINATION ${NATATOR_DATA_DIR})
+install(DIRECTORY protocol DESTINATION ${NATATOR_DATA_DIR} FILES_MATCHING PATTERN "*.schema.json")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/natator)

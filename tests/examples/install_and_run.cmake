@@ -43,6 +43,10 @@ endforeach()
 
 run(${CMAKE_COMMAND} -E env --unset=NATATOR_DATA ${WORK}/prefix/bin/natator-sim info)
 expect("thesis/creature-1\n")
+string(REGEX MATCH "schemas +([^\n]+)" schemas "${output}")
+if(NOT EXISTS ${CMAKE_MATCH_1}/scene.schema.json)
+    message(FATAL_ERROR "no scene.schema.json in ${CMAKE_MATCH_1}")
+endif()
 
 run(${CMAKE_COMMAND} -S ${SOURCE}/sim-native/examples -B ${WORK}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCUDAToolkit_ROOT=${CUDA})

@@ -16,7 +16,7 @@ SOLVER = [("substeps", 2), ("numIterations", 2), ("gravity", [0, -9.81, 0]), ("r
           ("viscosity", 1), ("kinematicViscosity", 0.001), ("kernelSupport", 2.5), ("vorticityConfinement", 1), ("solidPressure", 1), ("freeSurfaceDrag", 0.1), ("buoyancy", 1),
           ("collisionDistance", 0.05), ("particleCollisionMargin", 0.01), ("shapeCollisionMargin", 0.01),
           ("relaxationFactor", 1), ("relaxationMode", "local"), ("maxNeighborsPerParticle", 96)]
-SCENE = [("scheme", "conserving"), ("base", "thesis/tank"), ("duration", 0.02), ("timeStep", 1 / 60), ("fluid", None),
+SCENE = [("$schema", "scene.schema.json"), ("scheme", "conserving"), ("base", "thesis/tank"), ("duration", 0.02), ("timeStep", 1 / 60), ("fluid", None),
          ("planes", [[0, 1, 0, 0]]), ("settling", {"updates": 1}), ("stopping", {"planeContact": False}),
          ("solver", {"substeps": 2}), ("creature", None), ("count", [5, 5, 5]), ("joints", [2])]
 REQUEST = [("duration", 0.02), ("scheme", "flex"), ("precision", "double"), ("backend", "cpu"), ("gait", GAIT),

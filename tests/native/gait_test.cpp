@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "natator/actuate.h"
 #include "natator/error.h"
 #include "natator/model_builder.h"
+#include "natator/wave_gait.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -29,6 +31,28 @@ TEST(GaitTest, PowerRaisesTheActivationShiftedToZeroToOne) {
     EXPECT_NEAR(activation(gait, 0, 0.75), -1, 1e-15);
     const Gait root{1, {1}, {0}, 0.5};
     EXPECT_NEAR(activation(root, 0, 0), 0.414213562373095, 1e-14);  // sqrt(1/2) * 2 - 1
+}
+
+TEST(GaitTest, AWaveGrowsTowardsTheTailAndRunsThere) {
+    const Creature creature = *load_scene("open-water/creature-2").creature;
+    const Gait gait = wave_gait(creature);
+    EXPECT_EQ(gait.frequency, 2);
+    EXPECT_EQ(gait.amplitude, (std::vector<double>{0.07, 0.12, 0.17, 0.22, 0.28, 0.33, 0.38, 0.43}));
+    EXPECT_EQ(gait.phase, (std::vector<double>{0, 0.95, 0.89, 0.84, 0.79, 0.74, 0.68, 0.63}));  // half a wave on 19 slices
+    EXPECT_NO_THROW(check_gait(gait, creature.actuators()));
+}
+
+TEST(GaitTest, AWaveBendsTheBodyOneWay) {
+    const auto gait_of = [](const char* bend) {
+        return wave_gait(*load_scene("open-water/ray", nlohmann::json::parse(bend)).creature);
+    };
+    const Gait vertical = gait_of("{}"), both = gait_of(R"({"creature":{"bend":"both"}})");
+    ASSERT_EQ(both.amplitude.size(), 10u);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(both.amplitude[i], vertical.amplitude[i]);
+        EXPECT_EQ(both.amplitude[i + 5], 0);
+    }
+    EXPECT_LE(gait_of(R"({"creature":{"bend":["both","vertical","vertical","vertical","vertical"]}})").amplitude[0], 1);
 }
 
 /// Numbers recorded with NVIDIA Flex for creature 1 at time 0: actuator 1 has phase 0.648 and amplitude 0.69.

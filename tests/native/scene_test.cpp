@@ -95,6 +95,14 @@ TEST(SceneTest, ThesisSceneHasTheValuesOfTheThesis) {
     EXPECT_EQ(scene.creature->rear_centre, Eigen::Vector3d(0.45, 0.6, 0.6));
 }
 
+TEST(SceneTest, TheSchemaThatAnEditorFindsIsNoPartOfAScene) {
+    EXPECT_EQ(parse_scene(R"({"$schema":"scene.schema.json","duration":3})", "x").duration, 3);
+    EXPECT_THROW(parse_scene(R"({"$schema":3})", "x"), InputError);
+    EXPECT_FALSE(scene_definition("open-water/eel", json::object()).contains("$schema"));
+    EXPECT_FALSE(scene_definition("open-water/eel", json::object()).at("creature").contains("$schema"));
+    EXPECT_THROW(load_scene("thesis/tank", json::parse(R"({"$schema":"scene.schema.json"})")), InputError);
+}
+
 TEST(SceneTest, AnEmptySolverHasTheDefaultsOfAppendixA) {
     const Scene scene = scene_from_json(json::parse(R"({"solver":{}})"), "x");
     const Scene thesis = load_scene("thesis/tank");

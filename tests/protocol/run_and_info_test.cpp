@@ -120,6 +120,23 @@ TEST(InfoTest, DefinesASceneWithAllThatItBuildsOn) {
     EXPECT_EQ(refused.exit_code, 2);
 }
 
+TEST(InfoTest, WritesAGaitToBeginWith) {
+    const Outcome gait = run_simulator({"info", "pool/creature-1", "--gait-template"});
+    ASSERT_EQ(gait.exit_code, 0) << gait.err;
+    EXPECT_EQ(gait.out, "{\n  \"frequency\": 2.0,\n  \"amplitude\": [0.76, 1.0],\n  \"phase\": [0.0, 0.88]\n}\n");
+    EXPECT_EQ(json::parse(run_simulator({"info", "pool/creature-1", "--gait-template", "--json"}).out), json::parse(gait.out));
+    const auto refusal = [](const std::vector<std::string>& arguments) {
+        const Outcome outcome = run_simulator(arguments);
+        EXPECT_EQ(outcome.exit_code, 2);
+        return outcome.err;
+    };
+    EXPECT_NE(refusal({"info", "pool/water", "--gait-template"}).find("it has no creature"), std::string::npos);
+    EXPECT_NE(refusal({"info", "pool/eel", "--gait-template", "--overrides", R"({"creature":{"profile":{"joints":[0.5]}}})"})
+                  .find("an actuator needs two joints"),
+              std::string::npos);
+    EXPECT_NE(refusal({"info", "--gait-template"}).find("needs a scene"), std::string::npos);
+}
+
 TEST(InfoTest, DescribesTheProgramWithoutAScene) {
     const json info = json::parse(run_simulator({"info", "--json"}).out);
     EXPECT_TRUE(info.at("version").is_string());

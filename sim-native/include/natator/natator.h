@@ -34,3 +34,4 @@
 #include "natator/swimming.h"
 #include "natator/trajectory.h"
 #include "natator/version.h"
+#include "natator/wave_gait.h"

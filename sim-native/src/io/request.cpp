@@ -26,7 +26,8 @@ Perturbation read_perturbation(const json& value, const Place& place) {
 }
 
 Gait read_gait(const json& value, const Place& place) {
-    fields::check_keys(value, place, {"frequency", "amplitude", "phase", "offset", "power"});
+    fields::check_keys(value, place, {"frequency", "amplitude", "phase", "offset", "power", fields::schema_key});
+    fields::check_schema_key(value, place);
     Gait gait;
     gait.frequency = read_number(fields::required(value, place, "frequency"), place.key("frequency"));
     gait.amplitude = read_actuator_values(fields::required(value, place, "amplitude"), place.key("amplitude"));

@@ -132,6 +132,17 @@ void check_keys(const json& object, const Place& place, const std::vector<std::s
     }
 }
 
+void check_schema_key(const json& object, const Place& place) {
+    if (!object.is_object() || !object.contains(schema_key)) return;
+    std::string ignored;
+    read(object.at(schema_key), place.key(schema_key), {}, ignored);
+}
+
+void drop_schema_key(json& object, const Place& place) {
+    check_schema_key(object, place);
+    if (object.is_object()) object.erase(schema_key);
+}
+
 const json& required(const json& object, const Place& place, const char* key) {
     const auto found = object.find(key);
     if (found == object.end()) refuse(place.key(key), "missing; must be given");

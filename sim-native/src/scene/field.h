@@ -62,6 +62,14 @@ void require_zero(const json& value, const Place& place, const std::string& reas
 /// Refuses what is not an object, and keys that are not among `allowed`.
 void check_keys(const json& object, const Place& place, const std::vector<std::string_view>& allowed);
 
+/// By this key at its top an editor finds the schema of a file. Readers ignore its value, which must be a string.
+inline constexpr const char* schema_key = "$schema";
+
+void check_schema_key(const json& object, const Place& place);
+
+/// Takes the key away, if `object` is one that has it.
+void drop_schema_key(json& object, const Place& place);
+
 /// The value of a key that must be there.
 const json& required(const json& object, const Place& place, const char* key);
 

@@ -18,6 +18,7 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     const Place place{"scene " + quoted(name), ""};
     json document = read_data_file("scenes", name, data);
     if (!document.is_object()) fields::refuse(place, document, "an object");
+    fields::drop_schema_key(document, place);
     if (!document.contains("base")) return document;
 
     const json base = document.at("base");
@@ -64,6 +65,7 @@ void resolve_creature(json& holder, const Place& place, const std::filesystem::p
         fields::refuse(place.key("name"), error.what());
     }
     if (!merged.is_object()) fields::refuse(place.key("name"), merged, "the name of a file that holds an object");
+    fields::drop_schema_key(merged, place);
     place_mesh(merged, name.get<std::string>());
     for (const char* kind : {"profile", "mesh"}) {
         if (!creature.contains(kind) || merged.contains(kind)) continue;
@@ -115,7 +117,10 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
 }
 
 Scene parse_scene(const std::string& text, const std::string& name) {
-    return scene_from_json(parse_json(text, "scene " + quoted(name)), name);
+    const std::string source = "scene " + quoted(name);
+    json document = parse_json(text, source);
+    fields::drop_schema_key(document, {source, ""});
+    return scene_from_json(document, name);
 }
 
 std::vector<std::string> scene_names(const std::filesystem::path& data) {

@@ -5,7 +5,7 @@ import java.util.List;
 import java.util.Locale;
 import picocli.CommandLine;
 import picocli.CommandLine.ITypeConverter;
-import picocli.CommandLine.Model.OptionSpec;
+import picocli.CommandLine.Model.ArgSpec;
 import picocli.CommandLine.TypeConversionException;
 
 /** Names of enum constants as the user writes and reads them: lower case with hyphens, as in the files of a run. */
@@ -14,10 +14,10 @@ final class EnumNames {
     private EnumNames() {
     }
 
-    /** Makes all options of a command, and of those below it, take such names in either case. */
+    /** Makes all arguments of a command, and of those below it, take such names in either case. */
     static void install(CommandLine command) {
-        for (OptionSpec option : command.getCommandSpec().options()) {
-            Arrays.stream(option.typeInfo().isMultiValue() ? option.auxiliaryTypes() : new Class<?>[] {option.type()})
+        for (ArgSpec argument : command.getCommandSpec().args()) {
+            Arrays.stream(argument.typeInfo().isMultiValue() ? argument.auxiliaryTypes() : new Class<?>[] {argument.type()})
                     .filter(Class::isEnum).forEach(type -> command.registerConverter(typed(type), converter(type)));
         }
         command.getSubcommands().values().forEach(EnumNames::install);

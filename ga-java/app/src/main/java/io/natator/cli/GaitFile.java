@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
@@ -14,14 +15,19 @@ final class GaitFile {
     }
 
     /**
-     * The gait in a file, or the one under its key {@code gait}, as in a run's {@code best.json}.
+     * The gait in a file, or the one under its key {@code gait}, as in a run's {@code best.json}. A {@code $schema} that
+     * names its schema for editors is ignored.
      *
      * @throws InvalidInputException if there is none
      */
     static Gait read(Path file) {
         JsonNode content = Json.read(file, JsonNode.class, "--gait");
+        JsonNode gait = content.has("gait") ? content.get("gait") : content;
+        if (gait instanceof ObjectNode keys) {
+            keys.remove("$schema");
+        }
         try {
-            return Json.parse((content.has("gait") ? content.get("gait") : content).toString(), Gait.class);
+            return Json.parse(gait.toString(), Gait.class);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("--gait " + file + ": " + Json.reason(e), e);
         }

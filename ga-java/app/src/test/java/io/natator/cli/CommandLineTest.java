@@ -535,7 +535,7 @@ class CommandLineTest {
     @Test
     void evaluatesAGaitFileAndTheBestOfARun() throws IOException {
         Path gait = Files.writeString(folder.resolve("gait.json"),
-                "{\"frequency\":1.5,\"amplitude\":[0.1,0.2],\"phase\":[0,0.3]}");
+                "{\"$schema\":\"gait.schema.json\",\"frequency\":1.5,\"amplitude\":[0.1,0.2],\"phase\":[0,0.3]}");
         assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait", gait.toString())).isZero();
         assertThat(Json.parse(out.toString(), JsonNode.class).get("distance").asDouble()).isEqualTo(-1.3925);
 

@@ -19,11 +19,12 @@ import java.util.stream.IntStream;
  * @param instructionSet kernels that it uses on this processor
  * @param devices        GPUs, by number
  * @param scenes         names of the scenes that come with it
+ * @param schemas        folder of the schemas of its files, for editors; null from a program that does not say
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 public record ProgramInfo(@JsonProperty(required = true) String version, String commit,
         @JsonProperty(required = true) String instructionSet, @JsonProperty(required = true) List<String> devices,
-        List<String> scenes) {
+        List<String> scenes, String schemas) {
 
     /** Copies the scenes. */
     public ProgramInfo {

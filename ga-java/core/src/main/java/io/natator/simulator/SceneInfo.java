@@ -38,11 +38,7 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
      * @throws InterruptedException  if the calling thread is interrupted
      */
     public static SceneInfo of(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
-        List<String> arguments = new ArrayList<>(List.of("info", scene, "--json"));
-        if (overrides != null) {
-            arguments.addAll(List.of("--overrides", overrides.toString()));
-        }
-        String text = ProgramInfo.ask(simulator, arguments, "scene " + scene);
+        String text = ask(scene, overrides, simulator);
         try {
             return Json.parse(text, SceneInfo.class);
         } catch (JsonProcessingException e) {
@@ -79,7 +75,22 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
      * @throws InterruptedException  if the calling thread is interrupted
      */
     public static String definition(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
-        List<String> arguments = new ArrayList<>(List.of("info", scene, "--json", "--definition"));
+        return ask(scene, overrides, simulator, "--definition");
+    }
+
+    /**
+     * A gait to begin with for the scene's muscles, as one line of JSON.
+     *
+     * @throws InvalidInputException also if it has no muscles
+     */
+    public static String gaitTemplate(String scene, Path simulator) throws InterruptedException {
+        return ask(scene, null, simulator, "--gait-template");
+    }
+
+    private static String ask(String scene, JsonNode overrides, Path simulator, String... options)
+            throws InterruptedException {
+        List<String> arguments = new ArrayList<>(List.of("info", scene, "--json"));
+        arguments.addAll(List.of(options));
         if (overrides != null) {
             arguments.addAll(List.of("--overrides", overrides.toString()));
         }

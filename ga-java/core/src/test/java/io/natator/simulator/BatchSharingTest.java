@@ -124,12 +124,12 @@ class BatchSharingTest {
 
     @Test
     void aChoiceOfDevicesIsRead() {
-        ProgramInfo info = new ProgramInfo("1", null, "any", List.of("0: A", "1: A", "2: B"), null);
+        ProgramInfo info = new ProgramInfo("1", null, "any", List.of("0: A", "1: A", "2: B"), null, null);
 
         assertThat(info.devices("0,1")).containsExactly(0, 1);
         assertThat(info.devices("2")).containsExactly(2);
-        assertThat(new ProgramInfo("1", null, "any", List.of("0: A", "1: A"), null).devices("all")).containsExactly(0, 1);
-        assertThat(new ProgramInfo("1", null, "any", List.of(), null).devices("all")).containsExactly(0);
+        assertThat(new ProgramInfo("1", null, "any", List.of("0: A", "1: A"), null, null).devices("all")).containsExactly(0, 1);
+        assertThat(new ProgramInfo("1", null, "any", List.of(), null, null).devices("all")).containsExactly(0);
         assertThatThrownBy(() -> info.devices("all")).isInstanceOf(InvalidInputException.class)
                 .hasMessage("--device all are GPUs of several kinds (A; B), whose last digits differ; expected some of one kind");
         assertThatThrownBy(() -> info.devices("1,")).isInstanceOf(InvalidInputException.class)

@@ -34,8 +34,11 @@ class ProtocolTest {
     private Path folder;
 
     static Set<ValidationMessage> check(String schemaFile, String json) throws IOException {
-        String schema = Files.readString(Path.of(System.getProperty("natator.protocol"), schemaFile));
-        JsonSchema validator = JsonSchemaFactory.getInstance(SpecVersion.VersionFlag.V202012).getSchema(schema);
+        Path folder = Path.of(System.getProperty("natator.protocol"));
+        JsonSchema validator = JsonSchemaFactory
+                .getInstance(SpecVersion.VersionFlag.V202012, factory -> factory.schemaMappers(
+                        ids -> ids.mapPrefix("https://natator.io/protocol/", folder.toUri().toString())))
+                .getSchema(Files.readString(folder.resolve(schemaFile)));
         return validator.validate(Json.parse(json, JsonNode.class));
     }
 

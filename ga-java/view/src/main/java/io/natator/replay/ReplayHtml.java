@@ -1,6 +1,7 @@
 package io.natator.replay;
 
 import io.natator.config.InvalidInputException;
+import io.natator.file.OutputFile;
 import io.natator.config.Json;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;

@@ -248,6 +248,13 @@ final class StreamSession implements AutoCloseable {
         send("LOST", Json.line(body));
     }
 
+    /** Tells the page of a scene whose file was saved; whether and how it reads it again is the page's. Does not wait. */
+    void saved(String scene) {
+        Thread teller = new Thread(() -> sendUnlessGone("SAVED", Map.of("scene", scene)), "view-saved");
+        teller.setDaemon(true);
+        teller.start();
+    }
+
     private void sendUnlessGone(String type, Object body) {
         try {
             send(type, Json.line(body));

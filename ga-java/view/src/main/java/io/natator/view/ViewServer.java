@@ -63,6 +63,7 @@ public final class ViewServer implements AutoCloseable {
     private final String page;
     private final String setup;
     private final StreamSockets sockets;
+    private final SavedFiles saved;
     private final Javalin javalin;
 
     /**
@@ -79,6 +80,7 @@ public final class ViewServer implements AutoCloseable {
         headers = new SecurityHeaders(page);
         setup = Json.line(SetupAnswer.of(ProgramInfo.of(settings.simulator()), settings));
         sockets = new StreamSockets(settings.simulator(), files(settings));
+        saved = new SavedFiles(files(settings), scene -> sockets.sessions().forEach(session -> session.saved(scene)));
         javalin = Javalin.create(this::configure);
         try {
             javalin.start();
@@ -241,6 +243,7 @@ public final class ViewServer implements AutoCloseable {
     /** Ends the simulators and stops listening. */
     @Override
     public void close() {
+        saved.close();
         sockets.close();
         javalin.stop();
     }

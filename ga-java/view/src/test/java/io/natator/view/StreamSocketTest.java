@@ -124,7 +124,7 @@ class StreamSocketTest {
                 last[0] = now;
                 since[0] = System.nanoTime();
             }
-            return now.toMillis() > 100 && System.nanoTime() - since[0] > 1_500_000_000L;
+            return now.toMillis() > 10 && System.nanoTime() - since[0] > 1_500_000_000L;
         });
 
         assertThat(usedMemory() - before).as("bytes more in use").isLessThan(30_000_000);

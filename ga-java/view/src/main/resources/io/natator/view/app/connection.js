@@ -7,7 +7,7 @@ const LAST_RETRY_MS = 8000;
 
 /**
  * Calls `handlers`: status(state, text) with state connecting, open or lost; scene(SCEN), stop(STOP), analysis(ANALYSIS),
- * lost(LOST), refused(text) if what was to be shown cannot be.
+ * lost(LOST), saved(SAVED) if a scene's file was saved, refused(text) if what was to be shown cannot be.
  */
 export class Connection {
   #url;
@@ -116,6 +116,9 @@ export class Connection {
         this.#answerAll('the simulator was lost');
         this.#grant();
         this.#handlers.lost(message.body);
+        break;
+      case 'SAVED':
+        this.#handlers.saved(message.body);
         break;
       default:
         console.warn('unknown message', message.type);

@@ -4,7 +4,7 @@ import {Connection} from './connection.js';
 import {History} from './history.js';
 import {Live} from './live.js';
 import {Meter} from './meter.js';
-import {isSameGait} from './gait.js';
+import {isSameGait, waveGait} from './gait.js';
 import {decodeFrame, sceneNumber} from './protocol.js';
 import {Stage} from './stage.js';
 
@@ -64,6 +64,7 @@ export class View {
         this.analysis = analysis;
       },
       lost: lost => this.#lost(lost),
+      saved: saved => this.#saved(saved),
       refused: error => this.#refused(error),
     });
   }
@@ -273,6 +274,27 @@ export class View {
       this.#fallback = null;
       this.#connection.begin();
     }
+  }
+
+  /** Reads the scene again whose file was saved. What runs goes on if that is faulty. */
+  async #saved({scene: file}) {
+    if (this.scene === null) {
+      this.#connection.begin();
+      return;
+    }
+    const {scene, overrides, gait} = this.scene;
+    if (scene !== file) {
+      return;
+    }
+    const name = file.split('/').at(-1);
+    let error = await this.setScene(scene, overrides, gait);
+    if (error !== null && gait !== null) {
+      error = await this.setScene(scene, overrides, null);  // it may have other muscles now
+      if (error === null && this.scene.actuators > 0) {
+        error = await this.setGait(waveGait(this.scene.actuators));
+      }
+    }
+    this.#handlers.notice(error === null ? `${name} was read again.` : error, error !== null);
   }
 
   #lost(lost) {

@@ -1,4 +1,4 @@
-package io.natator.replay;
+package io.natator.file;
 
 import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
@@ -10,7 +10,7 @@ import java.nio.file.StandardCopyOption;
 import java.nio.file.StandardOpenOption;
 
 /** A file that the user names and that is written whole or not at all. */
-final class OutputFile {
+public final class OutputFile {
 
     private final Path named;
     private final Path target;
@@ -26,7 +26,7 @@ final class OutputFile {
      * @throws InvalidInputException if something else is there that is not to be replaced, such as a folder, a device or
      *                               a pipe; or if its folder does not exist
      */
-    static OutputFile of(Path named) {
+    public static OutputFile of(Path named) {
         Path target = followed(named);
         if (Files.exists(target) && !Files.isRegularFile(target)) {
             throw new InvalidInputException("output file is " + named + ", which is "
@@ -57,7 +57,7 @@ final class OutputFile {
     }
 
     /** Replaces what is there: writes beside it and renames. */
-    void write(byte[] content) {
+    public void write(byte[] content) {
         Path fresh = target.resolveSibling(target.getFileName() + ".new");
         try {
             Files.deleteIfExists(fresh);

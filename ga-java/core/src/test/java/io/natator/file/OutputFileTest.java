@@ -1,4 +1,4 @@
-package io.natator.replay;
+package io.natator.file;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;

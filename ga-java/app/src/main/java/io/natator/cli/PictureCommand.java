@@ -1,0 +1,151 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.cli.Section.Topic;
+import io.natator.config.InvalidInputException;
+import io.natator.config.MergePatch;
+import io.natator.file.OutputFile;
+import io.natator.picture.From;
+import io.natator.picture.PictureOptions;
+import io.natator.picture.SwimPicture;
+import io.natator.replay.Replay;
+import io.natator.replay.ReplayRecorder;
+import io.natator.simulator.SceneInfo;
+import io.natator.stream.StreamFrame;
+import io.natator.stream.StreamOptions;
+import java.awt.image.BufferedImage;
+import java.io.ByteArrayOutputStream;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Path;
+import java.util.Locale;
+import java.util.concurrent.Callable;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+import javax.imageio.ImageIO;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+/** {@code natator picture}: a swim at one time as a PNG file. */
+@Command(name = "picture", mixinStandardHelpOptions = true,
+        description = {"Simulates a swim up to a time and draws it: the body in its water, with a scale. Needs no browser.",
+            "Lengths are the same near and far, so that the scale holds for all of the picture."},
+        customSynopsis = "natator picture [OPTIONS] RUN|SCENE",
+        footer = {"", "Examples:",
+            "  natator picture pool/eel --gait gait.json --at 1.5 -o eel.png",
+            "  natator picture runs/one --from three-quarter --size 1200x800"})
+final class PictureCommand implements Callable<Integer> {
+
+    private static final Pattern SIZE = Pattern.compile("(\\d{1,6})x(\\d{1,6})");
+    private static final int WIDTH = 1600;
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SceneChanges changes;
+
+    @Parameters(paramLabel = "RUN|SCENE", description = "A run folder of evolve (its best gait), or a scene: a name as "
+            + "thesis/creature-1, or a file.")
+    private String source;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--gait", paramLabel = "FILE",
+            description = "A JSON file with a gait, or a run's best.json. A scene without one is at rest.")
+    private Path gait;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--generation", paramLabel = "N",
+            description = "Of a run: the best gait of the generations up to N instead of all.")
+    private Integer generation;
+
+    @Section(Topic.SCENE)
+    @Option(names = "--at", paramLabel = "SECONDS", description = "When, from 0 to the duration of the swim. Default: 1, or the "
+            + "end of a shorter swim; 0 for a body at rest.")
+    private Double at;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = {"-o", "--output"}, paramLabel = "FILE", description = "Default: the scene's name and .png.")
+    private Path output;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--from", paramLabel = "WHERE", defaultValue = "side",
+            description = "side, top, front or three-quarter. Default: ${DEFAULT-VALUE}.")
+    private From from;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--size", paramLabel = "WxH", description = "Pixels, " + PictureOptions.LEAST + " to " + PictureOptions.MOST
+            + " each way. Default: " + WIDTH + " wide, as high as what is shown.")
+    private String size;
+
+    @Section(Topic.OUTPUT)
+    @Option(names = "--no-water", description = "Only the body and its tank.")
+    private boolean noWater;
+
+    @Mixin
+    private SimulatorOption simulatorOption;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        PictureOptions options = options();
+        SwimSource swimmer = SwimSource.of(source, generation, gait);
+        Path file = output != null ? output : Path.of(swimmer.name() + ".png");
+        if (!file.toString().toLowerCase(Locale.ROOT).endsWith(".png")) {
+            throw new InvalidInputException("--output is " + file + "; expected a name that ends in .png");
+        }
+        OutputFile png = OutputFile.of(file);
+        Replay swim = recorded(swimmer, simulatorOption.path());
+        StreamFrame frame = swim.frames().get(swim.frames().size() - 1);
+        BufferedImage picture = SwimPicture.draw(swim.scene(), frame, options);
+        png.write(bytes(picture));
+        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %d x %d pixels, at %.2f s%n", file, picture.getWidth(),
+                picture.getHeight(), frame.time());
+        return ExitCode.OK;
+    }
+
+    private PictureOptions options() {
+        if (size == null) {
+            return new PictureOptions(from, WIDTH, 0, !noWater);
+        }
+        Matcher numbers = SIZE.matcher(size);
+        if (numbers.matches()) {
+            int width = Integer.parseInt(numbers.group(1));
+            int height = Integer.parseInt(numbers.group(2));
+            if (Math.min(width, height) >= PictureOptions.LEAST && Math.max(width, height) <= PictureOptions.MOST) {
+                return new PictureOptions(from, width, height, !noWater);
+            }
+        }
+        throw new InvalidInputException("--size is " + size + "; expected pixels as 1200x800, each from "
+                + PictureOptions.LEAST + " to " + PictureOptions.MOST);
+    }
+
+    /** The swim's first frame and that at the time of the picture. */
+    private Replay recorded(SwimSource swimmer, Path simulator) throws InterruptedException {
+        JsonNode overrides = MergePatch.both(swimmer.overrides(), changes.overrides());
+        double duration = swimmer.seconds(null, overrides, simulator);
+        double step = SceneInfo.of(swimmer.scene(), overrides, simulator).timeStep();
+        double time = at != null ? at : swimmer.gait() == null ? 0 : Math.min(1, duration);
+        if (!(time >= 0 && time <= duration)) {
+            throw new InvalidInputException("--at is " + time + "; expected a time of the swim, 0 to " + duration + " s");
+        }
+        int frames = (int) Math.round(time / step);
+        StreamOptions options = StreamOptions.recording(swimmer.scene(), overrides, swimmer.gaitJson(), frames * step)
+                .with(changes.scheme() != null ? changes.scheme() : swimmer.scheme(), null).withEvery(Math.max(1, frames));
+        return new ReplayRecorder(simulator).record(swimmer.name(), options);
+    }
+
+    private static byte[] bytes(BufferedImage picture) {
+        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
+        try {
+            ImageIO.write(picture, "png", bytes);
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+        return bytes.toByteArray();
+    }
+}

@@ -1,0 +1,252 @@
+package io.natator.cli;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.simulator.ProgramInfo;
+import io.natator.simulator.SceneInfo;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.stream.Stream;
+
+/** Makes files to begin with that the simulator takes as they are. */
+final class StartingFiles {
+
+    private static final String POOL = "pool/water";
+    private static final List<String> ORDER = List.of("mesh", "profile", "slices", "file", "length", "height", "width", "fin",
+            "joints", "muscleSlices", "bend", "spacing", "particleMass");
+    private static final String SWIMMER = "pool/eel";
+    private static final String BODY = """
+            {
+              "profile": {
+                "length": 1.2,
+                "height": [[0, 0.18], [0.25, 0.34], [0.75, 0.22], [1, 0.3]],
+                "width": [[0, 0.16], [0.2, 0.26], [0.5, 0.18], [1, 0.14]],
+                "joints": [0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85]
+              },
+              "spacing": 0.075,
+              "particleMass": 0.421875,
+              "clusterStiffness": 0.6,
+              "springStiffness": 0.4,
+              "rearCentre": [0.6, 0.5, 0.5]
+            }
+            """;
+
+    private final Path simulator;
+    private final ProgramInfo program;
+
+    /** Water, and where in it a body's rear end is put. */
+    private record Place(String water, JsonNode rearCentre) {
+    }
+
+    StartingFiles(Path simulator) throws InterruptedException {
+        this.simulator = simulator;
+        this.program = ProgramInfo.of(simulator);
+    }
+
+    /**
+     * A fish of curves in the small pool; or what is most often changed in another scene, as it is there, and such a fish if
+     * it has no creature.
+     *
+     * @param like a scene, or null
+     * @param file where it will be
+     */
+    StartingFile scene(String name, String like, Path file) throws InterruptedException {
+        ObjectNode scene = document("scene");
+        if (like == null) {
+            scene.put("description", name + ": a fish in the pool. The body follows curves [part of the length, value] "
+                    + "of height and width, muscles run from joint to joint.").put("base", POOL).put("duration", 4);
+            scene.set("creature", parsed(BODY));
+        } else {
+            scene.put("description", name + ": " + like + " with changes.").put("base", SceneOptions.scene(like));
+            JsonNode there = definition(like);
+            copy(there, scene, "duration");
+            copy(there.path("solver"), scene.putObject("solver"), "gravity",
+                    "flex".equals(there.path("scheme").asText("flex")) ? "viscosity" : "kinematicViscosity");
+            if (there.path("creature").isObject()) {
+                copy(there.get("creature"), scene.putObject("creature"), "rearCentre", "clusterStiffness",
+                        "springStiffness");
+            } else {
+                scene.set("creature", bodyIn(SceneOptions.scene(like), there.path("fluid")));
+            }
+        }
+        String gait = file.resolveSibling(name + "-gait") + ".json";
+        String view = ProgramName.asCalled() + " view --scene " + word(file);
+        ObjectNode creature = JsonNodeFactory.instance.objectNode().set("creature", scene.get("creature"));
+        return new StartingFile(scene,
+                SceneInfo.of(scene.get("base").asText(), creature, simulator).actuators() == 0
+                ? List.of("natator-sim info " + word(file), view)
+                : List.of(ProgramName.asCalled() + " new gait " + name + "-gait --like " + word(file) + output(name, gait),
+                        view + " --gait " + word(gait)));
+    }
+
+    /**
+     * A fish of curves; or the creature of a scene, as all that it builds on makes it.
+     *
+     * @param like a scene, or null
+     * @param file where it will be
+     * @throws InvalidInputException if the scene has none, or none of the bundled waters takes it
+     */
+    StartingFile creature(String name, String like, Path file) throws InterruptedException {
+        ObjectNode creature = document("creature");
+        creature.put("description", name + (like == null ? ": a fish" : ": that of " + like)
+                + ", of which this file may change everything. Neutrally buoyant where a particle weighs what its water does.");
+        ObjectNode body = like == null ? parsed(BODY) : bodyOf(like);
+        body.remove(List.of("name", "description"));
+        creature.setAll((ObjectNode) ordered(body));
+        Place place = placeOf(body, like);
+        creature.set("rearCentre", place.rearCentre());
+        String put = place.water() + " --overrides " + word("{\"creature\":{\"name\":\"" + file + "\"}}");
+        String gait = file.resolveSibling(name + "-gait") + ".json";
+        return new StartingFile(creature, List.of(
+                "natator-sim info " + put + " --gait-template > " + word(gait),
+                ProgramName.asCalled() + " view --scene " + put + " --gait " + word(gait)));
+    }
+
+    /**
+     * A wave for the muscles of a scene.
+     *
+     * @param like a scene, or null
+     * @param file where it will be
+     * @throws InvalidInputException if the scene has no muscles
+     */
+    StartingFile gait(String like, Path file) throws InterruptedException {
+        ObjectNode gait = document("gait");
+        String scene = like == null ? SWIMMER : like;
+        gait.setAll(parsed(SceneInfo.gaitTemplate(SceneOptions.scene(scene), simulator)));
+        return new StartingFile(gait, List.of(
+                "natator-sim run " + word(scene) + " --gait " + word(file) + " --duration 2",
+                ProgramName.asCalled() + " view --scene " + word(scene) + " --gait " + word(file)));
+    }
+
+    /** With what an editor finds its schema by. */
+    private ObjectNode document(String kind) {
+        ObjectNode document = JsonNodeFactory.instance.objectNode();
+        return program.schemas() == null ? document
+                : document.put("$schema", Path.of(program.schemas(), kind + ".schema.json").toUri().toString());
+    }
+
+    private ObjectNode definition(String scene) throws InterruptedException {
+        return parsed(SceneInfo.definition(SceneOptions.scene(scene), null, simulator));
+    }
+
+    private ObjectNode bodyOf(String scene) throws InterruptedException {
+        if (!(definition(scene).get("creature") instanceof ObjectNode creature)) {
+            throw new InvalidInputException("--like is " + scene + ", which has no creature; expected a scene with one");
+        }
+        if (creature.get("mesh") instanceof ObjectNode mesh) {
+            mesh.remove("digest");
+            mesh.put("file", meshOf(mesh.path("file").asText()).toString());
+        }
+        return creature;
+    }
+
+    /** Where a scene's mesh is, since a creature's file has its own beside itself: among the bundled creatures, else as named. */
+    private Path meshOf(String file) {
+        Path bundled = program.schemas() == null || file.contains("/") ? Path.of(file)
+                : Path.of(program.schemas()).resolveSibling("creatures").resolve(file);
+        return (Files.exists(bundled) ? bundled : Path.of(file)).toAbsolutePath().normalize();
+    }
+
+    /** The fish at a place where a scene's water takes it: near the rear end, else in the middle. */
+    private ObjectNode bodyIn(String scene, JsonNode fluid) throws InterruptedException {
+        ObjectNode body = parsed(BODY);
+        double length = body.at("/profile/length").asDouble();
+        double[] origin = new double[3];
+        double[] extent = new double[3];
+        for (int axis = 0; axis < 3; axis++) {
+            origin[axis] = fluid.path("origin").path(axis).asDouble();
+            extent[axis] = fluid.path("spacing").asDouble() * fluid.path("count").path(axis).asDouble();
+        }
+        List<Place> places = new ArrayList<>();
+        for (double x : new double[] {extent[0] / 4, (extent[0] - length) / 2}) {
+            ArrayNode centre = JsonNodeFactory.instance.arrayNode();
+            for (double along : new double[] {origin[0] + x, origin[1] + extent[1] / 2, origin[2] + extent[2] / 2}) {
+                centre.add(Math.round(100 * along) / 100.0);
+            }
+            places.add(new Place(scene, centre));
+        }
+        body.set("rearCentre", firstThatTakes(body, places).rearCentre());
+        return body;
+    }
+
+    /** Water that takes the body: that of the scene it is from, or one of the bundled. */
+    private Place placeOf(ObjectNode body, String like) throws InterruptedException {
+        List<Place> places = new ArrayList<>();
+        if (like != null && body.has("rearCentre")) {
+            String folder = like.replaceFirst("[^/]*$", "");
+            program.scenes().stream().filter(List.of(folder + "water", folder + "tank")::contains)
+                    .forEach(water -> places.add(new Place(water, body.get("rearCentre"))));
+        }
+        places.add(new Place(POOL, parsed(BODY).get("rearCentre")));
+        places.add(new Place("open-water/water", JsonNodeFactory.instance.arrayNode().add(1.0).add(0.8).add(0.8)));
+        return firstThatTakes(body, places);
+    }
+
+    private Place firstThatTakes(ObjectNode body, List<Place> places) throws InterruptedException {
+        InvalidInputException refusal = null;
+        for (Place place : places) {
+            ObjectNode patch = JsonNodeFactory.instance.objectNode();
+            ObjectNode placed = body.deepCopy();
+            placed.set("rearCentre", place.rearCentre());
+            patch.set("creature", placed);
+            try {
+                SceneInfo.of(place.water(), patch, simulator);
+                return place;
+            } catch (InvalidInputException e) {
+                refusal = e;
+            }
+        }
+        throw refusal;
+    }
+
+    private static void copy(JsonNode from, ObjectNode to, String... keys) {
+        for (String key : keys) {
+            if (from.has(key)) {
+                to.set(key, from.get(key));
+            }
+        }
+    }
+
+    /** With its keys as people write them, not by the alphabet. */
+    private static JsonNode ordered(JsonNode node) {
+        if (node instanceof ArrayNode list) {
+            ArrayNode same = JsonNodeFactory.instance.arrayNode();
+            list.forEach(item -> same.add(ordered(item)));
+            return same;
+        }
+        if (!(node instanceof ObjectNode)) {
+            return node;
+        }
+        ObjectNode sorted = JsonNodeFactory.instance.objectNode();
+        Stream.concat(ORDER.stream().filter(node::has), node.propertyStream().map(Map.Entry::getKey))
+                .distinct().forEach(key -> sorted.set(key, ordered(node.get(key))));
+        return sorted;
+    }
+
+    private static ObjectNode parsed(String text) {
+        try {
+            return Json.parse(text, ObjectNode.class);
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException("simulator: " + Json.reason(e), e);
+        }
+    }
+
+    /** Where a file is not where its name alone would put it. */
+    private static String output(String name, String file) {
+        return file.equals(name + "-gait.json") ? "" : " --output " + word(file);
+    }
+
+    /** As one word of a shell. */
+    private static String word(Object text) {
+        String plain = text.toString();
+        return plain.matches("[\\w./-]+") ? plain : "'" + plain.replace("'", "'\\''") + "'";
+    }
+}
