@@ -114,7 +114,7 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     private static void printControls(StoredRun run, PrintWriter out) {
-        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().gait());
+        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
         if (controls != null) {
             out.println("  checked     " + ControlVerdict.of(controls).text());
         }

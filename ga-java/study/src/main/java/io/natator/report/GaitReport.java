@@ -1,6 +1,5 @@
 package io.natator.report;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
@@ -70,15 +69,14 @@ public final class GaitReport {
         EvolutionSettings settings = run.settings();
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
-        SimulationRequest request = new SimulationRequest(0, settings.scene(), run.best().gait(), settings.duration(),
-                settings.scheme(), runningOn(settings.overrides()));
+        SimulationRequest request = SimulationRequest.of(0, settings, run.best().swimmer()).withChange(runningOn());
         Recording recording = RecordingFactory.of(request, duration / 2, execution);
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         progress(page);
         Verdict verdict = Verdict.of(run.best());
         page.text("**" + verdict.text() + "**" + (run.best().fresh() == null ? " (one run, not a mean)." : ".")
                 + (verdict.advice() == null ? "" : " To go on: " + verdict.advice() + "."));
-        Controls controls = Controls.of(run.directory(), run.best().gait());
+        Controls controls = Controls.of(run.directory(), run.best().swimmer());
         page.text(controls == null ? "Its controls were not run; `natator check " + run.directory() + "` runs them."
                 : "By its controls (`natator check`): **" + ControlVerdict.of(controls).text() + "**.");
         difference = difference(recording, execution);
@@ -104,9 +102,8 @@ public final class GaitReport {
     }
 
     /** The same scene without early stops. */
-    private static ObjectNode runningOn(JsonNode overrides) {
-        ObjectNode patch = overrides instanceof ObjectNode object ? object.deepCopy()
-                : JsonNodeFactory.instance.objectNode();
+    private static ObjectNode runningOn() {
+        ObjectNode patch = JsonNodeFactory.instance.objectNode();
         patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
         return patch;
     }

@@ -1,11 +1,15 @@
 package io.natator.view;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Genome;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.MergePatch;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
+import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.Verdict;
@@ -48,8 +52,16 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
     record Generation(int generation, int evaluations, double best, double mean, double bestEver) {
     }
 
-    /** The best gait of a generation and its distance. */
-    record Best(int generation, double fitness, Gait gait) {
+    /**
+     * The best gait of a generation and its distance.
+     *
+     * @param overrides that give the run's scene this body too; null where the scene's own swims
+     */
+    record Best(int generation, double fitness, Gait gait, ObjectNode overrides) {
+
+        static Best of(Generation generation, double fitness, EvolutionSettings settings, Swimmer swimmer) {
+            return new Best(generation.generation, fitness, swimmer.gait(), RunAnswer.overrides(settings, swimmer));
+        }
     }
 
     /**
@@ -76,6 +88,12 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         return InitialScene.patch(settings.overrides(), settings.scheme());
     }
 
+    /** The same with a swimmer's body; null where that is the scene's own. */
+    static ObjectNode overrides(EvolutionSettings settings, Swimmer swimmer) {
+        return swimmer.body() == null ? null
+                : InitialScene.patch(MergePatch.both(settings.overrides(), swimmer.body()), settings.scheme());
+    }
+
     private static List<Generation> generations(StoredRun run) {
         List<Generation> generations = new ArrayList<>();
         double bestEver = Double.NEGATIVE_INFINITY;
@@ -91,7 +109,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         Map<Integer, JudgedGait> bests = run.bestsByGeneration();
         return generations.stream().filter(one -> bests.containsKey(one.generation())).map(one -> {
             JudgedGait best = bests.get(one.generation());
-            return new Best(one.generation(), best.score(), best.gait());
+            return Best.of(one, best.score(), run.settings(), best.swimmer());
         }).toList();
     }
 
@@ -103,13 +121,20 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         if (run.settings().starts() > 1) {
             return champions(run, generations);
         }
-        Map<Double, Gait> gaits = new HashMap<>();
-        if (run.best() != null) {
-            gaits.put(run.best().result().score(), run.best().gait());
-        }
+        Map<Double, EvaluationRecord> swims = new HashMap<>();
         run.evaluations().stream().filter(one -> one.result().status() == SimulationResult.Status.OK)
-                .forEach(one -> gaits.putIfAbsent(one.result().score(), one.gait()));
-        return generations.stream().filter(one -> gaits.containsKey(one.best()))
-                .map(one -> new Best(one.generation(), one.best(), gaits.get(one.best()))).toList();
+                .forEach(one -> swims.putIfAbsent(one.result().score(), one));
+        Genome genome = run.settings().genome();
+        List<Best> bests = new ArrayList<>();
+        for (Generation generation : generations) {
+            EvaluationRecord swim = swims.get(generation.best());
+            if (run.best() != null && run.best().result().score() == generation.best()) {
+                bests.add(Best.of(generation, generation.best(), run.settings(), run.best().swimmer()));
+            } else if (swim != null) {
+                bests.add(Best.of(generation, generation.best(), run.settings(),
+                        new Swimmer(swim.gait(), genome.body(swim.genes()))));
+            }
+        }
+        return bests;
     }
 }
