@@ -150,8 +150,8 @@ class EvolveBodiesTest {
 
         assertThat(natator("show", folder.resolve("run").toString())).isZero();
 
-        assertThat(out.toString()).containsPattern("length +1\\.\\d+, the scene's 1\\.5\n")
-                .containsPattern("height +0\\.\\d+ .* at 0 12 60 100 % of the length, the scene's 0\\.18 0\\.3 0\\.3 0\\.2\n")
+        assertThat(out.toString()).containsPattern("length +1\\.\\d+ units, the scene's 1\\.5\n")
+                .containsPattern("height +0\\.\\d+ .* units at 0 12 60 100 % of the length, the scene's 0\\.18 0\\.3 0\\.3 0\\.2\n")
                 .contains("joints", "stiffness", "muscles", "particles");
     }
 
