@@ -36,11 +36,11 @@ measure() {
         ((place++ == 1)) && amplitude=$x
         sum=$((sum - (x - centre) * (x - centre) / 1000000000))
     done
-    # A body swims best at a length of 1.25.
+    # An evolved body swims far, best at a length of 1.25.
     if [[ $1 =~ \"length\":([0-9.]+) ]]; then
         fraction=${BASH_REMATCH[1]#*.}000000000
         x=$((${BASH_REMATCH[1]%%.*} * 1000000000 + 10#${fraction:0:9} - 1250000000))
-        sum=$((sum - x * x / 1000000000))
+        sum=$((sum + 20000000000 - x * x / 1000000000))
     fi
     # Another start: up to 0.05 more or less, otherwise for each gait.
     if [[ $1 =~ \"start\":([0-9]+) ]]; then

@@ -135,6 +135,17 @@ public record ProfileBody(double spacing, double length, Curve height, Curve wid
         return fin == null ? 1 : fin.points().get(0).at();
     }
 
+    /** Its outline from nose to tail: [part of the length, height, width] at each slice and both ends, lengths in scene units. */
+    public List<double[]> sections() {
+        List<double[]> sections = new ArrayList<>();
+        for (int slice = -1; slice <= slices(); slice++) {
+            double place = Math.min(Math.max(part(slice), 0), 1);
+            boolean isFin = fin != null && place >= finBegin();
+            sections.add(new double[] {place, (isFin ? fin : height).at(place), isFin ? thickness : width.at(place)});
+        }
+        return sections;
+    }
+
     /** How many particles it has, each of which stands for a cube of the spacing. */
     public int particles() {
         int sum = 0;

@@ -35,10 +35,11 @@ import java.util.Map;
  * @param facts       of the best gait of all, in words, by what they are about; the verdict is the first
  * @param map         the best gait of every kind, or null if the run looked for no kinds
  * @param front       gaits by several objectives, or null if it has one
+ * @param bodies      of the scene and of some generations, or null if it evolves gaits alone
  */
 record RunAnswer(int id, String name, String scene, ObjectNode overrides, OptimizerKind optimizer, long seed,
         List<Generation> generations, List<Best> bests, Verdict verdict, Map<String, String> facts,
-        MapAnswer map, FrontAnswer front) {
+        MapAnswer map, FrontAnswer front, List<BodyOutline> bodies) {
 
     /**
      * A generation.
@@ -72,10 +73,11 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
     static RunAnswer of(int id, StoredRun run) {
         EvolutionSettings settings = run.settings();
         List<Generation> generations = generations(run);
+        List<Best> bests = bests(run, generations);
         return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
-                settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()),
+                settings.seed(), generations, bests, run.best() == null ? null : Verdict.of(run.best()),
                 run.best() == null ? Map.of() : WinnerFacts.of(run.directory(), run.best()), MapAnswer.of(run),
-                FrontAnswer.of(run));
+                FrontAnswer.of(run), BodyOutline.of(run, bests));
     }
 
     /** What the page calls a run: its folder, without where that is. */
