@@ -65,7 +65,7 @@ final class EvaluateCommand implements Callable<Integer> {
         String sceneName = SceneOptions.scene(scene);
         Swimmer swimmer = swimmer(sceneName, execution.simulator());
         SimulationRequest request = new SimulationRequest(0, sceneName, swimmer.gait(), sceneOptions.duration(),
-                sceneOptions.scheme(), MergePatch.both(sceneOptions.overrides(), swimmer.body()));
+                sceneOptions.scheme(), MergePatch.both(swimmer.body(), sceneOptions.overrides()));
         SceneInfo info = SceneInfo.of(sceneName, request.overrides(), execution.simulator());
         if (execution.timeout() == null) {
             execution = execution.withTimeout(TimeLimit.of(info, sceneOptions.duration()));

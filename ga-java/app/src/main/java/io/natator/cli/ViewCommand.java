@@ -134,7 +134,7 @@ final class ViewCommand implements Callable<Integer> {
         }
         Swimmer swimmer = given != null ? given : new Swimmer(ThesisData.load().gaitIn(scene), null);
         ObjectNode overrides =
-                InitialScene.patch(MergePatch.both(sceneOptions.overrides(), swimmer.body()), sceneOptions.scheme());
+                InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()), sceneOptions.scheme());
         SceneInfo.of(scene, overrides, program);
         return new InitialScene(scene, overrides, swimmer.gait());
     }

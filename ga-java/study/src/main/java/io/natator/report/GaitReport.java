@@ -2,6 +2,8 @@ package io.natator.report;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.BodyText;
+import io.natator.body.ProfileBody;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
@@ -165,6 +167,10 @@ public final class GaitReport {
         rows.add(List.of("frequency (1/s)", number(gait.frequency())));
         rows.add(List.of("amplitudes", numbers(gait.amplitude())));
         rows.add(List.of("phases", numbers(gait.phase())));
+        if (run.settings().evolve() != null) {
+            ProfileBody scene = run.settings().evolve().body();
+            BodyText.of(scene.with(best.body()), scene).forEach((name, text) -> rows.add(List.of("body: " + name, text)));
+        }
         FreshText.of(best).forEach((name, text) -> rows.add(List.of(name + " in fluid", text)));
         if (best.fresh() == null) {
             rows.add(List.of("speed in fluid (units/s), one run", number(best.speed())));
