@@ -38,7 +38,8 @@ final class RunReport {
             out.println("no gait was measured: all " + state.evaluations() + " evaluations were unstable, refused or failed");
             return;
         }
-        out.println("best " + (settings.evolve() == null ? "gait" : "swimmer") + " of " + settings.scene() + " after " + state.generation() + " generations and "
+        out.println("best " + (settings.evolve() == null ? "gait" : "swimmer") + " of " + settings.scene() + " after "
+                + state.generation() + " generations and "
                 + state.evaluations() + " evaluations");
         line("frequency", number(best.gait().frequency()) + " 1/s");
         line("amplitude", row(best.gait().amplitude()));

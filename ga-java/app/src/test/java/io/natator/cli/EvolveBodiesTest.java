@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
@@ -81,6 +82,18 @@ class EvolveBodiesTest {
         assertThat(best.bodyLength()).isEqualTo(run.settings().bodyLength(best.body()));
         JsonNode profile = best.body().path("creature").path("profile");
         assertThat(profile.path("length").doubleValue()).isEqualTo(best.genes().get(4)).isBetween(1.125, 1.95);
+    }
+
+    /** Kinds of gaits are told apart by beats for a body length, which is each body's own. */
+    @Test
+    void everyBodyHasItsOwnLength() {
+        assertThat(evolve("run", "--evolve", "both", "--optimizer", "map-elites", "--generations", "1")).as(err.toString()).isZero();
+
+        StoredRun run = StoredRun.in(folder.resolve("run"));
+        assertThat(run.state().population()).isNotEmpty().allSatisfy(one -> {
+            double length = run.settings().bodyLength(run.settings().genome().decode(one.genes()).body());
+            assertThat(one.effort().lengths()).isCloseTo(one.result().distance() / length, within(1e-9));
+        });
     }
 
     @Test

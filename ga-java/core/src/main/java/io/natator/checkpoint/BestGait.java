@@ -41,8 +41,8 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
 
     /** The best gait as far as evolution tells. */
     public static BestGait of(String scene, Individual best, Swimmer swimmer) {
-        return new BestGait(scene, best.genes(), swimmer.gait(), swimmer.body(), best.result().distance(), best.result().speed(), best.result(),
-                null, null, best.score(), best.runs(), null);
+        return new BestGait(scene, best.genes(), swimmer.gait(), swimmer.body(), best.result().distance(),
+                best.result().speed(), best.result(), null, null, best.score(), best.runs(), null);
     }
 
     /**

@@ -49,16 +49,19 @@ public final class ControlRuns {
             String scheme = inWater.stream().map(SimulationResult::scheme).filter(one -> one != null).findFirst().orElse("");
             SwimSample water = again.sample(inWater, swimmer, 1);
             // A body at rest makes no progress, which is to end no run of it.
-            SwimSample resting = again.sample(runs(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping()), evaluator), swimmer, 1);
+            SwimSample resting = again.sample(
+                    runs(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping()), evaluator), swimmer, 1);
             SwimSample vacuum = again.sample(runs(again.requests(swimmer, starts, null).stream()
                     .map(request -> VacuumRequests.of(request, settings.duration())).toList(), evaluator), swimmer, 1);
             SwimSample clampOff = scheme.equals(FLEX)
                     ? again.sample(runs(again.requests(swimmer, starts, withoutClamp()), evaluator), swimmer, 1) : null;
             SwimSample half = again.sample(runs(again.requests(swimmer, starts, again.halfStep()), evaluator), swimmer, 2);
-            SwimSample mirrored = again.sample(runs(again.requests(swimmer.withGait(swimmer.gait().mirrored()), starts, null), evaluator), swimmer, 1);
+            SwimSample mirrored = again.sample(
+                    runs(again.requests(swimmer.withGait(swimmer.gait().mirrored()), starts, null), evaluator), swimmer, 1);
             Backend other = otherBackend();
             return new Controls(swimmer.gait(), swimmer.body(), scheme, again.duration(), again.bodyLength(swimmer), water, resting,
-                    vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other), other == null ? null : other.argument(), null);
+                    vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
+                    other == null ? null : other.argument(), null);
         }
     }
 
