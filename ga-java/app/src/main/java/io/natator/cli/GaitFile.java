@@ -16,19 +16,23 @@ final class GaitFile {
     }
 
     /**
-     * The gait in a file, or the one under its key {@code gait}, as in a run's {@code best.json}. A {@code $schema} that
-     * names its schema for editors is ignored.
+     * The gait in a file; or the one under its key {@code gait} and the body under {@code body}, as in a run's
+     * {@code best.json}. A {@code $schema} that names its schema for editors is ignored.
      *
      * @throws InvalidInputException if there is none
      */
     static Swimmer read(Path file) {
         JsonNode content = Json.read(file, JsonNode.class, "--gait");
+        JsonNode body = content.get("body");
+        if (body != null && !body.isObject()) {
+            throw new InvalidInputException("--gait " + file + ": body is " + body + "; expected a JSON Merge Patch on the scene");
+        }
         JsonNode gait = content.has("gait") ? content.get("gait") : content;
         if (gait instanceof ObjectNode keys) {
             keys.remove("$schema");
         }
         try {
-            return new Swimmer(Json.tree(gait, Gait.class), content.get("body"));
+            return new Swimmer(Json.tree(gait, Gait.class), body);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("--gait " + file + ": " + Json.reason(e), e);
         }

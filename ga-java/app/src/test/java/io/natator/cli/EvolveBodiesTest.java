@@ -173,15 +173,17 @@ class EvolveBodiesTest {
         "pool/creature-1|both||scene pool/creature-1: the creature's body is not given by a profile",
         "pool/eel|body||--evolve body has no gait that the bodies are to swim with; expected --gait FILE",
         "pool/eel|both|gait.json|--gait is for --evolve body; else gaits are evolved",
+        "pool/eel|body|odd.json|--gait FOLDER/odd.json: body is 3; expected a JSON Merge Patch on the scene",
         "pool/eel|body|short.json|gait of the bodies is for 1 actuators; expected one for the 8 of the scene's body"})
     void whatDoesNotFitIsOneLine(String scene, String what, String gait, String message) throws IOException {
         gaitFile();
+        Files.writeString(folder.resolve("odd.json"), "{\"gait\":" + Json.line(GAIT) + ",\"body\":3}");
         Files.writeString(folder.resolve("short.json"), Json.line(new Gait(1, List.of(1.0), List.of(0.0))));
 
         assertThat(evolve("run", gait == null ? new String[] {"--evolve", what, "--scene", scene}
                 : new String[] {"--evolve", what, "--gait", folder.resolve(gait).toString()})).isEqualTo(2);
 
-        assertThat(err.toString()).startsWith("natator evolve: " + message).hasLineCount(1);
+        assertThat(err.toString()).startsWith("natator evolve: " + message.replace("FOLDER", folder.toString())).hasLineCount(1);
         assertThat(folder.resolve("run")).doesNotExist();
     }
 }

@@ -1,12 +1,9 @@
 package io.natator.simulator;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.EvolutionSettings;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
-import java.util.concurrent.ConcurrentHashMap;
 import java.util.function.Consumer;
 
 /**
@@ -23,8 +20,8 @@ public final class BodyCheckEvaluator implements Evaluator {
     private final Evaluator evaluator;
     private final Path simulator;
     private final SceneInfo scene;
-    /** What is wrong with a body, by the overrides that make it. */
-    private final Map<JsonNode, String> faults = new ConcurrentHashMap<>();
+    /** What is wrong with bodies. */
+    private final SceneMemory<String> faults = new SceneMemory<>();
 
     /**
      * Wraps an evaluator, which stays the caller's to close.
@@ -43,7 +40,7 @@ public final class BodyCheckEvaluator implements Evaluator {
             throws InterruptedException {
         List<SimulationRequest> sound = new ArrayList<>();
         for (SimulationRequest request : requests) {
-            String fault = faultOf(request);
+            String fault = faults.of(request.scene(), request.overrides(), () -> fault(request));
             if (fault.equals(NOTHING)) {
                 sound.add(request);
             } else {
@@ -51,15 +48,6 @@ public final class BodyCheckEvaluator implements Evaluator {
             }
         }
         evaluator.evaluateAll(sound, whenDone);
-    }
-
-    private String faultOf(SimulationRequest request) throws InterruptedException {
-        String fault = faults.get(request.overrides());
-        if (fault == null) {
-            fault = fault(request);
-            faults.put(request.overrides(), fault);
-        }
-        return fault;
     }
 
     private String fault(SimulationRequest request) throws InterruptedException {
