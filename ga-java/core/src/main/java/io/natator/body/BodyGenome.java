@@ -22,6 +22,8 @@ public final class BodyGenome {
     private static final double LEAST_STIFFNESS = 0.1;
     /** Share of the way to the next joint that a joint may move. */
     private static final double JOINT_MOVE = 0.45;
+    /** Of the body's length. */
+    private static final double LEAST_MOVE = 0.001;
     /** Share of the particles that may be too many or too few. */
     private static final double HELD = 0.01;
     /** Section sizes are scaled by up to so much more in front than behind, or less, until the particles are held. */
@@ -56,7 +58,7 @@ public final class BodyGenome {
             double tip = last(scene.fin()).value();
             add("fin height", Math.max(thinnest(), THINNEST * tip), THICKEST * tip, tip);
         }
-        addJoints(end);
+        addJoints(scene.jointEnd());
         addStiffness("stiffness", stiffness);
         addStiffness("muscle strength", muscles);
     }
@@ -106,7 +108,7 @@ public final class BodyGenome {
         for (int i = 0; i < joints.size(); i++) {
             double before = i == 0 ? 0 : joints.get(i - 1);
             double behind = i + 1 == joints.size() ? end : joints.get(i + 1);
-            double move = JOINT_MOVE * Math.min(joints.get(i) - before, behind - joints.get(i));
+            double move = Math.max(LEAST_MOVE, JOINT_MOVE * Math.min(joints.get(i) - before, behind - joints.get(i)));
             add("joint " + (i + 1), joints.get(i) - move, joints.get(i) + move, joints.get(i));
         }
     }
@@ -153,9 +155,9 @@ public final class BodyGenome {
         return scene.fin().map(point -> new Point(point.at(), Math.max(thinnest(), scale * point.value())));
     }
 
-    /** Each joint in a slice of its own, behind the first and before the last, and before the fin. */
+    /** Each joint in a slice of its own, behind the first and before the last, and not in a thin fin. */
     private static ProfileBody withJoints(ProfileBody body) {
-        int last = Math.min(body.slices() - 2, (int) Math.ceil(body.finBegin() * body.slices() - 0.5) - 1);
+        int last = Math.min(body.slices() - 2, (int) Math.ceil(body.jointEnd() * body.slices() - 0.5) - 1);
         List<Integer> slices = new ArrayList<>(body.jointSlices());
         for (int i = 0; i < slices.size(); i++) {
             slices.set(i, Math.max(slices.get(i), i == 0 ? 1 : slices.get(i - 1) + 1));

@@ -146,6 +146,11 @@ public record ProfileBody(double spacing, double length, Curve height, Curve wid
         return sections;
     }
 
+    /** Where joints end: where the fin begins if that is one particle thick, since no muscle fits there; else 1. */
+    double jointEnd() {
+        return Math.round(thickness / spacing) > 1 ? 1 : finBegin();
+    }
+
     /** How many particles it has, each of which stands for a cube of the spacing. */
     public int particles() {
         int sum = 0;

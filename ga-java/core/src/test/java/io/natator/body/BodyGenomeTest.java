@@ -90,6 +90,21 @@ class BodyGenomeTest {
         assertThat(genome.decode(genome.own()).particles()).isEqualTo(ProfileBody.of(creature).particles());
     }
 
+    /** Muscles fit into a fin of two particles, so joints may be there. */
+    @Test
+    void jointsInAThickFinStayThere() {
+        ObjectNode creature = Bodies.creature("tuna").deepCopy();
+        ObjectNode profile = (ObjectNode) creature.get("profile");
+        ((ObjectNode) profile.get("fin")).put("thickness", 0.15);
+        profile.putArray("joints").add(0.5).add(0.7).add(0.8).add(0.92);
+        ProfileBody scene = ProfileBody.of(creature);
+
+        BodyGenome genome = new BodyGenome(scene);
+
+        assertThat(genome.genes()).allSatisfy(gene -> assertThat(gene.lower()).isLessThan(gene.upper()));
+        assertThat(genome.decode(genome.own()).jointSlices()).isEqualTo(scene.jointSlices()).contains(18);
+    }
+
     @Test
     void aGenomeOfBothHasTheGaitsGenesFirst() {
         ProfileBody eel = Bodies.bundled("eel");
