@@ -54,8 +54,7 @@ final class BackgroundCheck implements AutoCloseable {
         ExecutionSettings execution = EvolutionRun.withTimeLimit(new ExecutionSettings(simulator, 1, null), settings);
         try (Evaluator evaluator = Evaluator.open(execution)) {
             return new Reproduction(run, best, simulator, execution.backend(), execution.device())
-                    .difference(evaluator.evaluate(new SimulationRequest(0, settings.scene(), best.gait(),
-                            settings.duration(), settings.scheme(), settings.overrides())));
+                    .difference(evaluator.evaluate(SimulationRequest.of(0, settings, best.swimmer())));
         }
     }
 

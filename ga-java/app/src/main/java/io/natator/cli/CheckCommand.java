@@ -1,8 +1,8 @@
 package io.natator.cli;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -10,8 +10,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
-import io.natator.config.MergePatch;
-import io.natator.encoding.Gait;
 import io.natator.report.WaterCheck;
 import io.natator.run.ControlRuns;
 import io.natator.run.EvolutionRun;
@@ -65,9 +63,9 @@ final class CheckCommand implements Callable<Integer> {
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(
                 cacheOptions.in(executionOptions.execution(settings.backend())), settings);
-        Gait gait = run.best().gait();
-        Controls controls = new ControlRuns(settings, execution, starts).of(gait);
-        Double underWater = WaterCheck.shareUnderWater(runningOn(settings, gait),
+        Swimmer swimmer = run.best().swimmer();
+        Controls controls = new ControlRuns(settings, execution, starts).of(swimmer);
+        Double underWater = WaterCheck.shareUnderWater(runningOn(settings, swimmer),
                 List.of(controls.duration() / 2, controls.duration()), execution);
         Controls all = controls.withUnderWater(underWater);
         all.write(folder);
@@ -76,10 +74,9 @@ final class CheckCommand implements Callable<Integer> {
     }
 
     /** The swim from the scene's own start, without early stops. */
-    private static SimulationRequest runningOn(EvolutionSettings settings, Gait gait) {
+    private static SimulationRequest runningOn(EvolutionSettings settings, Swimmer swimmer) {
         ObjectNode patch = JsonNodeFactory.instance.objectNode();
         patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
-        JsonNode overrides = MergePatch.both(settings.overrides(), patch);
-        return new SimulationRequest(0, settings.scene(), gait, settings.duration(), settings.scheme(), overrides);
+        return SimulationRequest.of(0, settings, swimmer).withChange(patch);
     }
 }

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -9,6 +10,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.MergePatch;
 import io.natator.encoding.DenseEncoding;
 import io.natator.encoding.Gait;
 import io.natator.simulator.Evaluator;
@@ -53,7 +55,7 @@ final class EvaluateCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--gait", required = true, arity = "1..*", paramLabel = "FILE|GENE",
-            description = "A JSON file with a gait (or a run's best.json), or genes: frequency, amplitudes, phases but "
+            description = "A JSON file with a gait (or a run's best.json, with its body), or genes: frequency, amplitudes, phases but "
                     + "the first (dense); or frequency, first and last amplitude, phase difference (sparse).")
     private List<String> gait;
 
@@ -61,9 +63,10 @@ final class EvaluateCommand implements Callable<Integer> {
     public Integer call() throws InterruptedException {
         ExecutionSettings execution = executionOptions.execution(Backend.CPU);
         String sceneName = SceneOptions.scene(scene);
-        SceneInfo info = SceneInfo.of(sceneName, sceneOptions.overrides(), execution.simulator());
-        SimulationRequest request = new SimulationRequest(0, sceneName, gait(info.actuators()),
-                sceneOptions.duration(), sceneOptions.scheme(), sceneOptions.overrides());
+        Swimmer swimmer = swimmer(sceneName, execution.simulator());
+        SimulationRequest request = new SimulationRequest(0, sceneName, swimmer.gait(), sceneOptions.duration(),
+                sceneOptions.scheme(), MergePatch.both(swimmer.body(), sceneOptions.overrides()));
+        SceneInfo info = SceneInfo.of(sceneName, request.overrides(), execution.simulator());
         if (execution.timeout() == null) {
             execution = execution.withTimeout(TimeLimit.of(info, sceneOptions.duration()));
         }
@@ -86,8 +89,7 @@ final class EvaluateCommand implements Callable<Integer> {
         }
         EvolutionSettings settings = StoredRun.settings(run);
         BestGait stored = StoredRun.best(run);
-        if (stored != null && new SimulationRequest(0, SceneOptions.scene(settings.scene()), stored.gait(),
-                settings.duration(), settings.scheme(), settings.overrides()).equals(request)) {
+        if (stored != null && SimulationRequest.of(0, settings, stored.swimmer()).equals(request)) {
             String difference = new Reproduction(run, stored, execution.simulator(), execution.backend(),
                     execution.device()).difference(result);
             if (difference != null) {
@@ -96,10 +98,14 @@ final class EvaluateCommand implements Callable<Integer> {
         }
     }
 
-    private Gait gait(int actuators) {
+    private Swimmer swimmer(String sceneName, Path simulator) throws InterruptedException {
         if (gait.size() == 1 && (gait.get(0).endsWith(".json") || Files.exists(Path.of(gait.get(0))))) {
             return GaitFile.read(Path.of(gait.get(0)));
         }
+        return new Swimmer(gait(SceneInfo.of(sceneName, sceneOptions.overrides(), simulator).actuators()), null);
+    }
+
+    private Gait gait(int actuators) {
         List<Double> genes = numbers();
         // Of two actuators both encodings are the same.
         boolean dense = genes.size() == new DenseEncoding(Math.max(actuators, 1)).genes().size() || genes.size() != 4;

@@ -1,14 +1,14 @@
 package io.natator.cli;
 
+import io.natator.body.Swimmer;
 import io.natator.config.EvolutionSettings;
-import io.natator.encoding.Encoding;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import java.util.List;
 import java.util.stream.LongStream;
 
-/** How long evaluations take, judged by a few short ones of the gait in the middle of all ranges. */
+/** How long evaluations take, judged by a few short ones of the swimmer in the middle of all ranges. */
 final class EvaluationTime {
 
     /** Simulated seconds of the trials; their difference leaves out what every evaluation costs once. */
@@ -17,13 +17,11 @@ final class EvaluationTime {
     private static final double NANOSECONDS = 1e9;
 
     private final EvolutionSettings settings;
-    private final Encoding encoding;
     private final Evaluator evaluator;
 
     /** For evaluations with these settings; the evaluator stays the caller's. */
     EvaluationTime(EvolutionSettings settings, Evaluator evaluator) {
         this.settings = settings;
-        this.encoding = settings.encoding().forActuators(settings.actuators());
         this.evaluator = evaluator;
     }
 
@@ -42,11 +40,9 @@ final class EvaluationTime {
     }
 
     private double seconds(int count, double duration) throws InterruptedException {
-        List<Double> middle = encoding.genes().stream().map(range -> (range.lower() + range.upper()) / 2).toList();
+        Swimmer middle = settings.genome().middle();
         List<SimulationRequest> requests = LongStream.range(0, count)
-                .mapToObj(id -> new SimulationRequest(id, settings.scene(), encoding.decode(middle), duration,
-                        settings.scheme(), settings.overrides()))
-                .toList();
+                .mapToObj(id -> SimulationRequest.of(id, settings, middle).withDuration(duration)).toList();
         long start = System.nanoTime();
         evaluator.evaluateAll(requests, result -> {
             if (result.status() == SimulationResult.Status.FAILED) {

@@ -3,8 +3,10 @@ package io.natator.cli;
 import io.natator.checkpoint.RunFolder;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
+import io.natator.config.BodyEvolution;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.Evolved;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.FitnessKind;
@@ -29,14 +31,15 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-/** {@code natator evolve}: evolves the gait of a creature, or continues an interrupted run. */
+/** {@code natator evolve}: evolves a creature, or continues an interrupted run. */
 @Command(name = "evolve", mixinStandardHelpOptions = true,
-        description = {"Evolves the gait of a creature.",
-            "Prints the best gait; keeps everything in a run folder."},
+        description = {"Evolves the gait of a creature, its body, or both.",
+            "Prints the best; keeps everything in a run folder."},
         footer = {"", "Examples:",
             "  natator evolve --creature 2 --generations 6",
             "  natator evolve --scene fish.json --fitness net --output-dir runs/fish",
             "  natator evolve --optimizer nsga2 --objectives distance,work",
+            "  natator evolve --creature eel --evolve both",
             "  natator evolve --preset thesis --dry-run"})
 final class EvolveCommand implements Callable<Integer> {
 
@@ -133,6 +136,17 @@ final class EvolveCommand implements Callable<Integer> {
                     + "creature's (2 is sparse, the others dense); of goals/… sparse-steered.")
     private EncodingKind encoding;
 
+    @Section(Topic.SEARCH)
+    @Option(names = "--evolve", paramLabel = "WHAT", defaultValue = "gait", description = "gait, body or both: of a creature "
+            + "that is given by a profile, its length, sections, joints, stiffness and muscle strength too, with the scene's volume "
+            + "and strength in all. Default: ${DEFAULT-VALUE}.")
+    private Evolved evolve;
+
+    @Section(Topic.SEARCH)
+    @Option(names = "--gait", paramLabel = "FILE", description = "With --evolve body: what all bodies swim with, a JSON file with a "
+            + "gait or a run's best.json.")
+    private Path gait;
+
     @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR",
             description = "Run folder, new or empty. Default: runs/creature-N-seed-S, numbered if there is one.")
@@ -200,7 +214,18 @@ final class EvolveCommand implements Callable<Integer> {
                 .withObjectives(optimizer, objectives == null ? null : WeightedObjective.parse(objectives))
                 .withScene(sceneOptions.scheme(),
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
-                        sceneOptions.overrides());
+                        sceneOptions.overrides())
+                .withBodies(bodies(sceneName, execution.simulator()));
+    }
+
+    /** What to change of the body; null for nothing. */
+    private BodyEvolution bodies(String sceneName, Path simulator) throws InterruptedException {
+        if ((evolve == Evolved.BODY) != (gait != null)) {
+            throw new InvalidInputException(gait == null ? "--evolve body has no gait that the bodies are to swim with; expected "
+                    + "--gait FILE, or --evolve both" : "--gait is for --evolve body; else gaits are evolved");
+        }
+        return evolve == Evolved.GAIT ? null : new BodyEvolution(evolve,
+                SceneInfo.bodyToEvolve(sceneName, sceneOptions.overrides(), simulator), gait == null ? null : GaitFile.read(gait).gait());
     }
 
     /** With a number of evaluations alone, that is what ends the run. */

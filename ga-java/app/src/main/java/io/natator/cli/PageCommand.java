@@ -1,13 +1,13 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
 import io.natator.config.Numbers;
-import io.natator.encoding.Gait;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
@@ -114,13 +114,13 @@ final class PageCommand implements Callable<Integer> {
         if (first.run() == null || best == 1) {
             return List.of(first);
         }
-        List<Gait> gaits = StoredRun.in(first.run()).gaits().stream().map(JudgedGait::gait).distinct().limit(best)
-                .toList();
+        StoredRun run = StoredRun.in(first.run());
+        List<Swimmer> gaits = run.gaits().stream().map(JudgedGait::swimmer).distinct().limit(best).toList();
         if (gaits.size() < best) {
             throw new InvalidInputException("--best is " + best + "; " + source + " knows " + gaits.size() + " gaits");
         }
-        return gaits.stream().map(one -> new SwimSource(first.run(), null, first.scene(), first.overrides(), one,
-                first.scheme(), first.duration(), one.equals(first.gait()) ? first.best() : null)).toList();
+        return gaits.stream().map(one -> SwimSource.of(run, null, one, one.equals(run.best().swimmer()) ? run.best() : null))
+                .toList();
     }
 
     private Replay recorded(SwimSource swimmer, Path simulator) throws InterruptedException {

@@ -5,7 +5,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
-import io.natator.encoding.Encoding;
 import io.natator.encoding.GeneRange;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
@@ -34,13 +33,12 @@ final class RunPreview {
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, settings);
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
-        Encoding encoding = settings.encoding().forActuators(settings.actuators());
         ProgressEstimate estimate = new ProgressEstimate(settings, System::nanoTime);
         estimate.generationStarted(0, settings.population());
         out.println(ShowCommand.settings(settings));
         out.printf(Locale.ROOT, "  scene       %d particles, %d actuators, %.2f s%n", scene.particles(),
                 scene.actuators(), duration);
-        out.printf("  genes       %s%n", String.join(", ", encoding.genes().stream().map(GeneRange::name).toList()));
+        out.printf("  genes       %s%n", String.join(", ", settings.genome().genes().stream().map(GeneRange::name).toList()));
         out.printf("  evaluations %s%n", estimate.total());
         out.printf(Locale.ROOT, "  simulator   %s, %s, time limit %s each%n",
                 execution.mode().name().toLowerCase(Locale.ROOT), execution.mode() == SimulatorMode.BATCH

@@ -1,5 +1,7 @@
 package io.natator.cli;
 
+import io.natator.body.BodyText;
+import io.natator.body.ProfileBody;
 import io.natator.checkpoint.BestGait;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Numbers;
@@ -33,14 +35,19 @@ final class RunReport {
      */
     void print(EvolutionSettings settings, EvolutionState state, BestGait best, Path folder) {
         if (best == null) {
-            out.println("no gait was measured: all " + state.evaluations() + " evaluations were unstable or failed");
+            out.println("no gait was measured: all " + state.evaluations() + " evaluations were unstable, refused or failed");
             return;
         }
-        out.println("best gait of " + settings.scene() + " after " + state.generation() + " generations and "
+        out.println("best " + (settings.evolve() == null ? "gait" : "swimmer") + " of " + settings.scene() + " after "
+                + state.generation() + " generations and "
                 + state.evaluations() + " evaluations");
         line("frequency", number(best.gait().frequency()) + " 1/s");
         line("amplitude", row(best.gait().amplitude()));
         line("phase", row(best.gait().phase()));
+        if (settings.evolve() != null) {
+            ProfileBody scene = settings.evolve().body();
+            BodyText.of(scene.with(best.body()), scene).forEach(this::line);
+        }
         SimulationResult water = best.result();
         Map<String, String> fresh = FreshText.of(best);
         fresh.forEach(this::line);

@@ -5,6 +5,7 @@ import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
@@ -68,6 +69,8 @@ final class ShowCommand implements Callable<Integer> {
         if (settings.evaluations() != null) {
             text.append(", ").append(settings.evaluations()).append(" evaluations");
         }
+        text.append(settings.evolve() == null ? "" : settings.evolve().what() == Evolved.BODY ? ", bodies with one gait"
+                : ", gaits and bodies");
         text.append(", seed ").append(settings.seed());
         text.append(", ").append(settings.encoding().name().toLowerCase(Locale.ROOT)).append(" genes");
         if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
@@ -114,7 +117,7 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     private static void printControls(StoredRun run, PrintWriter out) {
-        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().gait());
+        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
         if (controls != null) {
             out.println("  checked     " + ControlVerdict.of(controls).text());
         }
@@ -141,11 +144,16 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     private static void printFailures(List<EvaluationRecord> evaluations, PrintWriter out) {
-        List<SimulationResult> failed = evaluations.stream().map(EvaluationRecord::result)
-                .filter(result -> result.status() == SimulationResult.Status.FAILED).toList();
-        if (!failed.isEmpty()) {
-            out.printf("%d of %d evaluations failed, the last, %d: %s%n", failed.size(), evaluations.size(),
-                    failed.get(failed.size() - 1).id(), failed.get(failed.size() - 1).error());
+        print(SimulationResult.Status.FAILED, "evaluations failed", evaluations, out);
+        print(SimulationResult.Status.REFUSED, "bodies were refused", evaluations, out);
+    }
+
+    private static void print(SimulationResult.Status status, String what, List<EvaluationRecord> evaluations, PrintWriter out) {
+        List<SimulationResult> found = evaluations.stream().map(EvaluationRecord::result)
+                .filter(result -> result.status() == status).toList();
+        if (!found.isEmpty()) {
+            out.printf("%d of %d %s, the last, %d: %s%n", found.size(), evaluations.size(), what,
+                    found.get(found.size() - 1).id(), found.get(found.size() - 1).error());
         }
     }
 }

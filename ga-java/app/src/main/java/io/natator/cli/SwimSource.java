@@ -4,6 +4,7 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
@@ -11,6 +12,7 @@ import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SceneInfo;
@@ -20,12 +22,12 @@ import java.util.Arrays;
 import java.util.Objects;
 
 /**
- * Who swims where: a run's best gait in its scene, or a scene with or without a gait.
+ * Who swims where: a run's best swimmer in its scene, or a scene with or without a gait.
  *
  * @param run        its folder, or null
  * @param generation up to which it is the best, or null for all
  * @param scene      name or path
- * @param overrides  JSON Merge Patch on the scene, or null
+ * @param overrides  JSON Merge Patch on the scene, with the body if that is not the scene's; or null
  * @param gait       or null for a body at rest
  * @param scheme     or null for the scene's own
  * @param duration   of an evaluation in seconds, or null for the scene's own
@@ -43,31 +45,41 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
      * @throws InvalidInputException if the run has no such gait
      */
     static SwimSource of(String source, Integer generation, Path gait) {
-        Gait given = gait == null ? null : GaitFile.read(gait);
+        Swimmer given = gait == null ? null : GaitFile.read(gait);
         if (generation != null && given != null) {
             throw new InvalidInputException("--generation and --gait: expected one of them");
         }
         Path folder = Path.of(source);
         if (StoredRun.exists(folder)) {
             StoredRun run = StoredRun.in(folder);
-            EvolutionSettings settings = run.settings();
-            return new SwimSource(folder, generation, SceneOptions.scene(settings.scene()), settings.overrides(),
-                    given != null ? given : best(run, generation), settings.scheme(), settings.duration(),
-                    given == null && generation == null ? run.best() : null);
+            Swimmer swimmer = given != null ? given : best(run, generation);
+            return of(run, generation, swimmer, given == null && generation == null ? run.best() : null);
         }
         if (generation != null) {
             throw new InvalidInputException("--generation: " + source + " is not a run folder");
         }
-        return new SwimSource(null, null, SceneOptions.scene(source), null, given, null, null, null);
+        return new SwimSource(null, null, SceneOptions.scene(source), given == null ? null : given.body(),
+                given == null ? null : given.gait(), null, null, null);
     }
 
-    private static Gait best(StoredRun run, Integer generation) {
+    /**
+     * A swimmer in a run's scene.
+     *
+     * @param best what the run has stored of it, or null
+     */
+    static SwimSource of(StoredRun run, Integer generation, Swimmer swimmer, BestGait best) {
+        EvolutionSettings settings = run.settings();
+        return new SwimSource(run.directory(), generation, SceneOptions.scene(settings.scene()),
+                MergePatch.both(settings.overrides(), swimmer.body()), swimmer.gait(), settings.scheme(), settings.duration(), best);
+    }
+
+    private static Swimmer best(StoredRun run, Integer generation) {
         if (generation == null) {
             if (run.best() == null) {
                 throw new InvalidInputException(run.directory()
                         + " has no best gait yet; finish it by natator resume, or give one by --gait");
             }
-            return run.best().gait();
+            return run.best().swimmer();
         }
         int last = run.state() == null ? -1 : run.state().generation();
         if (generation < 0 || generation > last) {
@@ -79,7 +91,7 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
             throw new InvalidInputException(run.directory() + " no longer knows the gaits of generation " + generation
                     + ", only the best of all; leave out --generation");
         }
-        return found.gait();
+        return found.swimmer();
     }
 
     /**

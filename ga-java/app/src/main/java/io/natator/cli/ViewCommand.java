@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -8,7 +9,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
-import io.natator.encoding.Gait;
 import io.natator.simulator.SceneInfo;
 import io.natator.study.thesis.ThesisData;
 import io.natator.view.InitialScene;
@@ -128,13 +128,15 @@ final class ViewCommand implements Callable<Integer> {
      * @param run   of it, or null
      */
     private InitialScene start(String scene, Path run, Path program) throws InterruptedException {
-        Gait given = gait == null ? null : GaitFile.read(gait);
+        Swimmer given = gait == null ? null : GaitFile.read(gait);
         if (run != null) {
             return start(StoredRun.settings(run), given, StoredRun.best(run), program);
         }
-        ObjectNode overrides = InitialScene.patch(sceneOptions.overrides(), sceneOptions.scheme());
+        Swimmer swimmer = given != null ? given : new Swimmer(ThesisData.load().gaitIn(scene), null);
+        ObjectNode overrides =
+                InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()), sceneOptions.scheme());
         SceneInfo.of(scene, overrides, program);
-        return new InitialScene(scene, overrides, given != null ? given : ThesisData.load().gaitIn(scene));
+        return new InitialScene(scene, overrides, swimmer.gait());
     }
 
     /** Whether a run's best gait swims in just the scene in which it was found. */
@@ -142,13 +144,15 @@ final class ViewCommand implements Callable<Integer> {
         return gait == null && sceneOptions.scheme() == null && sceneOptions.overrides() == null;
     }
 
-    private InitialScene start(EvolutionSettings run, Gait given, BestGait best, Path program)
+    private InitialScene start(EvolutionSettings run, Swimmer given, BestGait best, Path program)
             throws InterruptedException {
         Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : run.scheme();
-        ObjectNode overrides = InitialScene.patch(MergePatch.both(run.overrides(), sceneOptions.overrides()), scheme);
+        Swimmer swimmer = given != null ? given : best != null ? best.swimmer() : new Swimmer(null, null);
+        ObjectNode overrides = InitialScene.patch(
+                MergePatch.both(MergePatch.both(run.overrides(), swimmer.body()), sceneOptions.overrides()), scheme);
         if (sceneOptions.overrides() != null) {
             SceneInfo.of(run.scene(), overrides, program);
         }
-        return new InitialScene(run.scene(), overrides, given != null || best == null ? given : best.gait());
+        return new InitialScene(run.scene(), overrides, swimmer.gait());
     }
 }

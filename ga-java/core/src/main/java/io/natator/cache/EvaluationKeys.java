@@ -6,22 +6,20 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.SceneInfo;
+import io.natator.simulator.SceneMemory;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
 import java.nio.file.Path;
-import java.util.Arrays;
-import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
-import java.util.concurrent.ConcurrentHashMap;
 
 /** Puts on one line all that determines the result of a request: program, backend, scene, and the request itself. */
 final class EvaluationKeys {
 
     private final Path simulator;
     private final Map<String, Object> program = new TreeMap<>();
-    /** Digests of scenes by name and overrides, as long as this exists. */
-    private final Map<List<Object>, String> scenes = new ConcurrentHashMap<>();
+    /** Digests of scenes. */
+    private final SceneMemory<String> scenes = new SceneMemory<>();
 
     EvaluationKeys(ExecutionSettings execution) throws InterruptedException {
         simulator = execution.simulator();
@@ -50,12 +48,6 @@ final class EvaluationKeys {
     }
 
     private String digest(String scene, JsonNode overrides) throws InterruptedException {
-        List<Object> name = Arrays.asList(scene, overrides);
-        String digest = scenes.get(name);
-        if (digest == null) {
-            digest = Sha256.of(SceneInfo.definition(scene, overrides, simulator));
-            scenes.put(name, digest);
-        }
-        return digest;
+        return scenes.of(scene, overrides, () -> Sha256.of(SceneInfo.definition(scene, overrides, simulator)));
     }
 }

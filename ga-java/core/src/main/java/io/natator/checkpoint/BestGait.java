@@ -2,6 +2,8 @@ package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonInclude;
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.body.Swimmer;
 import io.natator.encoding.Gait;
 import io.natator.evolution.Individual;
 import io.natator.simulator.SimulationResult;
@@ -14,6 +16,7 @@ import java.util.List;
  * @param scene    the scene that it swam in
  * @param genes    gene values in the order of the encoding
  * @param gait     what they stand for
+ * @param body     JSON Merge Patch that gives the scene the body that swam; null for the scene's own
  * @param distance signed distance swum in {@code result}, in scene units
  * @param speed    distance over simulated time in {@code result}, in scene units per second
  * @param result   the whole result of a run from the scene's own start; while a run of several starts goes on, of one of
@@ -26,20 +29,20 @@ import java.util.List;
  * @param fresh    what it does from starts that had no part in choosing it; null while the run goes on, and in old folders
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record BestGait(String scene, List<Double> genes, Gait gait, double distance, double speed,
+public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode body, double distance, double speed,
         SimulationResult result, Double bodyLength, SimulationResult vacuum, Double selected, Integer runs,
         FreshRuns fresh) {
 
     /** As old folders have it. */
     public BestGait(String scene, List<Double> genes, Gait gait, double distance, double speed,
             SimulationResult result, Double bodyLength, SimulationResult vacuum) {
-        this(scene, genes, gait, distance, speed, result, bodyLength, vacuum, null, null, null);
+        this(scene, genes, gait, null, distance, speed, result, bodyLength, vacuum, null, null, null);
     }
 
     /** The best gait as far as evolution tells. */
-    public static BestGait of(String scene, Individual best, Gait gait) {
-        return new BestGait(scene, best.genes(), gait, best.result().distance(), best.result().speed(), best.result(),
-                null, null, best.score(), best.runs(), null);
+    public static BestGait of(String scene, Individual best, Swimmer swimmer) {
+        return new BestGait(scene, best.genes(), swimmer.gait(), swimmer.body(), best.result().distance(),
+                best.result().speed(), best.result(), null, null, best.score(), best.runs(), null);
     }
 
     /**
@@ -48,8 +51,13 @@ public record BestGait(String scene, List<Double> genes, Gait gait, double dista
      * @param own from the scene's own start
      */
     public BestGait examined(SimulationResult own, Double length, SimulationResult withoutWater, FreshRuns again) {
-        return new BestGait(scene, genes, gait, own.distanceOrZero(), own.speed(), own, length, withoutWater, selected, runs,
+        return new BestGait(scene, genes, gait, body, own.distanceOrZero(), own.speed(), own, length, withoutWater, selected, runs,
                 again);
+    }
+
+    /** What swam. */
+    public Swimmer swimmer() {
+        return new Swimmer(gait, body);
     }
 
     /** Whether {@code result} is a run from the scene's own start, so that whoever runs the gait again gets the same. */

@@ -1,6 +1,8 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.body.Swimmer;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
@@ -13,6 +15,7 @@ import java.nio.file.Path;
  * the same starts, which no generation had.
  *
  * @param gait         of the winner
+ * @param body         of the winner, as in {@code best.json}, or null
  * @param scheme       the scheme used
  * @param duration     of a run that nothing ends early, in seconds
  * @param bodyLength   in scene units, or null
@@ -27,7 +30,7 @@ import java.nio.file.Path;
  * @param underWater   share of the body's particles below the water's level, halfway and at the end; null without water
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record Controls(Gait gait, String scheme, double duration, Double bodyLength, SwimSample water, SwimSample resting,
+public record Controls(Gait gait, JsonNode body, String scheme, double duration, Double bodyLength, SwimSample water, SwimSample resting,
         SwimSample vacuum, SwimSample clampOff, SwimSample halfStep, SwimSample mirrored, SwimSample otherBackend,
         String backend, Double underWater) {
 
@@ -45,7 +48,7 @@ public record Controls(Gait gait, String scheme, double duration, Double bodyLen
 
     /** With the share of the body that is under water. */
     public Controls withUnderWater(Double share) {
-        return new Controls(gait, scheme, duration, bodyLength, water, resting, vacuum, clampOff, halfStep, mirrored,
+        return new Controls(gait, body, scheme, duration, bodyLength, water, resting, vacuum, clampOff, halfStep, mirrored,
                 otherBackend, backend, share);
     }
 
@@ -55,14 +58,14 @@ public record Controls(Gait gait, String scheme, double duration, Double bodyLen
     }
 
     /**
-     * Those of a run folder, if they are of its best gait.
+     * Those of a run folder, if they are of its winner.
      *
      * @return null if there are none
      * @throws InvalidInputException if the file is damaged
      */
-    public static Controls of(Path run, Gait best) {
+    public static Controls of(Path run, Swimmer best) {
         Path file = run.resolve(RunFolder.CONTROLS);
         Controls found = Files.exists(file) ? Json.read(file, Controls.class, "check") : null;
-        return found == null || !found.gait.equals(best) ? null : found;
+        return found == null || !new Swimmer(found.gait, found.body).equals(best) ? null : found;
     }
 }

@@ -1,16 +1,16 @@
 package io.natator.checkpoint;
 
-import io.natator.encoding.Gait;
+import io.natator.body.Swimmer;
 import java.util.List;
 
 /**
  * A gait and what it is worth by all its runs.
  *
  * @param genes      in the order of the encoding
- * @param gait       how it swims
+ * @param swimmer    what they stand for
  * @param generation that it first swam in
  * @param score      its worth, as the run judges
  * @param runs       how many runs that rests on
  */
-public record JudgedGait(List<Double> genes, Gait gait, int generation, double score, int runs) {
+public record JudgedGait(List<Double> genes, Swimmer swimmer, int generation, double score, int runs) {
 }

@@ -1,5 +1,7 @@
 package io.natator.checkpoint;
 
+import io.natator.body.Genome;
+import io.natator.body.Swimmer;
 import io.natator.config.EvolutionSettings;
 import io.natator.evolution.Estimate;
 import io.natator.evolution.EvaluationRecord;
@@ -17,6 +19,7 @@ import java.util.TreeSet;
 final class JudgedGaits {
 
     private final EvolutionSettings settings;
+    private final Genome genome;
     private final Map<List<Double>, Runs> gaits = new HashMap<>();
     /** Those that count, the best first, the earlier of equals. */
     private final NavigableSet<Runs> ranked = new TreeSet<>(
@@ -29,6 +32,8 @@ final class JudgedGaits {
         private final int number = numbers++;
         private Estimate estimate = new Estimate(0, List.of());
         private boolean measured;
+        /** Made when it is asked for. */
+        private Swimmer swimmer;
 
         Runs(EvaluationRecord first) {
             this.first = first;
@@ -47,12 +52,14 @@ final class JudgedGaits {
         }
 
         JudgedGait judged() {
-            return new JudgedGait(first.genes(), first.gait(), first.generation(), estimate.score(), estimate.runs().size());
+            swimmer = swimmer == null ? new Swimmer(first.gait(), genome.body(first.genes())) : swimmer;
+            return new JudgedGait(first.genes(), swimmer, first.generation(), estimate.score(), estimate.runs().size());
         }
     }
 
     JudgedGaits(EvolutionSettings settings) {
         this.settings = settings;
+        this.genome = settings.genome();
     }
 
     void add(EvaluationRecord evaluation) {

@@ -1,11 +1,11 @@
 package io.natator.checkpoint;
 
+import io.natator.body.Genome;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.encoding.Encoding;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
@@ -45,7 +45,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     private final Path directory;
     private EvolutionSettings settings;
-    private final Encoding encoding;
+    private final Genome genome;
     private final EvolutionState checkpoint;
     private final JsonLines<EvaluationRecord> log;
     private final GenerationTimes timings;
@@ -53,7 +53,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private RunFolder(Path directory, EvolutionSettings settings) {
         this.directory = directory;
         this.settings = settings;
-        this.encoding = settings.encoding().forActuators(settings.actuators());
+        this.genome = settings.genome();
         this.log = JsonLines.locked(directory.resolve(EVALUATIONS), EvaluationRecord.class);
         try {
             this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
@@ -223,7 +223,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         if (state.best() == null) {
             return null;
         }
-        BestGait best = BestGait.of(settings.scene(), state.best(), encoding.decode(state.best().genes()));
+        BestGait best = BestGait.of(settings.scene(), state.best(), genome.decode(state.best().genes()));
         write(best);
         return best;
     }

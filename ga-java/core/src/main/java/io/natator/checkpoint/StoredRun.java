@@ -124,7 +124,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
             LOG.warn("{}; taken from {} instead", e.getMessage(), RunFolder.CHECKPOINT);
         }
         return state == null || state.best() == null ? null : BestGait.of(settings.scene(), state.best(),
-                settings.encoding().forActuators(settings.actuators()).decode(state.best().genes()));
+                settings.genome().decode(state.best().genes()));
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */
@@ -156,7 +156,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     public List<Individual> front() {
         boolean several = settings.optimizer() == OptimizerKind.NSGA2 && state != null;
         return several ? ParetoRanking.front(state.population(),
-                settings.encoding().forActuators(settings.actuators()).genes()) : List.of();
+                settings.genome().genes()) : List.of();
     }
 
     /**

@@ -2,6 +2,8 @@ package io.natator.config;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.body.Genome;
+import io.natator.encoding.Encoding;
 import java.util.List;
 import java.util.Locale;
 import java.util.stream.Collectors;
@@ -34,12 +36,13 @@ import java.util.stream.Collectors;
  * @param judge             what several runs are worth
  * @param objectives        what is to be great instead of the fitness: one, several with weights, or for {@code nsga2}
  *                          several without; null for the fitness
+ * @param evolve            bodies to be evolved; null for gaits of the scene's body alone
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record EvolutionSettings(String scene, EncodingKind encoding, int actuators, OptimizerKind optimizer,
         int population, int generations, Long evaluations, long seed, OperatorSet operators, double gaussianDeviation,
         FitnessKind fitness, Boolean vacuumCheck, Backend backend, Scheme scheme, Double duration,
-        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives) {
+        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives, BodyEvolution evolve) {
 
     /** Generations of a run that ends by its number of evaluations alone. */
     public static final int NO_LIMIT = Integer.MAX_VALUE;
@@ -72,6 +75,9 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
                 "at least " + judge.leastRuns() + " with --judge " + judge.name().toLowerCase(Locale.ROOT).replace('_', '-'));
         objectives = objectives == null || objectives.isEmpty() ? null : List.copyOf(objectives);
         checkObjectives(optimizer, fitness, judge, objectives == null ? List.of() : objectives);
+        require(evolve == null || evolve.gait() == null || evolve.gait().actuators() == actuators, "gait of the bodies",
+                evolve == null || evolve.gait() == null ? "" : "for " + evolve.gait().actuators() + " actuators",
+                "one for the " + actuators + " of the scene's body");
         require(evaluations == null || evaluations >= starts, "evaluations", evaluations,
                 "at least the " + starts + " starts of one gait");
     }
@@ -112,66 +118,94 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
     public static EvolutionSettings of(String scene, EncodingKind encoding, int actuators) {
         return new EvolutionSettings(scene, encoding, actuators, OptimizerKind.JGAP, Preset.THESIS.population(),
                 Preset.THESIS.generations(), null, 1, OperatorSet.CORRECTED, 0.05, FitnessKind.DISTANCE, false,
-                Backend.CPU, null, null, null, 1, Judge.MEAN, null);
+                Backend.CPU, null, null, null, 1, Judge.MEAN, null, null);
     }
 
     /** These settings with another size. */
     public EvolutionSettings withSize(int newPopulation, int newGenerations) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, newPopulation, newGenerations,
                 evaluations, seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration,
-                overrides, starts, judge, objectives);
+                overrides, starts, judge,
+                objectives, evolve);
     }
 
     /** These settings with a number of simulations, or null, after which the run ends. */
     public EvolutionSettings withEvaluations(Long newEvaluations) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, newEvaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge, objectives);
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
+                objectives, evolve);
     }
 
     /** These settings with another seed. */
     public EvolutionSettings withSeed(long newSeed) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                newSeed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge, objectives);
+                newSeed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
+                objectives, evolve);
     }
 
     /** These settings with another optimizer and, for JGAP, its operators. */
     public EvolutionSettings withOptimizer(OptimizerKind newOptimizer, OperatorSet newOperators,
             double newGaussianDeviation) {
         return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
-                seed, newOperators, newGaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge, objectives);
+                seed, newOperators, newGaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
+                objectives, evolve);
     }
 
     /** These settings with another reward, and with or without the check of new bests in vacuum. */
     public EvolutionSettings withFitness(FitnessKind newFitness, boolean newVacuumCheck) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, newFitness, newVacuumCheck, backend, scheme, duration, overrides, starts, judge, objectives);
+                seed, operators, gaussianDeviation, newFitness, newVacuumCheck, backend, scheme, duration, overrides, starts, judge,
+                objectives, evolve);
     }
 
     /** These settings on another backend. */
     public EvolutionSettings withBackend(Backend newBackend) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, newBackend, scheme, duration, overrides, starts, judge, objectives);
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, newBackend, scheme, duration, overrides, starts, judge,
+                objectives, evolve);
     }
 
     /** These settings with the scene changed; null leaves what the scene has. */
     public EvolutionSettings withScene(Scheme newScheme, Double newDuration, JsonNode newOverrides) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, newScheme, newDuration,
-                newOverrides, starts, judge, objectives);
+                newOverrides, starts, judge, objectives, evolve);
     }
 
     /** These settings with another number of starts of each gait. */
     public EvolutionSettings withStarts(int newStarts, Judge newJudge) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides,
-                newStarts, newJudge, objectives);
+                newStarts, newJudge, objectives, evolve);
     }
 
     /** These settings with objectives instead of the fitness, or null; and for these, an optimizer. */
     public EvolutionSettings withObjectives(OptimizerKind newOptimizer, List<WeightedObjective> newObjectives) {
         return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides,
-                starts, judge, newObjectives);
+                starts, judge, newObjectives, evolve);
+    }
+
+    /** These settings with bodies to be evolved, or null for gaits alone. */
+    public EvolutionSettings withBodies(BodyEvolution newEvolve) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
+                objectives, newEvolve);
+    }
+
+    /** What genes stand for in this run. */
+    public Genome genome() {
+        Encoding gaits = encoding.forActuators(actuators);
+        return evolve == null ? Genome.ofGait(gaits) : evolve.genome(gaits);
+    }
+
+    /**
+     * Length of a body that this run evolves.
+     *
+     * @param patch that gives the scene this body
+     */
+    public double bodyLength(JsonNode patch) {
+        return evolve.body().with(patch).bodyLength();
     }
 
     /** Runs of a generation that go to the best gaits so far, to know them better; none with a single start. */

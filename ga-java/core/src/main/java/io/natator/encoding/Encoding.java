@@ -21,17 +21,6 @@ public sealed interface Encoding permits DenseEncoding, SparseEncoding, SteeredE
 
     /** Fails unless the genes fit {@link #genes()}. */
     default void check(List<Double> genes) {
-        List<GeneRange> ranges = genes();
-        if (genes.size() != ranges.size()) {
-            throw new IllegalArgumentException(genes.size() + " genes given; expected " + ranges.size() + ": "
-                    + String.join(", ", ranges.stream().map(GeneRange::name).toList()));
-        }
-        for (int i = 0; i < ranges.size(); i++) {
-            GeneRange range = ranges.get(i);
-            if (!range.contains(genes.get(i))) {
-                throw new IllegalArgumentException("gene " + (i + 1) + " (" + range.name() + ") is " + genes.get(i)
-                        + "; expected a number from " + range.lower() + " to " + range.upper());
-            }
-        }
+        GeneRange.check(genes(), genes);
     }
 }

@@ -1,5 +1,7 @@
 package io.natator.encoding;
 
+import java.util.List;
+
 /**
  * Name and closed range of one gene.
  *
@@ -30,5 +32,24 @@ public record GeneRange(String name, double lower, double upper) {
     /** Whether the value lies in the closed range; never for NaN. */
     public boolean contains(double value) {
         return value >= lower && value <= upper;
+    }
+
+    /**
+     * Fails unless genes fit their ranges.
+     *
+     * @throws IllegalArgumentException if there are too few or too many, or one is outside its range
+     */
+    public static void check(List<GeneRange> ranges, List<Double> genes) {
+        if (genes.size() != ranges.size()) {
+            throw new IllegalArgumentException(genes.size() + " genes given; expected " + ranges.size() + ": "
+                    + String.join(", ", ranges.stream().map(GeneRange::name).toList()));
+        }
+        for (int i = 0; i < ranges.size(); i++) {
+            GeneRange range = ranges.get(i);
+            if (!range.contains(genes.get(i))) {
+                throw new IllegalArgumentException("gene " + (i + 1) + " (" + range.name() + ") is " + genes.get(i)
+                        + "; expected a number from " + range.lower() + " to " + range.upper());
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 package io.natator.evolution;
 
+import io.natator.body.Genome;
 import io.natator.config.EvolutionSettings;
-import io.natator.encoding.Encoding;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
@@ -11,13 +11,13 @@ import java.util.Objects;
 import java.util.stream.IntStream;
 
 /**
- * Evolves the gait of one creature. The course depends on the settings and the simulator's answers only: not on the
+ * Evolves the gait or the body of one creature, or both. The course depends on the settings and the simulator's answers only: not on the
  * number of workers, nor on whether it was interrupted and continued.
  */
 public final class Evolution {
 
     private final EvolutionSettings settings;
-    private final Encoding encoding;
+    private final Genome genome;
     private final Evaluator evaluator;
     private final List<EvolutionListener> listeners;
     private final List<EvaluationRecord> recorded;
@@ -42,7 +42,7 @@ public final class Evolution {
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
             List<EvaluationRecord> recorded) {
         this.settings = settings;
-        this.encoding = settings.encoding().forActuators(settings.actuators());
+        this.genome = settings.genome();
         this.evaluator = evaluator;
         this.listeners = List.copyOf(listeners);
         this.recorded = List.copyOf(recorded);
@@ -62,7 +62,7 @@ public final class Evolution {
             throw new IllegalArgumentException(recorded.size() + " simulations recorded; expected the " + evaluations
                     + " up to where the evolution is to continue");
         }
-        try (Optimizer optimizer = Optimizer.of(settings, encoding.genes(), this::evaluate)) {
+        try (Optimizer optimizer = Optimizer.of(settings, genome.genes(), this::evaluate)) {
             optimizer.recall(newborns(recorded.subList(0, (int) evaluations)));
             EvolutionState state = from;
             while (state == null || !state.isLastOf(settings)) {
@@ -177,16 +177,17 @@ public final class Evolution {
         while (simulated.size() - before < runs.size() && evaluations < recorded.size()) {
             accept(replayed(runs.get(simulated.size() - before)));
         }
+        long first = evaluations;
         List<SimulationRequest> requests = new ArrayList<>();
         for (Run run : runs.subList(simulated.size() - before, runs.size())) {
-            requests.add(new SimulationRequest(evaluations + requests.size(), settings.scene(),
-                    encoding.decode(run.genes()), settings.duration(), settings.scheme(), settings.overrides())
+            requests.add(SimulationRequest.of(evaluations + requests.size(), settings, genome.decode(run.genes()))
                     .withStart(run.start()));
         }
         try {
             evaluator.evaluateInOrder(requests, result -> {
                 Run run = runs.get(simulated.size() - before);
-                accept(new EvaluationRecord(generation, run.genes(), encoding.decode(run.genes()), result, run.start()));
+                accept(new EvaluationRecord(generation, run.genes(), requests.get((int) (result.id() - first)).gait(), result,
+                        run.start()));
             });
         } catch (InterruptedException e) {
             throw new EvolutionStoppedException("stopped in generation " + generation + " after " + evaluations

@@ -2,13 +2,13 @@ package io.natator.run;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
-import io.natator.encoding.Gait;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.SimulationRequest;
@@ -17,7 +17,7 @@ import io.natator.simulator.VacuumRequests;
 import java.util.ArrayList;
 import java.util.List;
 
-/** Runs a gait under the conditions of {@link Controls}, all but the share under water. */
+/** Runs a swimmer under the conditions of {@link Controls}, all but the share under water. */
 public final class ControlRuns {
 
     /** The largest number that a particle's acceleration can be: no clamp. */
@@ -42,32 +42,35 @@ public final class ControlRuns {
         this.again = new WinnerRuns(settings, execution.simulator());
     }
 
-    /** The controls of a gait. */
-    public Controls of(Gait gait) throws InterruptedException {
+    /** The controls of a swimmer. */
+    public Controls of(Swimmer swimmer) throws InterruptedException {
         try (Evaluator evaluator = EvolutionRun.open(execution)) {
-            List<SimulationResult> inWater = runs(again.requests(gait, starts, null), evaluator);
+            List<SimulationResult> inWater = runs(again.requests(swimmer, starts, null), evaluator);
             String scheme = inWater.stream().map(SimulationResult::scheme).filter(one -> one != null).findFirst().orElse("");
-            SwimSample water = again.sample(inWater, gait, 1);
+            SwimSample water = again.sample(inWater, swimmer, 1);
             // A body at rest makes no progress, which is to end no run of it.
-            SwimSample resting = again.sample(runs(again.requests(gait.resting(), starts, stopping()), evaluator), gait, 1);
-            SwimSample vacuum = again.sample(runs(again.requests(gait, starts, null).stream()
-                    .map(request -> VacuumRequests.of(request, settings.duration())).toList(), evaluator), gait, 1);
+            SwimSample resting = again.sample(
+                    runs(again.requests(swimmer.withGait(swimmer.gait().resting()), starts, stopping()), evaluator), swimmer, 1);
+            SwimSample vacuum = again.sample(runs(again.requests(swimmer, starts, null).stream()
+                    .map(request -> VacuumRequests.of(request, settings.duration())).toList(), evaluator), swimmer, 1);
             SwimSample clampOff = scheme.equals(FLEX)
-                    ? again.sample(runs(again.requests(gait, starts, withoutClamp()), evaluator), gait, 1) : null;
-            SwimSample half = again.sample(runs(again.requests(gait, starts, again.halfStep()), evaluator), gait, 2);
-            SwimSample mirrored = again.sample(runs(again.requests(gait.mirrored(), starts, null), evaluator), gait, 1);
+                    ? again.sample(runs(again.requests(swimmer, starts, withoutClamp()), evaluator), swimmer, 1) : null;
+            SwimSample half = again.sample(runs(again.requests(swimmer, starts, again.halfStep()), evaluator), swimmer, 2);
+            SwimSample mirrored = again.sample(
+                    runs(again.requests(swimmer.withGait(swimmer.gait().mirrored()), starts, null), evaluator), swimmer, 1);
             Backend other = otherBackend();
-            return new Controls(gait, scheme, again.duration(), again.bodyLength(), water, resting, vacuum, clampOff, half, mirrored,
-                    other == null ? null : onOther(gait, other), other == null ? null : other.argument(), null);
+            return new Controls(swimmer.gait(), swimmer.body(), scheme, again.duration(), again.bodyLength(swimmer), water, resting,
+                    vacuum, clampOff, half, mirrored, other == null ? null : onOther(swimmer, other),
+                    other == null ? null : other.argument(), null);
         }
     }
 
     /** The same runs on another backend. */
-    private SwimSample onOther(Gait gait, Backend backend) throws InterruptedException {
+    private SwimSample onOther(Swimmer swimmer, Backend backend) throws InterruptedException {
         ExecutionSettings elsewhere = execution.withCommands(List.of()).withBackend(backend)
                 .withMode(backend == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.RESIDENT);
         try (Evaluator evaluator = EvolutionRun.open(elsewhere)) {
-            return again.sample(runs(again.requests(gait, starts, null), evaluator), gait, 1);
+            return again.sample(runs(again.requests(swimmer, starts, null), evaluator), swimmer, 1);
         }
     }
 

@@ -14,6 +14,7 @@ import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
+import io.natator.simulator.BodyCheckEvaluator;
 import io.natator.simulator.EffortEvaluator;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.NetEvaluator;
@@ -121,16 +122,26 @@ public final class EvolutionRun {
             all.add(new VacuumCheck(folder, evaluator));
         }
         all.addAll(listeners);
-        Evaluator rewarding = rewarding(settings, evaluator);
-        EvolutionState state = new Evolution(settings, settings.optimizer() == OptimizerKind.MAP_ELITES
-                ? new EffortEvaluator(rewarding, scene.bodyLength()) : rewarding, all, folder.recorded()).run(folder.checkpoint());
+        Evaluator checked = settings.evolve() == null ? evaluator
+                : new BodyCheckEvaluator(evaluator, settings, execution.simulator());
+        EvolutionState state = new Evolution(settings, measuring(rewarding(settings, checked), scene), all, folder.recorded())
+                .run(folder.checkpoint());
         BestGait best = folder.writeResults(state);
         if (best != null) {
             best = examined(best, state.best(), new FreshStarts(settings, evaluator, execution.simulator()), evaluator,
-                    scene.bodyLength());
+                    best.body() == null ? scene.bodyLength() : Double.valueOf(settings.bodyLength(best.body())));
             folder.write(best);
         }
         return new Outcome(state, best);
+    }
+
+    /** An evaluator whose results tell what the optimizer asks for. */
+    private Evaluator measuring(Evaluator evaluator, SceneInfo scene) {
+        if (settings.optimizer() != OptimizerKind.MAP_ELITES) {
+            return evaluator;
+        }
+        return settings.evolve() == null ? EffortEvaluator.of(evaluator, scene.bodyLength())
+                : new EffortEvaluator(evaluator, request -> settings.bodyLength(request.overrides()));
     }
 
     /** An evaluator whose results are worth what the run rewards. */

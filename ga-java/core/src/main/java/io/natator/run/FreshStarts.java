@@ -1,9 +1,10 @@
 package io.natator.run;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Genome;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.config.EvolutionSettings;
-import io.natator.encoding.Gait;
 import io.natator.evolution.Individual;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.RequestRejectedException;
@@ -26,6 +27,7 @@ public final class FreshStarts {
     private final EvolutionSettings settings;
     private final Evaluator evaluator;
     private final WinnerRuns again;
+    private final Genome genome;
 
     /**
      * For the gaits of one run.
@@ -37,6 +39,7 @@ public final class FreshStarts {
         this.settings = settings;
         this.evaluator = EvolutionRun.rewarding(settings, evaluator);
         this.again = new WinnerRuns(settings, simulator);
+        this.genome = settings.genome();
     }
 
     /** From how many starts a run's winner is run again. */
@@ -55,7 +58,7 @@ public final class FreshStarts {
     public List<List<SimulationResult>> each(List<List<Double>> genomes, int starts) throws InterruptedException {
         List<SimulationRequest> requests = new ArrayList<>();
         for (List<Double> genes : genomes) {
-            for (SimulationRequest one : again.requests(gait(genes), starts, null)) {
+            for (SimulationRequest one : again.requests(genome.decode(genes), starts, null)) {
                 requests.add(one.withId(requests.size()));
             }
         }
@@ -66,23 +69,23 @@ public final class FreshStarts {
 
     /** The winner again, or null if the simulator refuses that. */
     FreshRuns of(Individual winner) throws InterruptedException {
-        Gait gait = gait(winner.genes());
-        List<SimulationResult> base = runs(gait, null);
+        Swimmer swimmer = genome.decode(winner.genes());
+        List<SimulationResult> base = runs(swimmer, null);
         if (base == null) {
             return null;
         }
-        List<SimulationResult> half = runs(gait, again.halfStep());
-        return FreshRuns.of(again.duration(), again.sample(base, gait, 1),
-                half == null ? null : again.sample(half, gait, 2), settings.judge(), winner.score(),
+        List<SimulationResult> half = runs(swimmer, again.halfStep());
+        return FreshRuns.of(again.duration(), again.sample(base, swimmer, 1),
+                half == null ? null : again.sample(half, swimmer, 2), settings.judge(), winner.score(),
                 winner.runs(), settings.judge().of(base.stream().map(SimulationResult::score).toList()));
     }
 
     /** From the fresh starts; null, and a word of it, if the simulator refuses them. What the run found is not lost by that. */
-    private List<SimulationResult> runs(Gait gait, ObjectNode change) throws InterruptedException {
+    private List<SimulationResult> runs(Swimmer swimmer, ObjectNode change) throws InterruptedException {
         int starts = usual(settings);
         List<SimulationResult> results = new ArrayList<>();
         try {
-            evaluator.evaluateInOrder(again.requests(gait, starts, change), results::add);
+            evaluator.evaluateInOrder(again.requests(swimmer, starts, change), results::add);
         } catch (RequestRejectedException e) {
             LOG.warn("the winner is not run from fresh starts: {}", e.getMessage());
             return null;
@@ -92,11 +95,6 @@ public final class FreshStarts {
 
     /** The winner from the scene's own start, as whoever watches it sees it. */
     SimulationResult fromOwnStart(Individual winner) throws InterruptedException {
-        return evaluator.evaluate(new SimulationRequest(winner.result().id(), settings.scene(), gait(winner.genes()),
-                settings.duration(), settings.scheme(), settings.overrides()));
-    }
-
-    private Gait gait(List<Double> genes) {
-        return settings.encoding().forActuators(settings.actuators()).decode(genes);
+        return evaluator.evaluate(SimulationRequest.of(winner.result().id(), settings, genome.decode(winner.genes())));
     }
 }

@@ -4,7 +4,6 @@ import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
-import io.natator.encoding.Gait;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.EvolutionStoppedException;
@@ -54,9 +53,8 @@ final class VacuumCheck implements EvolutionListener {
     /** What an individual does without water. */
     static SimulationResult drift(Individual individual, EvolutionSettings settings, Double duration,
             Evaluator evaluator) throws InterruptedException {
-        Gait gait = settings.encoding().forActuators(settings.actuators()).decode(individual.genes());
-        SimulationRequest request = new SimulationRequest(individual.result().id(), settings.scene(), gait, null,
-                settings.scheme(), settings.overrides());
+        SimulationRequest request = SimulationRequest.of(individual.result().id(), settings,
+                settings.genome().decode(individual.genes()));
         try {
             return evaluator.evaluate(VacuumRequests.of(request, duration));
         } catch (RequestRejectedException e) {

@@ -2,11 +2,11 @@ package io.natator.run;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.config.MergePatch;
-import io.natator.encoding.Gait;
 import io.natator.evolution.Starts;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
@@ -42,9 +42,9 @@ final class WinnerRuns {
         return duration;
     }
 
-    /** In scene units, or null. */
-    Double bodyLength() {
-        return scene.bodyLength();
+    /** Of a swimmer in scene units, or null. */
+    Double bodyLength(Swimmer swimmer) {
+        return swimmer.body() == null ? scene.bodyLength() : Double.valueOf(settings.bodyLength(swimmer.body()));
     }
 
     /** What half the time step changes in the scene. */
@@ -59,9 +59,8 @@ final class WinnerRuns {
      *
      * @param change to the run's scene, or null
      */
-    List<SimulationRequest> requests(Gait gait, int starts, ObjectNode change) {
-        return IntStream.range(0, starts).mapToObj(k -> new SimulationRequest(k, settings.scene(), gait,
-                settings.duration(), settings.scheme(), MergePatch.both(settings.overrides(), change))
+    List<SimulationRequest> requests(Swimmer swimmer, int starts, ObjectNode change) {
+        return IntStream.range(0, starts).mapToObj(k -> SimulationRequest.of(k, settings, swimmer).withChange(change)
                 .withStart(Starts.fresh(settings.seed(), k))).toList();
     }
 
@@ -70,7 +69,7 @@ final class WinnerRuns {
      *
      * @param finer 2 at half the time step, else 1
      */
-    SwimSample sample(List<SimulationResult> results, Gait gait, int finer) {
-        return SwimSample.of(results, finer * scene.substeps(), gait, duration, scene.bodyLength());
+    SwimSample sample(List<SimulationResult> results, Swimmer swimmer, int finer) {
+        return SwimSample.of(results, finer * scene.substeps(), swimmer.gait(), duration, bodyLength(swimmer));
     }
 }

@@ -5,24 +5,34 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.function.Consumer;
+import java.util.function.ToDoubleFunction;
 
 /** Tells of each result what its swim took. */
 public final class EffortEvaluator implements Evaluator {
 
     private final Evaluator evaluator;
-    private final double bodyLength;
+    private final ToDoubleFunction<SimulationRequest> bodyLength;
 
     /**
-     * Wraps an evaluator, which stays the caller's to close.
+     * Wraps an evaluator of one body, which stays the caller's to close.
      *
      * @param bodyLength of the creature in scene units
      * @throws InvalidInputException if that is not known
      */
-    public EffortEvaluator(Evaluator evaluator, Double bodyLength) {
+    public static EffortEvaluator of(Evaluator evaluator, Double bodyLength) {
         if (bodyLength == null || !(bodyLength > 0)) {
             throw new InvalidInputException("optimizer map-elites: the body's length is " + bodyLength
                     + "; expected a simulator that tells it, and a scene with a body");
         }
+        return new EffortEvaluator(evaluator, request -> bodyLength);
+    }
+
+    /**
+     * Wraps an evaluator of several bodies, which stays the caller's to close.
+     *
+     * @param bodyLength of a request's creature in scene units
+     */
+    public EffortEvaluator(Evaluator evaluator, ToDoubleFunction<SimulationRequest> bodyLength) {
         this.evaluator = evaluator;
         this.bodyLength = bodyLength;
     }
@@ -30,18 +40,19 @@ public final class EffortEvaluator implements Evaluator {
     @Override
     public void evaluateAll(List<SimulationRequest> requests, Consumer<SimulationResult> whenDone)
             throws InterruptedException {
-        Map<Long, Double> frequencies = new HashMap<>();
-        requests.forEach(request -> frequencies.put(request.id(), request.gait().frequency()));
+        Map<Long, SimulationRequest> asked = new HashMap<>();
+        requests.forEach(request -> asked.put(request.id(), request));
         evaluator.evaluateAll(requests, result -> whenDone.accept(result.status() == SimulationResult.Status.OK
-                ? result.withEffort(effort(result, frequencies.get(result.id()))) : result));
+                ? result.withEffort(effort(result, asked.get(result.id()))) : result));
     }
 
-    private Effort effort(SimulationResult result, double frequency) {
+    private Effort effort(SimulationResult result, SimulationRequest request) {
         if (result.work() == null) {
             throw new InvalidInputException("optimizer map-elites: this simulator does not measure the muscles' work in scheme "
                     + result.scheme() + ", by which kinds of gaits are told apart; expected --scheme conserving");
         }
-        return new Effort(frequency * result.simulated(), result.distance() / bodyLength, result.distance(), result.work());
+        return new Effort(request.gait().frequency() * result.simulated(),
+                result.distance() / bodyLength.applyAsDouble(request), result.distance(), result.work());
     }
 
     @Override

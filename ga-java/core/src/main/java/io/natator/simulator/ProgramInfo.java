@@ -32,6 +32,8 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
     }
 
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
+    /** Exit status for what it does not take. */
+    private static final int BAD_INPUT = 2;
 
     /**
      * Asks the simulator about itself.
@@ -85,6 +87,9 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
     static String ask(Path simulator, List<String> arguments, String subject) throws InterruptedException {
         try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
             NativeProgram.Output output = program.call(arguments, "");
+            if (output.exitStatus() == BAD_INPUT) {
+                throw new RefusedSceneException(subject + ": " + output.errorText());
+            }
             if (output.exitStatus() != 0) {
                 throw new InvalidInputException(subject + ": " + (output.errorText().isEmpty()
                         ? "simulator ended with exit status " + output.exitStatus() : output.errorText()));

@@ -4,6 +4,7 @@ import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.body.ProfileBody;
 import io.natator.config.EncodingKind;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
@@ -22,12 +23,13 @@ import java.util.List;
  * @param substeps   of a frame
  * @param iterations of a substep
  * @param bodyLength head to tail at rest, in scene units; 0 without a creature, null from a program that does not say
+ * @param bodyParticles particles of its creature; null likewise
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProperty(required = true) int actuators,
         @JsonProperty(required = true) long particles, @JsonProperty(required = true) double duration,
         @JsonProperty(required = true) double timeStep, @JsonProperty(required = true) int substeps,
-        @JsonProperty(required = true) int iterations, Double bodyLength) {
+        @JsonProperty(required = true) int iterations, Double bodyLength, Integer bodyParticles) {
 
     /**
      * Asks the simulator about a scene.
@@ -64,6 +66,21 @@ public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProper
             throw new InvalidInputException("scene " + scene + ": " + e.getMessage(), e);
         }
         return info;
+    }
+
+    /**
+     * The body of a scene's creature, to be evolved.
+     *
+     * @throws InvalidInputException also if that has no genes
+     */
+    public static ProfileBody bodyToEvolve(String scene, JsonNode overrides, Path simulator) throws InterruptedException {
+        try {
+            return ProfileBody.of(Json.parse(definition(scene, overrides, simulator), JsonNode.class).path("creature"));
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException("simulator does not define scene " + scene + ": " + Json.reason(e), e);
+        } catch (InvalidInputException e) {
+            throw new InvalidInputException("scene " + scene + ": " + e.getMessage(), e);
+        }
     }
 
     /**

@@ -2,6 +2,9 @@ package io.natator.simulator;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.body.Swimmer;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 
@@ -30,6 +33,26 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
     public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides,
             Perturbation perturbation) {
         this(id, scene, gait, duration, scheme, overrides, perturbation, null);
+    }
+
+    /**
+     * What a run asks of a swimmer, from the scene's own start.
+     *
+     * @param settings of the run
+     */
+    public static SimulationRequest of(long id, EvolutionSettings settings, Swimmer swimmer) {
+        return new SimulationRequest(id, settings.scene(), swimmer.gait(), settings.duration(), settings.scheme(),
+                MergePatch.both(settings.overrides(), swimmer.body()));
+    }
+
+    /** This request in a scene that is changed further; null for no change. */
+    public SimulationRequest withChange(JsonNode change) {
+        return new SimulationRequest(id, scene, gait, duration, scheme, MergePatch.both(overrides, change), perturbation, start);
+    }
+
+    /** This request for another time in seconds, or null for the scene's own. */
+    public SimulationRequest withDuration(Double newDuration) {
+        return new SimulationRequest(id, scene, gait, newDuration, scheme, overrides, perturbation, start);
     }
 
     /** This request with another id. */

@@ -8,7 +8,7 @@ import java.util.List;
 
 /**
  * What came of an evaluation; the JSON form is {@code sim-native/protocol/result.schema.json}, of which unknown fields
- * are ignored, with the status {@code failed} and the drift in vacuum in addition.
+ * are ignored, with the statuses {@code failed} and {@code refused} and the drift in vacuum in addition.
  *
  * @param id        the request's, or null if the simulator could not read it
  * @param status    how it ended
@@ -21,7 +21,7 @@ import java.util.List;
  * @param precision the floating-point type used, or null if it failed
  * @param hash      hash of the final state, 16 hexadecimal digits, or null
  * @param unstable  with {@code unstable}: where; else null
- * @param error     with {@code error} and {@code failed}: why, in one line; else null
+ * @param error     with {@code error}, {@code failed} and {@code refused}: why, in one line; else null
  * @param swimming  dimensionless numbers of the swim, or null: not of every scene, nor of every program
  * @param work      mechanical work of the muscles, in mass times length squared by seconds squared, or null likewise
  * @param course    where it went by its own heading, or null: not of every program
@@ -70,6 +70,9 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         /** The simulator refused the request. */
         @JsonProperty("error")
         ERROR,
+        /** The body is none, so nothing was simulated. Never said by the simulator itself. */
+        @JsonProperty("refused")
+        REFUSED,
         /** No valid answer came, also not at the second attempt. Never said by the simulator itself. */
         @JsonProperty("failed")
         FAILED
@@ -89,6 +92,11 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     /** The record of an evaluation that got no valid answer. */
     public static SimulationResult failed(long id, String reason) {
         return new SimulationResult(id, Status.FAILED, null, null, null, null, null, null, null, null, reason);
+    }
+
+    /** The record of a body that was not simulated. */
+    public static SimulationResult refused(long id, String reason) {
+        return new SimulationResult(id, Status.REFUSED, null, null, null, null, null, null, null, null, reason);
     }
 
     /** This result under another id. */
@@ -153,11 +161,14 @@ public record SimulationResult(Long id, Status status, Double distance, String s
     }
 
     /**
-     * Time simulated in seconds; what was unstable or failed counts as if it had lasted to the end.
+     * Time simulated in seconds; what was unstable or failed counts as if it had lasted to the end, what was refused as nothing.
      *
      * @param duration of an evaluation that nothing ends early
      */
     public double simulatedOf(double duration) {
+        if (status == Status.REFUSED) {
+            return 0;
+        }
         return isStoppedEarly() ? simulated : duration;
     }
 

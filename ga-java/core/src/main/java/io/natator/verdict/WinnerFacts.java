@@ -31,7 +31,7 @@ public final class WinnerFacts {
     public static Map<String, String> of(Path run, BestGait best) {
         Map<String, String> facts = new LinkedHashMap<>();
         facts.put("verdict", Verdict.of(best).text() + (best.fresh() == null ? " (one run, not a mean)" : ""));
-        Controls controls = Controls.of(run, best.gait());
+        Controls controls = Controls.of(run, best.swimmer());
         if (controls != null) {
             facts.put("controls", ControlVerdict.of(controls).text());
         }

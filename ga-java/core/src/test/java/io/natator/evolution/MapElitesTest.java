@@ -114,7 +114,7 @@ class MapElitesTest {
             Evolution evolution = new Evolution(SETTINGS, ToyEvolution.evaluator(SETTINGS, pool), List.of(), List.of());
             assertThatThrownBy(() -> evolution.run(null)).isInstanceOf(InvalidInputException.class)
                     .hasMessageStartingWith("optimizer map-elites: this simulator does not measure the muscles' work in scheme flex");
-            assertThatThrownBy(() -> new EffortEvaluator(pool, null)).hasMessageContaining("the body's length is null");
+            assertThatThrownBy(() -> EffortEvaluator.of(pool, null)).hasMessageContaining("the body's length is null");
         }
     }
 

@@ -2,10 +2,15 @@ package io.natator.evolution;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.body.Bodies;
+import io.natator.body.BodyGenome;
+import io.natator.config.BodyEvolution;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.Evolved;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
+import io.natator.encoding.GeneRange;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -75,6 +80,23 @@ class OptimizerTest {
             converged = spread < 1e-10;
         }
         assertThat(restarts).isPositive();
+    }
+
+    @ParameterizedTest
+    @EnumSource(OptimizerKind.class)
+    void evolvesBodiesAsItDoesGaits(OptimizerKind optimizer) {
+        ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
+        EvolutionSettings settings = ToyEvolution.by(optimizer, EvolutionSettings.of("open-water/eel", EncodingKind.SPARSE, 8)
+                .withBodies(new BodyEvolution(Evolved.BOTH, Bodies.bundled("eel"), null)).withSize(10, 4).withSeed(3));
+        EvolutionState whole = ToyEvolution.run(settings, 2, null, List.of(), recorder);
+        EvolutionState second = recorder.states.get(1);
+        int more = (int) second.evaluations() + 3;
+
+        assertThat(ToyEvolution.run(settings, 1, second, recorder.evaluations.subList(0, more))).isEqualTo(whole);
+
+        List<GeneRange> ranges = settings.genome().genes();
+        assertThat(recorder.evaluations).allSatisfy(one -> GeneRange.check(ranges, one.genes()));
+        assertThat(whole.best().genes()).hasSize(4 + new BodyGenome(Bodies.bundled("eel")).genes().size());
     }
 
     @ParameterizedTest

@@ -35,7 +35,7 @@ final class ToyEvolution {
     /** What measures all that the settings ask for. */
     static Evaluator evaluator(EvolutionSettings settings, Evaluator toy) {
         Evaluator worth = settings.objectives() == null ? toy : new ObjectiveEvaluator(toy, settings.objectives());
-        return settings.optimizer() == OptimizerKind.MAP_ELITES ? new EffortEvaluator(worth, BODY_LENGTH) : worth;
+        return settings.optimizer() == OptimizerKind.MAP_ELITES ? EffortEvaluator.of(worth, BODY_LENGTH) : worth;
     }
 
     /** Keeps all that a run folder keeps. */

@@ -42,7 +42,7 @@ class ControlVerdictTest {
             + "differ too much to tell"})
     void allControlsHaveTheirSay(double water, double from, double vacuum, double clampOff, double half, double mirrored,
             double underWater, Verdict.Kind kind, String text) {
-        Controls controls = new Controls(GAIT, "flex", 4.0, 1.25, sample(water, from), sample(-0.01, 0), sample(vacuum, 0),
+        Controls controls = new Controls(GAIT, null, "flex", 4.0, 1.25, sample(water, from), sample(-0.01, 0), sample(vacuum, 0),
                 sample(clampOff, 0), sample(half, 0), sample(mirrored, 0), null, null, underWater);
 
         assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
@@ -53,7 +53,7 @@ class ControlVerdictTest {
     @ParameterizedTest
     @CsvSource({"0.7, SWIMS, on cuda (95 %)", "0.1, UNPROVEN, on cuda 15 % of its way is left"})
     void theOtherBackendCounts(double distance, Verdict.Kind kind, String text) {
-        Controls controls = new Controls(GAIT, "conserving", 4.0, null, sample(0.74, 0.01), sample(-0.01, 0), sample(0, 0), null,
+        Controls controls = new Controls(GAIT, null, "conserving", 4.0, null, sample(0.74, 0.01), sample(-0.01, 0), sample(0, 0), null,
                 sample(0.7, 0), sample(0.7, 0), sample(distance, 0), "cuda", null);
 
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);

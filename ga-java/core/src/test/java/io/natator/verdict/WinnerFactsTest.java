@@ -27,7 +27,7 @@ class WinnerFactsTest {
     }
 
     private static BestGait best(FreshRuns fresh) {
-        return new BestGait("pool/creature-1", List.of(1.0), GAIT, 2.5, 0.625, result(2.5), 1.25, result(0), 2.5, 1, fresh);
+        return new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, result(2.5), 1.25, result(0), 2.5, 1, fresh);
     }
 
     /** Whether it swims, how fast, how sure, what it lost since it was selected, and what it costs. */

@@ -1,8 +1,9 @@
 package io.natator.report;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.BodyText;
+import io.natator.body.ProfileBody;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
@@ -70,15 +71,14 @@ public final class GaitReport {
         EvolutionSettings settings = run.settings();
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
-        SimulationRequest request = new SimulationRequest(0, settings.scene(), run.best().gait(), settings.duration(),
-                settings.scheme(), runningOn(settings.overrides()));
+        SimulationRequest request = SimulationRequest.of(0, settings, run.best().swimmer()).withChange(runningOn());
         Recording recording = RecordingFactory.of(request, duration / 2, execution);
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         progress(page);
         Verdict verdict = Verdict.of(run.best());
         page.text("**" + verdict.text() + "**" + (run.best().fresh() == null ? " (one run, not a mean)." : ".")
                 + (verdict.advice() == null ? "" : " To go on: " + verdict.advice() + "."));
-        Controls controls = Controls.of(run.directory(), run.best().gait());
+        Controls controls = Controls.of(run.directory(), run.best().swimmer());
         page.text(controls == null ? "Its controls were not run; `natator check " + run.directory() + "` runs them."
                 : "By its controls (`natator check`): **" + ControlVerdict.of(controls).text() + "**.");
         difference = difference(recording, execution);
@@ -104,9 +104,8 @@ public final class GaitReport {
     }
 
     /** The same scene without early stops. */
-    private static ObjectNode runningOn(JsonNode overrides) {
-        ObjectNode patch = overrides instanceof ObjectNode object ? object.deepCopy()
-                : JsonNodeFactory.instance.objectNode();
+    private static ObjectNode runningOn() {
+        ObjectNode patch = JsonNodeFactory.instance.objectNode();
         patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
         return patch;
     }
@@ -168,6 +167,10 @@ public final class GaitReport {
         rows.add(List.of("frequency (1/s)", number(gait.frequency())));
         rows.add(List.of("amplitudes", numbers(gait.amplitude())));
         rows.add(List.of("phases", numbers(gait.phase())));
+        if (run.settings().evolve() != null) {
+            ProfileBody scene = run.settings().evolve().body();
+            BodyText.of(scene.with(best.body()), scene).forEach((name, text) -> rows.add(List.of("body: " + name, text)));
+        }
         FreshText.of(best).forEach((name, text) -> rows.add(List.of(name + " in fluid", text)));
         if (best.fresh() == null) {
             rows.add(List.of("speed in fluid (units/s), one run", number(best.speed())));

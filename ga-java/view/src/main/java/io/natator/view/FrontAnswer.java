@@ -1,8 +1,11 @@
 package io.natator.view;
 
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Genome;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
 import io.natator.config.Objective;
-import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
 import io.natator.evolution.Individual;
 import io.natator.simulator.SimulationResult;
@@ -47,8 +50,9 @@ record FrontAnswer(List<Goal> goals, List<Point> points) {
      * @param values by the goals
      * @param isBest whether no other is better in all
      * @param runs   that they are means of
+     * @param overrides that give the run's scene this body too, as in {@link RunAnswer.Best}
      */
-    record Point(List<Double> values, boolean isBest, int runs, Gait gait) {
+    record Point(List<Double> values, boolean isBest, int runs, Gait gait, ObjectNode overrides) {
     }
 
     /** Of a run; null with a single objective, or while nothing is measured. */
@@ -58,26 +62,28 @@ record FrontAnswer(List<Goal> goals, List<Point> points) {
             return null;
         }
         List<Goal> goals = run.settings().objectives().stream().map(one -> Goal.of(one.objective())).toList();
-        Encoding encoding = run.settings().encoding().forActuators(run.settings().actuators());
+        Genome genome = run.settings().genome();
         List<Point> points = new ArrayList<>();
         Set<List<Double>> known = new HashSet<>();
         for (Individual one : front) {
             known.add(one.genes());
-            points.add(point(one, true, goals, encoding));
+            points.add(point(one, true, goals, run.settings(), genome));
         }
         for (Individual one : run.state().population()) {
             if (one.result().status() == SimulationResult.Status.OK && known.add(one.genes())) {
-                points.add(point(one, false, goals, encoding));
+                points.add(point(one, false, goals, run.settings(), genome));
             }
         }
         return new FrontAnswer(goals, points);
     }
 
-    private static Point point(Individual one, boolean isBest, List<Goal> goals, Encoding encoding) {
+    private static Point point(Individual one, boolean isBest, List<Goal> goals, EvolutionSettings settings,
+            Genome genome) {
         List<Double> values = new ArrayList<>();
         for (int i = 0; i < goals.size(); i++) {
             values.add(goals.get(i).isLess() ? 0.0 - one.objectives().get(i) : one.objectives().get(i));
         }
-        return new Point(values, isBest, one.runs(), encoding.decode(one.genes()));
+        Swimmer swimmer = genome.decode(one.genes());
+        return new Point(values, isBest, one.runs(), swimmer.gait(), RunAnswer.overrides(settings, swimmer));
     }
 }

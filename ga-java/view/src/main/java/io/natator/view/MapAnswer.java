@@ -1,10 +1,12 @@
 package io.natator.view;
 
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Genome;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
-import io.natator.encoding.Encoding;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.Individual;
@@ -32,8 +34,10 @@ record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elit
      * @param runs   how many these are
      * @param beats  for a body length, measured
      * @param cost   of transport, measured
+     * @param overrides that give the run's scene this body too, as in {@link RunAnswer.Best}
      */
-    record Elite(int column, int row, double worth, int runs, double beats, double cost, Gait gait) {
+    record Elite(int column, int row, double worth, int runs, double beats, double cost, Gait gait,
+            ObjectNode overrides) {
     }
 
     /** Of a run; null without a map, or while it is empty. */
@@ -44,11 +48,13 @@ record MapAnswer(String worth, List<Double> beats, List<Double> costs, List<Elit
         }
         IntSummaryStatistics beats = map.beats();
         IntSummaryStatistics costs = map.costs();
-        Encoding encoding = run.settings().encoding().forActuators(run.settings().actuators());
+        Genome genome = run.settings().genome();
         List<Elite> elites = map.moving().entrySet().stream().map(entry -> {
             Individual one = entry.getValue();
+            Swimmer swimmer = genome.decode(one.genes());
             return new Elite(entry.getKey().beats() - beats.getMin(), entry.getKey().cost() - costs.getMin(), one.score(),
-                    one.runs(), one.effort().beatsPerLength(), one.effort().costOfTransport(), encoding.decode(one.genes()));
+                    one.runs(), one.effort().beatsPerLength(), one.effort().costOfTransport(), swimmer.gait(),
+                    RunAnswer.overrides(run.settings(), swimmer));
         }).toList();
         return new MapAnswer(worth(run.settings()), edges(beats), edges(costs), elites);
     }

@@ -1,11 +1,15 @@
 package io.natator.view;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.body.Genome;
+import io.natator.body.Swimmer;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.MergePatch;
 import io.natator.config.OptimizerKind;
 import io.natator.encoding.Gait;
+import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.Verdict;
@@ -31,10 +35,11 @@ import java.util.Map;
  * @param facts       of the best gait of all, in words, by what they are about; the verdict is the first
  * @param map         the best gait of every kind, or null if the run looked for no kinds
  * @param front       gaits by several objectives, or null if it has one
+ * @param bodies      of the scene and of some generations, or null if it evolves gaits alone
  */
 record RunAnswer(int id, String name, String scene, ObjectNode overrides, OptimizerKind optimizer, long seed,
         List<Generation> generations, List<Best> bests, Verdict verdict, Map<String, String> facts,
-        MapAnswer map, FrontAnswer front) {
+        MapAnswer map, FrontAnswer front, List<BodyOutline> bodies) {
 
     /**
      * A generation.
@@ -48,8 +53,16 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
     record Generation(int generation, int evaluations, double best, double mean, double bestEver) {
     }
 
-    /** The best gait of a generation and its distance. */
-    record Best(int generation, double fitness, Gait gait) {
+    /**
+     * The best gait of a generation and its distance.
+     *
+     * @param overrides that give the run's scene this body too; null where the scene's own swims
+     */
+    record Best(int generation, double fitness, Gait gait, ObjectNode overrides) {
+
+        static Best of(Generation generation, double fitness, EvolutionSettings settings, Swimmer swimmer) {
+            return new Best(generation.generation, fitness, swimmer.gait(), RunAnswer.overrides(settings, swimmer));
+        }
     }
 
     /**
@@ -60,10 +73,11 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
     static RunAnswer of(int id, StoredRun run) {
         EvolutionSettings settings = run.settings();
         List<Generation> generations = generations(run);
+        List<Best> bests = bests(run, generations);
         return new RunAnswer(id, name(run.directory()), settings.scene(), overrides(settings), settings.optimizer(),
-                settings.seed(), generations, bests(run, generations), run.best() == null ? null : Verdict.of(run.best()),
+                settings.seed(), generations, bests, run.best() == null ? null : Verdict.of(run.best()),
                 run.best() == null ? Map.of() : WinnerFacts.of(run.directory(), run.best()), MapAnswer.of(run),
-                FrontAnswer.of(run));
+                FrontAnswer.of(run), BodyOutline.of(run, bests));
     }
 
     /** What the page calls a run: its folder, without where that is. */
@@ -74,6 +88,12 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
     /** A run's changes to its scene and its scheme as one patch, or null if there is neither. */
     static ObjectNode overrides(EvolutionSettings settings) {
         return InitialScene.patch(settings.overrides(), settings.scheme());
+    }
+
+    /** The same with a swimmer's body; null where that is the scene's own. */
+    static ObjectNode overrides(EvolutionSettings settings, Swimmer swimmer) {
+        return swimmer.body() == null ? null
+                : InitialScene.patch(MergePatch.both(settings.overrides(), swimmer.body()), settings.scheme());
     }
 
     private static List<Generation> generations(StoredRun run) {
@@ -91,7 +111,7 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         Map<Integer, JudgedGait> bests = run.bestsByGeneration();
         return generations.stream().filter(one -> bests.containsKey(one.generation())).map(one -> {
             JudgedGait best = bests.get(one.generation());
-            return new Best(one.generation(), best.score(), best.gait());
+            return Best.of(one, best.score(), run.settings(), best.swimmer());
         }).toList();
     }
 
@@ -103,13 +123,20 @@ record RunAnswer(int id, String name, String scene, ObjectNode overrides, Optimi
         if (run.settings().starts() > 1) {
             return champions(run, generations);
         }
-        Map<Double, Gait> gaits = new HashMap<>();
-        if (run.best() != null) {
-            gaits.put(run.best().result().score(), run.best().gait());
-        }
+        Map<Double, EvaluationRecord> swims = new HashMap<>();
         run.evaluations().stream().filter(one -> one.result().status() == SimulationResult.Status.OK)
-                .forEach(one -> gaits.putIfAbsent(one.result().score(), one.gait()));
-        return generations.stream().filter(one -> gaits.containsKey(one.best()))
-                .map(one -> new Best(one.generation(), one.best(), gaits.get(one.best()))).toList();
+                .forEach(one -> swims.putIfAbsent(one.result().score(), one));
+        Genome genome = run.settings().genome();
+        List<Best> bests = new ArrayList<>();
+        for (Generation generation : generations) {
+            EvaluationRecord swim = swims.get(generation.best());
+            if (run.best() != null && run.best().result().score() == generation.best()) {
+                bests.add(Best.of(generation, generation.best(), run.settings(), run.best().swimmer()));
+            } else if (swim != null) {
+                bests.add(Best.of(generation, generation.best(), run.settings(),
+                        new Swimmer(swim.gait(), genome.body(swim.genes()))));
+            }
+        }
+        return bests;
     }
 }

@@ -2,16 +2,21 @@ package io.natator.view;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.Natator;
+import io.natator.config.BodyEvolution;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.Evolved;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.Json;
 import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Scheme;
 import io.natator.config.WeightedObjective;
 import io.natator.encoding.Gait;
 import io.natator.simulator.FakeSimulator;
+import io.natator.simulator.SceneInfo;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -62,6 +67,18 @@ final class ViewFixture {
             evolve(simulator, folder.resolve("kinds"), settings.withObjectives(OptimizerKind.MAP_ELITES, null)),
             evolve(simulator, folder.resolve("front"), settings.withObjectives(OptimizerKind.NSGA2,
                     WeightedObjective.parse("distance,work")))};
+    }
+
+    /** A run of bodies in vacuum, likewise. */
+    static Path evolveBodies(Path folder) throws IOException, InterruptedException {
+        Path simulator = FakeSimulator.in(Files.createDirectory(folder.resolve("bodies")));
+        JsonNode vacuum = Json.parse("{\"fluid\":null,\"planes\":[],\"solver\":{\"gravity\":[0,0,0]}}", JsonNode.class);
+        EvolutionSettings settings = EvolutionSettings.of("pool/eel", EncodingKind.SPARSE, 8).withSize(6, 5)
+                .withBodies(new BodyEvolution(Evolved.BODY, SceneInfo.bodyToEvolve("pool/eel", null, SIMULATOR),
+                        EncodingKind.SPARSE.forActuators(8).decode(List.of(1.5, 0.7, 0.7, 0.9))));
+        Path run = folder.resolve("bodies-run");
+        new Natator(new ExecutionSettings(simulator, 2, null)).evolve(settings.withScene(Scheme.CONSERVING, 2.0, vacuum), run);
+        return run;
     }
 
     private static Path evolve(Path simulator, Path run, EvolutionSettings settings) throws InterruptedException {

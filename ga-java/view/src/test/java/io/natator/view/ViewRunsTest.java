@@ -22,15 +22,18 @@ class ViewRunsTest extends ViewBrowserTest {
     @TempDir
     private static Path runs;
     private static ViewServer many;
+    private static ViewServer bodies;
 
     @BeforeAll
     static void evolve() throws IOException, InterruptedException {
         many = ViewFixture.server(ViewFixture.evolveMany(runs));
+        bodies = ViewFixture.server(ViewFixture.evolveBodies(runs));
     }
 
     @AfterAll
     static void end() {
         many.close();
+        bodies.close();
     }
 
     @Test
@@ -93,6 +96,26 @@ class ViewRunsTest extends ViewBrowserTest {
         fits("front");
         page.setViewportSize(390, 844);
         fits("front");
+    }
+
+    /** All swim with the same gait; a generation is told from another by its body. */
+    @Test
+    void bodiesAreDrawnAndSwum() throws IOException {
+        open(bodies);
+        JsonNode answer = answer(0);
+        JsonNode bests = answer.get("bests");
+        assertThat(get("bodies-figure").locator("polygon")).hasCount(2 * answer.get("bodies").size());
+        assertThat(get("bodies").getAttribute("aria-label")).contains("the scene's, length 1.5; best of generation 0, length 1.");
+        fits("bodies");
+        get("chart-fitness").focus();
+        for (int at : List.of(0, bests.size() - 1)) {
+            page.keyboard().press(at == 0 ? "Home" : "End");
+            page.keyboard().press("Enter");
+            JsonNode body = bests.get(at).get("overrides").get("creature").get("profile");
+            await("natator.scene().overrides.creature?.profile.length === " + body.get("length"));
+            assertThat(get("run-chosen")).containsText("Generation " + bests.get(at).get("generation"));
+        }
+        assertThat(bests.get(0).get("overrides")).isNotEqualTo(bests.get(bests.size() - 1).get("overrides"));
     }
 
     /** No label is cut off, and no two of them lie on each other. */

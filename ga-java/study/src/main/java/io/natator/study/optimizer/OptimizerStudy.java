@@ -73,7 +73,7 @@ public final class OptimizerStudy {
     }
 
     private static int usualSize(EvolutionSettings settings) {
-        int genes = settings.encoding().forActuators(settings.actuators()).genes().size();
+        int genes = settings.genome().genes().size();
         return 4 + (int) Math.floor(3 * Math.log(genes));
     }
 

@@ -49,7 +49,7 @@ export class EliteMap extends GaitPlot {
       const isPoor = most > 0 && elite.worth <= 0;
       element.setAttribute('class', isPoor ? 'poor' : '');
       element.setAttribute('fill', isPoor ? 'none' : `rgb(${colour(elite.worth)})`);
-      return {x: x + width / 2, y: y + height / 2, element, gait: elite.gait,
+      return {x: x + width / 2, y: y + height / 2, element, gait: elite.gait, overrides: elite.overrides,
         label: `elite of ${short(elite.beats)} beats per length`,
         text: `${short(elite.beats)} beats per body length, cost of transport ${short(elite.cost)} mass · length/s²: `
             + `${map.worth.split(',')[0]} ${short(elite.worth)}`

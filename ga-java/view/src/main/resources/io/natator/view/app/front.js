@@ -50,7 +50,8 @@ export class ParetoPlot extends GaitPlot {
     const items = points.map(point => {
       const [cx, cy] = place(point);
       const kind = point.isBest ? 'best' : 'rest';
-      return {x: cx, y: cy, gait: point.gait, element: draw('circle', {cx, cy, r: point.isBest ? 4.5 : 2.5, class: kind}),
+      return {x: cx, y: cy, gait: point.gait, overrides: point.overrides,
+        element: draw('circle', {cx, cy, r: point.isBest ? 4.5 : 2.5, class: kind}),
         label: `${point.isBest ? 'front' : 'gait'} of ${goals[0].name} ${short(point.values[0])}`,
         text: `${goals.map((goal, i) => `${goal.name} ${short(point.values[i])}`).join(', ')}`
             + ` (${point.isBest ? 'no other is better in all' : 'another is better'}; ${point.runs === 1 ? 'one run' : `${point.runs} runs`})`};

@@ -1,6 +1,6 @@
 /** Plots of many gaits, of which one is chosen: by a click, or by the arrow keys and Enter. */
 
-import {isSameGait} from './gait.js';
+import {isSameSwimmer} from './swimmer.js';
 
 const NAMESPACE = 'http://www.w3.org/2000/svg';
 /** How far from a gait a click still means it, in units of the plot. */
@@ -54,7 +54,7 @@ export class GaitPlot {
     return this.#items;
   }
 
-  /** Shows these, the first on top: each has x, y (its middle), element, label, text and gait. */
+  /** Shows these, the first on top: each has x, y (its middle), element, label, text, gait and overrides. */
   fill(background, items) {
     this.#items = items;
     this.#at = null;
@@ -68,9 +68,9 @@ export class GaitPlot {
     this.#onLook(null);
   }
 
-  /** Marks the gait that swims, null for another one; it is chosen too. */
-  mark(gait) {
-    const found = gait === null ? undefined : this.#items.find(item => isSameGait(item.gait, gait));
+  /** Marks what swims, null for something else; it is chosen too. */
+  mark(swimmer) {
+    const found = swimmer === null ? undefined : this.#items.find(item => isSameSwimmer(item, swimmer));
     for (const item of this.#items) {
       item.element.classList.toggle('swims', item === found);
     }

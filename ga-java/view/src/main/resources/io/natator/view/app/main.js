@@ -13,6 +13,7 @@ import {RunBrowser} from './runs.js';
 import {download, fileName, gaitText, sceneText} from './save.js';
 import {SolverControls, withoutSettings} from './solver.js';
 import {DEFAULT_LOOK} from './stage.js';
+import {isSamePatch} from './swimmer.js';
 import {Theme} from './theme.js';
 import {View} from './view.js';
 
@@ -371,7 +372,7 @@ class Page {
    * @returns {Promise<string|null>} why not, or null
    */
   async #watch(run, best, beside) {
-    const swim = {scene: run.scene, overrides: run.overrides, gait: best.gait,
+    const swim = {scene: run.scene, overrides: best.overrides ?? run.overrides, gait: best.gait,
       origin: {run: run.name, label: best.label, gait: best.gait}};
     if (!beside) {
       if (this.#chosen === 0 && !isSameSwim(this.#view.setting, this.#browsed?.last)) {
@@ -475,13 +476,6 @@ class Page {
       ['?', 'this list', () => byId('help').showModal()],
     ]);
   }
-}
-
-/** Whether two patches, of which either may be null, say the same, in whatever order. */
-function isSamePatch(one, other) {
-  const sorted = (key, value) => value !== null && typeof value === 'object' && !Array.isArray(value)
-      ? Object.fromEntries(Object.entries(value).sort(([a], [b]) => a < b ? -1 : 1)) : value;
-  return JSON.stringify(one ?? {}, sorted) === JSON.stringify(other ?? {}, sorted);
 }
 
 /** Whether two settings (scene, overrides, gait), of which the second may be absent, are the same swim. */

@@ -1,11 +1,12 @@
 /** Browses the gaits of a run: the best of its generations, of its kinds, and by its objectives. */
 
+import {showBodies} from './bodies.js';
 import {FitnessChart, chartColours} from './charts.js';
 import {EliteMap} from './elitemap.js';
 import {byId, fillSelect, make} from './element.js';
 import {namedFacts} from './facts.js';
 import {ParetoPlot} from './front.js';
-import {isSameGait} from './gait.js';
+import {isSameSwimmer} from './swimmer.js';
 
 /** The fitness curve; a click or the arrow keys choose a generation. Beside it a map of gaits or a front, if the run has one. */
 export class RunBrowser {
@@ -14,7 +15,7 @@ export class RunBrowser {
   #canvas = byId('chart-fitness');
   #chart = new FitnessChart(this.#canvas);
   #run = null;
-  /** What is chosen: gait, label and text; of the best of a generation also that. */
+  /** What is chosen: gait, overrides, label and text; of the best of a generation also that. */
   #best = null;
   #pending = 0;
   #swims = null;
@@ -74,7 +75,7 @@ export class RunBrowser {
       return;
     }
     byId('run-choice').value = id;
-    const {scene, optimizer, seed, generations, verdict, facts, map, front} = this.#run;
+    const {scene, optimizer, seed, generations, verdict, facts, map, front, bodies} = this.#run;
     this.#run.bests.forEach(best => Object.assign(best, {label: `generation ${best.generation}`,
       text: `Generation ${best.generation}: best gait, fitness ${best.fitness.toFixed(4)}`}));
     byId('run-verdict').hidden = !verdict;
@@ -84,6 +85,7 @@ export class RunBrowser {
     ]));
     this.#elites.show(map ?? null);
     this.#front.show(front ?? null);
+    showBodies(bodies ?? null);
     byId('gait-looked-at').hidden = !map && !front;
     byId('run-facts').textContent = `${scene}, ${optimizer}, seed ${seed}, ${generations.length} generations`;
     this.#choose(null);
@@ -99,7 +101,7 @@ export class RunBrowser {
       return null;
     }
     const {name, bests} = this.#run;
-    const found = [...this.#elites.items, ...this.#front.items, ...bests].filter(one => isSameGait(one.gait, scene.gait));
+    const found = [...this.#elites.items, ...this.#front.items, ...bests].filter(one => isSameSwimmer(one, scene));
     const known = origin?.run === name ? found.find(one => one.label === origin.label) : undefined;
     const item = known ?? found.at(-1);
     return item === undefined ? null : {run: name, label: item.label, item};
@@ -110,7 +112,7 @@ export class RunBrowser {
     if (this.#pending > 0 || this.#run === null) {
       return;
     }
-    this.#swims = item?.gait ?? null;
+    this.#swims = item;
     this.#elites.mark(this.#swims);
     this.#front.mark(this.#swims);
     if (item !== this.#best) {

@@ -1,0 +1,189 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.body.Swimmer;
+import io.natator.checkpoint.BestGait;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.Json;
+import io.natator.encoding.Gait;
+import io.natator.evolution.EvaluationRecord;
+import io.natator.simulator.FakeSimulator;
+import io.natator.simulator.SimulationResult.Status;
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+/** Runs whose bodies are evolved, with a simulator that swims by a formula: best at a length of 1.25. */
+class EvolveBodiesTest {
+
+    private static final List<String> RESULTS =
+            List.of("config.json", "generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl");
+    /** Of the fake's eight actuators. */
+    private static final Gait GAIT = new Gait(1.5, List.of(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
+            List.of(0.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3));
+
+    @TempDir
+    private Path folder;
+    private Path simulator;
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    @BeforeEach
+    void fake() {
+        simulator = FakeSimulator.in(folder);
+    }
+
+    private int natator(String... arguments) {
+        return Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true)).execute(arguments);
+    }
+
+    private int evolve(String name, String... more) {
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator-path", simulator.toString(), "--no-cache",
+                "--output-dir", folder.resolve(name).toString()));
+        arguments.addAll(List.of(more));
+        for (List<String> usual : List.of(List.of("--scene", "pool/eel"), List.of("--population", "8"), List.of("--generations", "2"))) {
+            if (!arguments.contains(usual.get(0))) {
+                arguments.addAll(usual);
+            }
+        }
+        return natator(arguments.toArray(String[]::new));
+    }
+
+    private String gaitFile() throws IOException {
+        return Files.writeString(folder.resolve("gait.json"), Json.line(GAIT)).toString();
+    }
+
+    private void assertSame(String one, String other) {
+        for (String file : RESULTS) {
+            assertThat(folder.resolve(one).resolve(file)).hasSameBinaryContentAs(folder.resolve(other).resolve(file));
+        }
+    }
+
+    @Test
+    void aBestHasItsBodyBesideItsGait() {
+        assertThat(evolve("run", "--evolve", "both", "--encoding", "sparse")).as(err.toString()).isZero();
+
+        StoredRun run = StoredRun.in(folder.resolve("run"));
+        BestGait best = run.best();
+        assertThat(run.settings().evolve().body().particles()).isEqualTo(142);
+        assertThat(best.swimmer()).isEqualTo(run.settings().genome().decode(best.genes()));
+        assertThat(best.bodyLength()).isEqualTo(run.settings().bodyLength(best.body()));
+        JsonNode profile = best.body().path("creature").path("profile");
+        assertThat(profile.path("length").doubleValue()).isEqualTo(best.genes().get(4)).isBetween(1.125, 1.95);
+    }
+
+    /** Kinds of gaits are told apart by beats for a body length, which is each body's own. */
+    @Test
+    void everyBodyHasItsOwnLength() {
+        assertThat(evolve("run", "--evolve", "both", "--optimizer", "map-elites", "--generations", "1")).as(err.toString()).isZero();
+
+        StoredRun run = StoredRun.in(folder.resolve("run"));
+        assertThat(run.state().population()).isNotEmpty().allSatisfy(one -> {
+            double length = run.settings().bodyLength(run.settings().genome().decode(one.genes()).body());
+            assertThat(one.effort().lengths()).isCloseTo(one.result().distance() / length, within(1e-9));
+        });
+    }
+
+    @Test
+    void bodiesAloneGetBetterWithTheSameGait() throws IOException {
+        assertThat(evolve("run", "--evolve", "body", "--gait", gaitFile(), "--generations", "6")).as(err.toString()).isZero();
+
+        StoredRun run = StoredRun.in(folder.resolve("run"));
+        assertThat(run.evaluations()).allSatisfy(one -> assertThat(one.gait()).isEqualTo(GAIT));
+        double first = run.bestUntil(0).score();
+        assertThat(run.best().selected()).isGreaterThan(first);
+        assertThat(run.best().body().path("creature").path("profile").path("length").doubleValue()).isBetween(1.2, 1.3);
+    }
+
+    @Test
+    void whatIsNoBodyCostsNoSimulationAndSaysWhy() {
+        assertThat(evolve("run", "--evolve", "both", "--population", "20", "--generations", "0")).as(err.toString()).isZero();
+
+        List<EvaluationRecord> refused = StoredRun.evaluations(folder.resolve("run")).stream()
+                .filter(one -> one.result().status() == Status.REFUSED).toList();
+        assertThat(refused).hasSizeBetween(1, 9).allSatisfy(one -> {
+            assertThat(one.genes().get(16)).isBetween(1.8, 2.0);
+            assertThat(one.result().error()).contains("creature.profile.length: the body does not fit into the tank");
+            assertThat(one.result().fitness()).isZero();
+        });
+        assertThat(StoredRun.evaluations(folder.resolve("run"))).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
+        natator("show", folder.resolve("run").toString());
+        assertThat(out.toString()).contains(refused.size() + " of ", " bodies were refused, the last, ", "does not fit into the tank");
+    }
+
+    @Test
+    void theModeAndAKillChangeNoByte() throws IOException {
+        for (String mode : List.of("process", "resident", "batch")) {
+            assertThat(evolve(mode, "--evolve", "both", "--simulator", mode, "--population", "6")).as(err.toString()).isZero();
+        }
+        assertSame("resident", "process");
+        assertSame("batch", "process");
+
+        Path killed = Files.createDirectory(folder.resolve("killed"));
+        Files.copy(folder.resolve("batch/config.json"), killed.resolve("config.json"));
+        List<String> lines = Files.readAllLines(folder.resolve("batch/evaluations.jsonl"));
+        String half = lines.get(13).substring(0, 40);
+        Files.writeString(killed.resolve("evaluations.jsonl"), String.join("\n", lines.subList(0, 13)) + "\n" + half);
+        assertThat(natator("resume", "--simulator-path", simulator.toString(), "--no-cache", killed.toString())).isZero();
+        assertSame("killed", "process");
+    }
+
+    @Test
+    void aFileOfTheBestSwimsItsBody() throws IOException {
+        assertThat(evolve("run", "--evolve", "both")).isZero();
+        BestGait best = StoredRun.best(folder.resolve("run"));
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("evaluate", "--simulator-path", simulator.toString(), "--scene", "pool/eel", "--duration", "2", "--gait",
+                folder.resolve("run/best.json").toString())).as(err.toString()).isZero();
+
+        JsonNode result = Json.read(Files.writeString(folder.resolve("result.json"), out.toString()), JsonNode.class, "result");
+        assertThat(result.path("distance").doubleValue()).isEqualTo(best.distance());
+        assertThat(GaitFile.read(folder.resolve("run/best.json"))).isEqualTo(new Swimmer(best.gait(), best.body()));
+        assertThat(SwimSource.of(folder.resolve("run").toString(), null, null).overrides()).isEqualTo(best.body());
+        assertThat(SwimSource.of(folder.resolve("run").toString(), 0, null).overrides().path("creature").has("profile")).isTrue();
+    }
+
+    @Test
+    void showComparesTheBodyWithTheScenes() {
+        assertThat(evolve("run", "--evolve", "both")).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("show", folder.resolve("run").toString())).isZero();
+
+        assertThat(out.toString()).containsPattern("length +1\\.\\d+ units, the scene's 1\\.5\n")
+                .containsPattern("height +0\\.\\d+ .* units at 0 12 60 100 % of the length, the scene's 0\\.18 0\\.3 0\\.3 0\\.2\n")
+                .contains("joints", "stiffness", "muscles", "particles");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "pool/creature-1|both||scene pool/creature-1: the creature's body is not given by a profile",
+        "pool/eel|body||--evolve body has no gait that the bodies are to swim with; expected --gait FILE",
+        "pool/eel|both|gait.json|--gait is for --evolve body; else gaits are evolved",
+        "pool/eel|body|odd.json|--gait FOLDER/odd.json: body is 3; expected a JSON Merge Patch on the scene",
+        "pool/eel|body|short.json|gait of the bodies is for 1 actuators; expected one for the 8 of the scene's body"})
+    void whatDoesNotFitIsOneLine(String scene, String what, String gait, String message) throws IOException {
+        gaitFile();
+        Files.writeString(folder.resolve("odd.json"), "{\"gait\":" + Json.line(GAIT) + ",\"body\":3}");
+        Files.writeString(folder.resolve("short.json"), Json.line(new Gait(1, List.of(1.0), List.of(0.0))));
+
+        assertThat(evolve("run", gait == null ? new String[] {"--evolve", what, "--scene", scene}
+                : new String[] {"--evolve", what, "--gait", folder.resolve(gait).toString()})).isEqualTo(2);
+
+        assertThat(err.toString()).startsWith("natator evolve: " + message.replace("FOLDER", folder.toString())).hasLineCount(1);
+        assertThat(folder.resolve("run")).doesNotExist();
+    }
+}

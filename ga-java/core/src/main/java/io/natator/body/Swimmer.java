@@ -1,0 +1,18 @@
+package io.natator.body;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.encoding.Gait;
+
+/**
+ * What swims: a gait, and a body if that is not the scene's.
+ *
+ * @param gait how its muscles move
+ * @param body JSON Merge Patch that gives the scene its body, or null for the scene's own
+ */
+public record Swimmer(Gait gait, JsonNode body) {
+
+    /** Another gait of the same body. */
+    public Swimmer withGait(Gait other) {
+        return new Swimmer(other, body);
+    }
+}
