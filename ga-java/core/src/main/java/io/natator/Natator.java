@@ -1,11 +1,9 @@
 package io.natator;
 
 import io.natator.checkpoint.RunFolder;
-import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.SimulatorMode;
 import io.natator.evolution.EvolutionListener;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
@@ -52,8 +50,7 @@ public final class Natator {
      * @throws io.natator.config.InvalidInputException if it finds none
      */
     public static ExecutionSettings onThisMachine() {
-        return new ExecutionSettings(SimulatorLocator.locate(null), SimulatorMode.RESIDENT, Backend.CPU, 0,
-                Runtime.getRuntime().availableProcessors(), null, null);
+        return ExecutionSettings.of(SimulatorLocator.locate(null));
     }
 
     /**

@@ -3,11 +3,9 @@ package io.natator;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.SimulatorMode;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
@@ -36,10 +34,9 @@ class NatatorTest {
 
     @Test
     void evaluatesEvolvesAndContinues() throws InterruptedException {
-        Natator natator = new Natator(new ExecutionSettings(FakeSimulator.in(folder), SimulatorMode.RESIDENT,
-                Backend.CPU, 0, 2, null, null));
-        SimulationRequest request = new SimulationRequest(3, "thesis/creature-1",
-                new Gait(1.5, List.of(0.1, 0.2), List.of(0.0, 0.3)), null, null, null);
+        Natator natator = new Natator(ExecutionSettings.of(FakeSimulator.in(folder)).withWorkers(2));
+        SimulationRequest request = SimulationRequest.of("thesis/creature-1",
+                new Gait(1.5, List.of(0.1, 0.2), List.of(0.0, 0.3)));
         EvolutionSettings settings = natator.settings("thesis/creature-2").withSize(10, 4);
 
         assertThat(natator.evaluate(request).distance()).isEqualTo(-1.3925);

@@ -1,12 +1,10 @@
 package io.natator.cli;
 
 import io.natator.cli.Section.Topic;
-import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
-import io.natator.config.SimulatorMode;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.TimeLimit;
@@ -128,8 +126,7 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
     private void measure(Path file) throws InterruptedException {
         String name = SceneOptions.scene(scene);
         SceneInfo info = SceneInfo.toEvolve(name, EncodingKind.DENSE, null, simulator.path());
-        ExecutionSettings alone = new ExecutionSettings(simulator.path(), SimulatorMode.RESIDENT, Backend.CPU, 0, 1,
-                TimeLimit.of(info, null), null);
+        ExecutionSettings alone = ExecutionSettings.of(simulator.path()).withWorkers(1).withTimeout(TimeLimit.of(info, null));
         try (Evaluator evaluator = Evaluator.open(alone)) {
             EvaluationTimes.measure(name, EncodingKind.DENSE.forActuators(info.actuators()), seed, evaluator, evaluations, file);
         }

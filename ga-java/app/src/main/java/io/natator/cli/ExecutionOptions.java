@@ -73,7 +73,8 @@ final class ExecutionOptions {
         SimulatorMode usual = !commands.isEmpty() ? SimulatorMode.RESIDENT
                 : master != null || System.getProperty(SUBMITTED) != null ? SimulatorMode.SPARK
                 : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
-        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, devices(), workers != null ? workers : Runtime.getRuntime().availableProcessors(),
+        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, devices(),
+                workers != null ? workers : Runtime.getRuntime().availableProcessors(),
                 timeoutSeconds == null ? null
                         : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null, commands, master);
     }

@@ -4,7 +4,8 @@ import java.util.List;
 
 /**
  * Whom a run would have taken for its winner from an evaluation on, had it ended there, until another leads or more runs
- * change what it is worth.
+ * change what it is worth. By all gaits that were ever run: the run itself forgets those that are neither among the best nor
+ * in the population, so that now and then its winner is another one of nearly the same worth.
  *
  * @param evaluation number of the evaluation, from 0
  * @param simulated  time simulated until then, in seconds; null where the time of a whole run is not recorded

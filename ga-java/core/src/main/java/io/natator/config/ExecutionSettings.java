@@ -59,21 +59,15 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         }
     }
 
-    /** Settings for these processors, or what the commands reach. */
-    public ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
-            Duration timeout, Path cache, List<String> commands) {
-        this(simulator, mode, backend, List.of(device), workers, timeout, cache, commands, null);
-    }
-
-    /** Settings that start the program itself. */
-    public ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, int device, int workers,
-            Duration timeout, Path cache) {
-        this(simulator, mode, backend, device, workers, timeout, cache, List.of());
+    /** On all processors of this machine, by processes that stay alive; no cache, and the time limit from the scene's cost. */
+    public static ExecutionSettings of(Path simulator) {
+        return new ExecutionSettings(simulator, SimulatorMode.RESIDENT, Backend.CPU, List.of(0),
+                Runtime.getRuntime().availableProcessors(), null, null, List.of(), null);
     }
 
     /** A process for each evaluation, on the processor, without a cache. */
     public ExecutionSettings(Path simulator, int workers, Duration timeout) {
-        this(simulator, SimulatorMode.PROCESS, Backend.CPU, 0, workers, timeout, null);
+        this(simulator, SimulatorMode.PROCESS, Backend.CPU, List.of(0), workers, timeout, null, List.of(), null);
     }
 
     /** The first GPU, for what needs no more than one. */
@@ -115,6 +109,21 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
     /** These settings on another backend. */
     public ExecutionSettings withBackend(Backend newBackend) {
         return new ExecutionSettings(simulator, mode, newBackend, devices, workers, timeout, cache, commands, master);
+    }
+
+    /** These settings on other GPUs, by their numbers. */
+    public ExecutionSettings withDevices(List<Integer> newDevices) {
+        return new ExecutionSettings(simulator, mode, backend, newDevices, workers, timeout, cache, commands, master);
+    }
+
+    /** These settings with another number of evaluations at the same time. */
+    public ExecutionSettings withWorkers(int newWorkers) {
+        return new ExecutionSettings(simulator, mode, backend, devices, newWorkers, timeout, cache, commands, master);
+    }
+
+    /** These settings in mode spark with a master, or null for the one that the program was submitted to. */
+    public ExecutionSettings withMaster(String newMaster) {
+        return new ExecutionSettings(simulator, SimulatorMode.SPARK, backend, devices, workers, timeout, cache, commands, newMaster);
     }
 
     /** These settings with a time limit. */

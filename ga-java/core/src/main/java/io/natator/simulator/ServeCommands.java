@@ -144,8 +144,7 @@ final class ServeCommands {
     /** The swim that all are compared by, a short one of the first that was asked for. */
     private synchronized Sample sampleOf(SimulationRequest request) throws SimulatorFailure, InterruptedException {
         if (sample == null) {
-            SimulationRequest cut = new SimulationRequest(request.id(), request.scene(), request.gait(), SAMPLE,
-                    request.scheme(), request.overrides(), request.perturbation(), request.start());
+            SimulationRequest cut = request.withDuration(SAMPLE);
             String hash = null;
             if (settings.backend() == Backend.CPU) {
                 try (ProcessSimulator own = new ProcessSimulator(settings)) {

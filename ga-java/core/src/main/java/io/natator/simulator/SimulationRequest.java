@@ -35,6 +35,11 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
         this(id, scene, gait, duration, scheme, overrides, perturbation, null);
     }
 
+    /** A gait in a scene as it is, or null where nothing has muscles. */
+    public static SimulationRequest of(String scene, Gait gait) {
+        return new SimulationRequest(0, scene, gait, null, null, null);
+    }
+
     /**
      * What a run asks of a swimmer, from the scene's own start.
      *
@@ -53,6 +58,11 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
     /** This request for another time in seconds, or null for the scene's own. */
     public SimulationRequest withDuration(Double newDuration) {
         return new SimulationRequest(id, scene, gait, newDuration, scheme, overrides, perturbation, start);
+    }
+
+    /** This request in another scheme, or null for the scene's own. */
+    public SimulationRequest withScheme(Scheme newScheme) {
+        return new SimulationRequest(id, scene, gait, duration, newScheme, overrides, perturbation, start);
     }
 
     /** This request with another id. */

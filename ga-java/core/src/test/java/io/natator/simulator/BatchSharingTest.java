@@ -4,7 +4,6 @@ import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
@@ -42,8 +41,8 @@ class BatchSharingTest {
     }
 
     private Evaluator open(String... commands) throws InterruptedException {
-        return Evaluator.open(new ExecutionSettings(fake, SimulatorMode.BATCH, Backend.CPU, 0, 2, Duration.ofMinutes(5), null,
-                List.of(commands)));
+        return Evaluator.open(ExecutionSettings.of(fake).withMode(SimulatorMode.BATCH).withTimeout(Duration.ofMinutes(5))
+                .withCommands(List.of(commands)));
     }
 
     /** Keeps what it is asked in the file `name`: a swim to compare programs by at each start, then the shares. */

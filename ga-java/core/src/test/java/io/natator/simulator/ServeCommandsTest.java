@@ -37,7 +37,7 @@ class ServeCommandsTest {
     }
 
     private ExecutionSettings settings(SimulatorMode mode, String... commands) {
-        return new ExecutionSettings(fake, mode, Backend.CPU, 0, 2, Duration.ofMinutes(5), null, List.of(commands));
+        return new ExecutionSettings(fake, mode, Backend.CPU, List.of(0), 2, Duration.ofMinutes(5), null, List.of(commands), null);
     }
 
     /** A command that leaves a line in the file `name` when it is started. */

@@ -47,8 +47,8 @@ final class ExecutorSimulator {
     private ExecutorSimulator(Key key) {
         this.program = key.program;
         boolean alone = key.backend == Backend.CPU;
-        this.settings = new ExecutionSettings(key.program, alone ? SimulatorMode.RESIDENT : SimulatorMode.BATCH, key.backend,
-                key.device, 1, Duration.ofMillis(key.timeout), null);
+        this.settings = ExecutionSettings.of(key.program).withMode(alone ? SimulatorMode.RESIDENT : SimulatorMode.BATCH)
+                .withBackend(key.backend).withDevices(List.of(key.device)).withWorkers(1).withTimeout(Duration.ofMillis(key.timeout));
         this.resident = alone ? new ResidentSimulator(settings) : null;
         this.batches = alone ? null : new BatchSimulator(settings);
     }

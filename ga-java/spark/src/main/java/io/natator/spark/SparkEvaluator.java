@@ -114,8 +114,7 @@ final class SparkEvaluator implements Evaluator {
     private synchronized Mission missionFor(SimulationRequest request) throws InterruptedException {
         if (mission == null) {
             boolean here = execution.backend() == Backend.CPU;
-            SimulationRequest cut = new SimulationRequest(request.id(), request.scene(), request.gait(), SAMPLE,
-                    request.scheme(), request.overrides(), request.perturbation(), request.start());
+            SimulationRequest cut = request.withDuration(SAMPLE);
             String hash = here ? swim(cut) : null;
             Mission first = new Mission(cluster.send("natator-sim", execution.simulator()), Sha256.of(execution.simulator()),
                     here ? ProgramInfo.of(execution.simulator()).instructionSet() : null, execution.backend(),

@@ -63,12 +63,18 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         return generations.stream().mapToInt(GenerationSummary::evaluations).sum();
     }
 
-    /** Best fitness after each evaluation. */
+    /**
+     * Best fitness after each evaluation: until the last by all that was known of all gaits, then what the run's winner was worth.
+     * A run itself forgets gaits that were among the best only for a while, and may end with another one.
+     */
     double[] curve() {
         double[] curve = new double[evaluations()];
         for (int i = 0; i < improvements.size(); i++) {
             int end = i + 1 < improvements.size() ? improvements.get(i + 1).evaluation() : curve.length;
             Arrays.fill(curve, improvements.get(i).evaluation(), end, improvements.get(i).fitness());
+        }
+        if (curve.length > 0 && best != null && best.selected() != null) {
+            curve[curve.length - 1] = best.selected();
         }
         return curve;
     }
@@ -103,7 +109,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
     /** What the best gait was worth when it was chosen. */
     double selected() {
         double[] curve = curve();
-        return best != null && best.selected() != null ? best.selected() : curve.length == 0 ? 0 : curve[curve.length - 1];
+        return curve.length == 0 ? 0 : curve[curve.length - 1];
     }
 
     /** What the best gait does from fresh starts; null in old studies. */

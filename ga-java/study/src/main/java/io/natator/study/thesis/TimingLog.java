@@ -1,9 +1,7 @@
 package io.natator.study.thesis;
 
-import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
-import io.natator.config.SimulatorMode;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.Sha256;
@@ -68,8 +66,7 @@ final class TimingLog implements AutoCloseable {
         }
         String program = Sha256.of(execution.simulator());
         String machine = System.getProperty("os.arch") + ", " + ProgramInfo.of(execution.simulator()).instructionSet();
-        ExecutionSettings alone = new ExecutionSettings(execution.simulator(), SimulatorMode.RESIDENT, Backend.CPU, 0, 1,
-                execution.timeout(), null);
+        ExecutionSettings alone = ExecutionSettings.of(execution.simulator()).withWorkers(1).withTimeout(execution.timeout());
         try (Evaluator evaluator = Evaluator.open(alone)) {
             for (Experiment experiment : missing) {
                 SimulationRequest request = timed(experiment.request());
