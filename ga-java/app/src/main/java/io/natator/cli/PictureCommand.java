@@ -1,28 +1,15 @@
 package io.natator.cli;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
-import io.natator.config.MergePatch;
 import io.natator.file.OutputFile;
 import io.natator.picture.From;
 import io.natator.picture.PictureOptions;
-import io.natator.picture.SwimPicture;
-import io.natator.replay.Replay;
-import io.natator.replay.ReplayRecorder;
-import io.natator.simulator.SceneInfo;
-import io.natator.stream.StreamFrame;
-import io.natator.stream.StreamOptions;
-import java.awt.image.BufferedImage;
-import java.io.ByteArrayOutputStream;
-import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.Locale;
 import java.util.concurrent.Callable;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
-import javax.imageio.ImageIO;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
@@ -99,12 +86,10 @@ final class PictureCommand implements Callable<Integer> {
             throw new InvalidInputException("--output is " + file + "; expected a name that ends in .png");
         }
         OutputFile png = OutputFile.of(file);
-        Replay swim = recorded(swimmer, simulatorOption.path());
-        StreamFrame frame = swim.frames().get(swim.frames().size() - 1);
-        BufferedImage picture = SwimPicture.draw(swim.scene(), frame, options);
-        png.write(bytes(picture));
-        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %d x %d pixels, at %.2f s%n", file, picture.getWidth(),
-                picture.getHeight(), frame.time());
+        DrawnSwim swim = DrawnSwim.of(swimmer, changes.overrides(), changes.scheme(), at, options, simulatorOption.path());
+        png.write(swim.png());
+        spec.commandLine().getOut().printf(Locale.ROOT, "%s: %d x %d pixels, at %.2f s%n", file, swim.picture().getWidth(),
+                swim.picture().getHeight(), swim.time());
         return ExitCode.OK;
     }
 
@@ -122,30 +107,5 @@ final class PictureCommand implements Callable<Integer> {
         }
         throw new InvalidInputException("--size is " + size + "; expected pixels as 1200x800, each from "
                 + PictureOptions.LEAST + " to " + PictureOptions.MOST);
-    }
-
-    /** The swim's first frame and that at the time of the picture. */
-    private Replay recorded(SwimSource swimmer, Path simulator) throws InterruptedException {
-        JsonNode overrides = MergePatch.both(swimmer.overrides(), changes.overrides());
-        double duration = swimmer.seconds(null, overrides, simulator);
-        double step = SceneInfo.of(swimmer.scene(), overrides, simulator).timeStep();
-        double time = at != null ? at : swimmer.gait() == null ? 0 : Math.min(1, duration);
-        if (!(time >= 0 && time <= duration)) {
-            throw new InvalidInputException("--at is " + time + "; expected a time of the swim, 0 to " + duration + " s");
-        }
-        int frames = (int) Math.round(time / step);
-        StreamOptions options = StreamOptions.recording(swimmer.scene(), overrides, swimmer.gaitJson(), frames * step)
-                .with(changes.scheme() != null ? changes.scheme() : swimmer.scheme(), null).withEvery(Math.max(1, frames));
-        return new ReplayRecorder(simulator).record(swimmer.name(), options);
-    }
-
-    private static byte[] bytes(BufferedImage picture) {
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-        try {
-            ImageIO.write(picture, "png", bytes);
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
-        return bytes.toByteArray();
     }
 }

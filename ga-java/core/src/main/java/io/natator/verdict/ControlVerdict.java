@@ -75,7 +75,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
     }
 
     /** Share of its way in water, less the dead body's drift in both. */
-    private static double left(SwimSample sample, Controls controls) {
+    static double left(SwimSample sample, Controls controls) {
         return (sample.distance().mean() - controls.resting().distance().mean()) / controls.net();
     }
 

@@ -24,9 +24,11 @@ import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
 import io.natator.verdict.ControlVerdict;
 import io.natator.verdict.FreshText;
+import io.natator.verdict.Measure;
 import io.natator.verdict.Mechanics;
 import io.natator.verdict.Reproduction;
 import io.natator.verdict.Verdict;
+import io.natator.verdict.WinnerFacts;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -34,16 +36,27 @@ import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Locale;
+import java.util.Map;
 import java.util.stream.Collectors;
 
 /** What came of a run: its best gait recorded once more, with the thesis' pictures and numbers. */
 public final class GaitReport {
 
-    private final StoredRun run;
     private static final double ROUNDING = 1e-5;
+    private static final Map<Measure.Outcome, String> OUTCOMES = Map.of(Measure.Outcome.HOLDS, "✔ holds", Measure.Outcome.FAILS,
+            "✘ does not", Measure.Outcome.NOT_MEASURED, "– not measured");
 
+    private final StoredRun run;
     private final Path folder;
     private String difference;
+
+    /** Draws the swimmer of the report. */
+    @FunctionalInterface
+    public interface Portrait {
+
+        /** Writes a PNG file. */
+        void draw(Path png) throws IOException, InterruptedException;
+    }
 
     /**
      * A report on a run.
@@ -63,31 +76,58 @@ public final class GaitReport {
      * Records the best gait on the processor, draws and writes.
      *
      * @param execution with a time limit
+     * @param portrait  draws the swimmer
      * @return the Markdown page
      * @throws IOException          if a file cannot be written
      * @throws InterruptedException if the calling thread is interrupted
      */
-    public Path write(ExecutionSettings execution) throws IOException, InterruptedException {
+    public Path write(ExecutionSettings execution, Portrait portrait) throws IOException, InterruptedException {
         EvolutionSettings settings = run.settings();
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
         SimulationRequest request = SimulationRequest.of(0, settings, run.best().swimmer()).withChange(runningOn());
         Recording recording = RecordingFactory.of(request, duration / 2, execution);
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
-        progress(page);
-        Verdict verdict = Verdict.of(run.best());
-        page.text("**" + verdict.text() + "**" + (run.best().fresh() == null ? " (one run, not a mean)." : ".")
-                + (verdict.advice() == null ? "" : " To go on: " + verdict.advice() + "."));
-        Controls controls = Controls.of(run.directory(), run.best().swimmer());
-        page.text(controls == null ? "Its controls were not run; `natator check " + run.directory() + "` runs them."
-                : "By its controls (`natator check`): **" + ControlVerdict.of(controls).text() + "**.");
         difference = difference(recording, execution);
-        if (difference != null) {
-            page.text(difference + ".");
-        }
-        pictures(page, recording);
+        answer(page);
+        Files.createDirectories(folder);
+        Path swimmer = folder.resolve("swimmer.png");
+        portrait.draw(swimmer);
+        page.picture(swimmer, "the swimmer in its tank");
+        page.table(List.of("measure", "value", "of a swimmer", "outcome"), Measure.of(run.best(), controls()).stream()
+                .map(one -> List.of(one.name(), one.value(), one.expected(), OUTCOMES.get(one.outcome()))).toList());
+        page.text("After ± stands a standard deviation. In this report:").contents();
+        course(page);
+        motion(page, recording);
+        flow(page, recording);
         numbers(page, recording);
         return page.write("README.md");
+    }
+
+    private Controls controls() {
+        return Controls.of(run.directory(), run.best().swimmer());
+    }
+
+    /** What came of it, in a few sentences. */
+    private void answer(ReportDocument page) {
+        progress(page);
+        Verdict verdict = Verdict.of(run.best());
+        Controls controls = controls();
+        Map<String, String> facts = WinnerFacts.of(run.directory(), run.best());
+        List<String> sentences = new ArrayList<>();
+        sentences.add("**The best gait " + verdict.text() + "**" + (run.best().fresh() == null ? " (one run, not a mean)." : "."));
+        if (run.best().fresh() != null && run.best().fresh().base().perBeat() != null) {
+            sentences.add("It gets " + Numbers.significant(run.best().fresh().base().perBeat().mean(), 3)
+                    + " body lengths further in a beat, at " + Numbers.significant(run.best().gait().frequency(), 3) + " beats a second.");
+        }
+        sentences.add(controls == null ? "Its controls were not run; `natator check " + run.directory() + "` runs them."
+                : "By its controls it " + ControlVerdict.of(controls).text() + ".");
+        if (facts.containsKey("cost")) {
+            String cost = facts.get("cost");
+            sentences.add(cost.substring(0, 1).toUpperCase(Locale.ROOT) + cost.substring(1) + ".");
+        }
+        sentences.add(difference != null ? difference + "." : verdict.advice() != null ? "To go on: " + verdict.advice() + "." : "");
+        page.text(String.join(" ", sentences).strip());
     }
 
     /** Once written: what today's program did otherwise than the run has stored, on one line; null if nothing. */
@@ -121,8 +161,8 @@ public final class GaitReport {
         }
     }
 
-    private void pictures(ReportDocument page, Recording recording) throws IOException {
-        Files.createDirectories(folder);
+    private void course(ReportDocument page) throws IOException {
+        page.heading(2, "Course of the run");
         FitnessPlot.draw(run.settings().scene() + ", seed " + run.settings().seed(), run.state().history(), folder);
         page.picture(folder.resolve("fitness.png"), "fitness over generations");
         List<Individual> front = run.front();
@@ -136,12 +176,21 @@ public final class GaitReport {
             page.picture(EliteMapPlot.draw(elites, folder.resolve("elites")),
                     "worth of the best gait of each kind, by beats per body length and cost of transport");
         }
+    }
+
+    private void motion(ReportDocument page, Recording recording) throws IOException {
         MotionPlots plots = new MotionPlots(run.settings().scene(), recording, folder);
-        page.picture(plots.position("position"), "position over time");
+        page.heading(2, "Motion").picture(plots.position("position"), "position over time");
         page.picture(plots.rotation("rotation"), "rotation over time");
         page.picture(plots.spines("spines"), "spine in four phases with its envelope");
-        page.picture(plots.envelopes("envelopes"), "envelope against real fish");
+        page.heading(2, "Beside real fish").picture(plots.envelopes("envelopes"), "envelope against real fish");
         page.picture(plots.scaled("scaled", nearest(recording).mode()), "scaled against the nearest real fish");
+    }
+
+    private void flow(ReportDocument page, Recording recording) throws IOException {
+        if (!recording.flow().isEmpty()) {
+            page.heading(2, "Water");
+        }
         for (FlowField field : recording.flow()) {
             String name = "flow-" + field.view().name().toLowerCase(Locale.ROOT);
             page.picture(FlowPlot.draw(run.settings().scene(), field, folder.resolve(name)),
@@ -189,7 +238,7 @@ public final class GaitReport {
         }
         rows.add(List.of("turned at the end, θ ρ ω (degrees)", String.format(Locale.ROOT, "%.1f %.1f %.1f",
                 Math.toDegrees(end.roll()), Math.toDegrees(end.yaw()), Math.toDegrees(end.pitch()))));
-        page.heading(2, "Numbers").table(List.of("", "value"), rows);
+        page.heading(2, "Numbers").folded("all numbers", inside -> inside.table(List.of("", "value"), rows));
         page.text("e is how far the motion is from the fish's: 0 is the same motion, 1/3 is none; α scales the simulated spine; the body's roll is "
                 + "taken out. Nearest: **"
                 + nearest(recording).mode().label() + "** (of " + FishMode.values().length + ").");

@@ -7,9 +7,13 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Base64;
 import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.function.Consumer;
 import java.util.stream.Collectors;
 import org.commonmark.Extension;
 import org.commonmark.ext.gfm.tables.TablesExtension;
+import org.commonmark.node.Heading;
 import org.commonmark.node.Node;
 import org.commonmark.node.Text;
 import org.commonmark.parser.Parser;
@@ -24,17 +28,27 @@ public final class ReportDocument {
     private static final String HTML = """
             <!DOCTYPE html>
             <html lang="en"><head><meta charset="utf-8"><title>%s</title>
-            <style>body{font:16px/1.45 sans-serif;max-width:64em;margin:2em auto;padding:0 1em}
-            table{border-collapse:collapse;margin:1em 0;font-size:14px}td,th{border:1px solid #bbb;padding:.2em .5em}
-            img{max-width:100%%}pre{background:#f4f4f4;padding:.6em;overflow:auto}
+            <meta name="viewport" content="width=device-width">
+            <style>:root{color-scheme:light dark;--line:#bbb;--code:#f4f4f4;--holds:#1a7f37;--fails:#c62828;--unknown:#6e6e6e}
+            @media(prefers-color-scheme:dark){:root{--line:#555;--code:#262626;--holds:#57c47a;--fails:#ff8a80;--unknown:#a8a8a8}}
+            body{font:16px/1.45 sans-serif;max-width:64em;margin:2em auto;padding:0 1em;overflow-wrap:anywhere}
+            table{border-collapse:collapse;margin:1em 0;font-size:14px;display:block;overflow-x:auto}
+            td,th{border:1px solid var(--line);padding:.2em .5em;overflow-wrap:normal}
+            td.holds{color:var(--holds)}td.fails{color:var(--fails)}td.unknown{color:var(--unknown)}
+            img{max-width:100%%;background:#fff}pre{background:var(--code);padding:.6em;overflow:auto}
+            summary{cursor:pointer;margin:1em 0}
             </style></head><body>
             %s</body></html>
             """;
+    private static final String CONTENTS = "\0";
+    /** Words that a table's field says an outcome by, and the class that colours it. */
+    private static final Map<String, String> OUTCOMES = Map.of("✔", "holds", "✘", "fails", "–", "unknown");
     private static final List<Extension> TABLES = List.of(TablesExtension.create());
 
     private final Path folder;
     private final String title;
     private final List<String> parts = new ArrayList<>();
+    private final List<String> sections = new ArrayList<>();
 
     /**
      * An empty page.
@@ -49,7 +63,27 @@ public final class ReportDocument {
 
     /** Adds a heading, 1 being that of the page. */
     public ReportDocument heading(int level, String text) {
+        if (level == 2) {
+            sections.add(text);
+        }
         return add("#".repeat(level) + " " + text);
+    }
+
+    /** Adds links to all headings of the second level, also to those that follow. */
+    public ReportDocument contents() {
+        return add(CONTENTS);
+    }
+
+    /**
+     * Adds what can be unfolded by a click.
+     *
+     * @param summary what it is, shown always
+     * @param content adds what is shown then
+     */
+    public ReportDocument folded(String summary, Consumer<ReportDocument> content) {
+        add("<details><summary>" + summary + "</summary>");
+        content.accept(this);
+        return add("</details>");
     }
 
     /** Adds a paragraph of Markdown. */
@@ -65,7 +99,7 @@ public final class ReportDocument {
     /**
      * Adds a table.
      *
-     * @param columns headings; the first column is text, the others are numbers
+     * @param columns headings; the first column is text, the others are numbers. What begins with ✔, ✘ or – is coloured
      * @param rows    one field per column each
      */
     public ReportDocument table(List<String> columns, List<List<String>> rows) {
@@ -106,7 +140,9 @@ public final class ReportDocument {
      * @throws IOException if a file cannot be written
      */
     public Path write(String name) throws IOException {
-        String markdown = String.join("\n\n", parts) + "\n";
+        String contents = sections.stream().map(section -> "[" + section + "](#" + anchor(section) + ")")
+                .collect(Collectors.joining(" · "));
+        String markdown = String.join("\n\n", parts).replace(CONTENTS, contents) + "\n";
         Files.createDirectories(folder);
         Files.writeString(folder.resolve("report.html"), HTML.formatted(HtmlRenderer.builder().build().render(new Text(title)), rendered(markdown)));
         return Files.writeString(folder.resolve(name), markdown);
@@ -118,8 +154,29 @@ public final class ReportDocument {
                 .attributeProviderFactory(context -> (node, tag, attributes) -> {
                     if (tag.equals("img")) {
                         attributes.computeIfPresent("src", (key, file) -> embedded(folder.resolve(file)));
+                    } else if (node instanceof Heading) {
+                        attributes.put("id", anchor(textOf(node)));
+                    } else if (tag.equals("td")) {
+                        OUTCOMES.forEach((sign, name) -> {
+                            if (textOf(node).startsWith(sign + " ")) {
+                                attributes.put("class", name);
+                            }
+                        });
                     }
                 }).build().render(document);
+    }
+
+    private static String textOf(Node node) {
+        StringBuilder text = new StringBuilder();
+        for (Node child = node.getFirstChild(); child != null; child = child.getNext()) {
+            text.append(child instanceof Text literal ? literal.getLiteral() : textOf(child));
+        }
+        return text.toString();
+    }
+
+    /** What a heading is linked to by, as where Markdown is shown on the web. */
+    private static String anchor(String heading) {
+        return heading.toLowerCase(Locale.ROOT).replaceAll("[^\\p{L}\\p{N} _-]", "").replace(' ', '-');
     }
 
     private static String embedded(Path png) {

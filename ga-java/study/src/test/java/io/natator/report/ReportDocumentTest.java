@@ -45,9 +45,32 @@ class ReportDocumentTest {
                 ```
                 """);
         String html = Files.readString(folder.resolve("report.html"));
-        assertThat(html).contains("<title>Title &amp; more</title>", "<h1>Title &amp; more</h1>",
+        assertThat(html).contains("<title>Title &amp; more</title>", ">Title &amp; more</h1>",
                 "<strong>bold</strong> <code>code</code>", "<td>a &lt; b</td>",
                 "<td align=\"right\">1</td>", "src=\"data:image/png;base64,", "<li>one</li>", "<pre><code>run it")
                 .doesNotContain("not there", "src=\"plots");
+    }
+
+    @Test
+    void linksToItsSectionsAndTellsOutcomesByWordAndColour() throws IOException {
+        Path page = new ReportDocument(folder, "Title").contents().heading(2, "Beside real fish")
+                .table(List.of("what", "outcome"), List.of(List.of("way", "✔ holds"), List.of("mirrored", "✘ does not"),
+                        List.of("rest", "– not measured"), List.of("loss", "5 %")))
+                .heading(2, "All α, in numbers").write("README.md");
+
+        assertThat(Files.readString(page))
+                .contains("[Beside real fish](#beside-real-fish) · [All α, in numbers](#all-α-in-numbers)");
+        assertThat(Files.readString(folder.resolve("report.html"))).contains("<h2 id=\"beside-real-fish\">",
+                "<h2 id=\"all-α-in-numbers\">", "class=\"holds\">✔ holds", "class=\"fails\">✘ does not",
+                "class=\"unknown\">– not measured", "<td align=\"right\">5 %");
+    }
+
+    @Test
+    void foldsWhatFewWillRead() throws IOException {
+        new ReportDocument(folder, "Title")
+                .folded("all numbers", page -> page.table(List.of("what", "value"), List.of(List.of("a", "1")))).write("README.md");
+
+        assertThat(Files.readString(folder.resolve("report.html")))
+                .containsSubsequence("<details><summary>all numbers</summary>", "<table>", "<td>a</td>", "</details>");
     }
 }
