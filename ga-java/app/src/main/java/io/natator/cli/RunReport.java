@@ -8,8 +8,8 @@ import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.FreshText;
-import io.natator.verdict.Mechanics;
 import io.natator.verdict.Verdict;
+import io.natator.verdict.WinnerFacts;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
@@ -62,10 +62,7 @@ final class RunReport {
         if (fresh.isEmpty()) {
             line("speed", number(best.speed()) + " units/s");
         }
-        String mechanics = Mechanics.of(best);
-        if (mechanics != null) {
-            line("mechanics", mechanics);
-        }
+        WinnerFacts.mechanics(best).forEach(this::line);
         printVacuum(best.vacuum());
         Verdict verdict = Verdict.of(best);
         line("verdict", verdict.text() + (fresh.isEmpty() ? " (one run, not a mean)" : ""));

@@ -69,7 +69,8 @@ class CommandLineTest {
                         "  try more --generations", "natator view --run " + folder.resolve("run"),
                         "natator page " + folder.resolve("run"),
                         "frequency", "amplitude", "phase", "distance", "speed",
-                        "  mechanics   Re 131, St 0.313, work 0.75\n", "in vacuum",
+                        "  cost        work of the muscles 0.75 mass · length²/s²\n",
+                        "  flow        Reynolds number 131, Strouhal number 0.313\n", "in vacuum",
                         "run folder  " + folder.resolve("run"));
         assertThat(err.toString().lines()).hasSize(4).allSatisfy(line -> assertThat(line)
                 .matches("generation \\d of 3, mean -?\\d\\.\\d{4}, best -?\\d\\.\\d{4}, evaluations \\d+ of (about )?\\d+, "
@@ -348,7 +349,7 @@ class CommandLineTest {
 
         assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
         assertThat(out.toString()).contains("best gait of pool/creature-1 after 3 generations",
-                "  mechanics   Re 131, St 0.313, swimming number 410, work 0.75\n");
+                "  flow        Reynolds number 131, Strouhal number 0.313\n");
 
         assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
         assertThat(file("run", "best.json")).isEqualTo(best);

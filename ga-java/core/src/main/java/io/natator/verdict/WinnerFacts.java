@@ -41,6 +41,13 @@ public final class WinnerFacts {
                 facts.put(about, fresh.get(about));
             }
         }
+        facts.putAll(mechanics(best));
+        return facts;
+    }
+
+    /** What it costs ({@code cost}) and how it compares with animals of other sizes ({@code flow}), as far as that is known. */
+    public static Map<String, String> mechanics(BestGait best) {
+        Map<String, String> facts = new LinkedHashMap<>();
         if (best.fresh() != null) {
             SwimSample base = best.fresh().base();
             put(facts, "cost", cost(base.work(), base.costOfTransport()));

@@ -25,7 +25,6 @@ import io.natator.simulator.SimulationRequest;
 import io.natator.verdict.ControlVerdict;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Measure;
-import io.natator.verdict.Mechanics;
 import io.natator.verdict.Reproduction;
 import io.natator.verdict.Verdict;
 import io.natator.verdict.WinnerFacts;
@@ -225,10 +224,7 @@ public final class GaitReport {
             rows.add(List.of("speed in fluid (units/s), one run", number(best.speed())));
             rows.add(List.of("speed in fluid (body lengths/s), one run", number(best.speed() / length)));
         }
-        String mechanics = Mechanics.of(best);
-        if (mechanics != null) {
-            rows.add(List.of("mechanics", mechanics));
-        }
+        WinnerFacts.mechanics(best).forEach((name, text) -> rows.add(List.of(name, text)));
         if (best.vacuum() != null) {
             rows.add(List.of("speed in vacuum (units/s)", number(best.vacuum().speed())));
         }
