@@ -28,7 +28,7 @@ import picocli.CommandLine.Spec;
             "Writes README.md, report.html and the pictures."})
 final class ReportCommand implements Callable<Integer> {
 
-    private static final PictureOptions PORTRAIT = new PictureOptions(From.THREE_QUARTER, 900, 480, true);
+    private static final PictureOptions PORTRAIT = new PictureOptions(From.THREE_QUARTER, 900, 400, true);
 
     @Spec
     private CommandSpec spec;

@@ -132,8 +132,8 @@ class RealSimulatorTest {
         assertThat(out.toString()).contains(line);
         assertThat(run.resolve("report").resolve(picture)).isNotEmptyFile();
         assertThat(run.resolve("report/README.md")).content().contains(picture, "fresh starts").containsSubsequence("# ",
-                "**The best gait ", "`natator check " + run + "` runs them", "](swimmer.png)", "| way, ", "– not measured",
-                "](#course-of-the-run)", "## Course of the run", "## Numbers");
+                "**The best gait ", "`natator check " + run + "` runs them", "](#course-of-the-run)", "](swimmer.png)", "| way, ",
+                "– not measured", "## Course of the run", "## Numbers");
         assertThat(run.resolve("report/swimmer.png")).isNotEmptyFile();
     }
 

@@ -22,7 +22,11 @@ public final class FlowPlot {
 
     private static final double SCALE = 180;
     private static final int MARGIN = 30;
-    private static final int HEAD = 46;
+    private static final int HEAD = 62;
+    /** Below the field, for its scale. */
+    private static final int FOOT = 16;
+    /** For the text above the field. */
+    private static final int LEAST_WIDTH = 520;
     /** Levels of colour to either side, so that few different colours make a small file. */
     private static final int LEVELS = 8;
 
@@ -48,8 +52,8 @@ public final class FlowPlot {
         }
         this.fastest = speed;
         this.strongest = vorticity;
-        this.width = (int) (2 * MARGIN + SCALE * FlowField.CELL * field.columns());
-        this.height = (int) (HEAD + 2 * MARGIN + SCALE * FlowField.CELL * field.rows());
+        this.width = (int) Math.max(LEAST_WIDTH, 2 * MARGIN + SCALE * FlowField.CELL * field.columns());
+        this.height = (int) (HEAD + 2 * MARGIN + FOOT + SCALE * FlowField.CELL * field.rows());
     }
 
     /**
@@ -79,8 +83,10 @@ public final class FlowPlot {
         graphics.drawString(String.format(Locale.ROOT, "%s, %s, at %.2f s", title, field.view().label(), field.time()),
                 MARGIN, 20);
         graphics.setFont(new Font(Font.SANS_SERIF, Font.PLAIN, 12));
-        graphics.drawString(String.format(Locale.ROOT, "longest arrow %.2f units/s; red turns against the clock, blue with it, "
-                + "darkest %.1f 1/s", fastest, strongest), MARGIN, 38);
+        graphics.drawString(String.format(Locale.ROOT, "longest arrow %.2f units/s; colour: vorticity, darkest %.1f 1/s", fastest,
+                strongest), MARGIN, 38);
+        graphics.drawString("red turns against the clock, blue with it; grey: the body", MARGIN, 54);
+        drawScale(graphics);
         for (int i = 0; i < field.columns(); i++) {
             for (int k = 0; k < field.rows(); k++) {
                 drawVorticity(graphics, i, k);
@@ -91,6 +97,13 @@ public final class FlowPlot {
             graphics.fill(new Ellipse2D.Double(x(place[0]) - 3, y(place[1]) - 3, 6, 6));
         }
         drawArrows(graphics);
+    }
+
+    /** A bar of half a unit below the field. */
+    private void drawScale(Graphics2D graphics) {
+        int bottom = height - 10;
+        graphics.fill(new Rectangle2D.Double(MARGIN, bottom - 4, SCALE / 2, 3));
+        graphics.drawString("0.5 units", (int) (MARGIN + SCALE / 2 + 8), bottom);
     }
 
     private void drawVorticity(Graphics2D graphics, int column, int row) {
@@ -154,6 +167,6 @@ public final class FlowPlot {
 
     private double y(double place) {
         double fromFirst = SCALE * (place - field.origin()[1] + FlowField.CELL / 2);
-        return downwards() > 0 ? HEAD + MARGIN + fromFirst : height - MARGIN - fromFirst;
+        return downwards() > 0 ? HEAD + MARGIN + fromFirst : height - FOOT - MARGIN - fromFirst;
     }
 }

@@ -89,13 +89,14 @@ public final class GaitReport {
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         difference = difference(recording, execution);
         answer(page);
+        page.contents();
         Files.createDirectories(folder);
         Path swimmer = folder.resolve("swimmer.png");
         portrait.draw(swimmer);
         page.picture(swimmer, "the swimmer in its tank");
-        page.table(List.of("measure", "value", "of a swimmer", "outcome"), Measure.of(run.best(), controls()).stream()
+        page.words(List.of("measure", "value", "of a swimmer", "outcome"), Measure.of(run.best(), controls()).stream()
                 .map(one -> List.of(one.name(), one.value(), one.expected(), OUTCOMES.get(one.outcome()))).toList());
-        page.text("After ± stands a standard deviation. In this report:").contents();
+        page.text("After ± stands a standard deviation.");
         course(page);
         motion(page, recording);
         flow(page, recording);

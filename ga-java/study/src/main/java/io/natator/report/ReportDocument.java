@@ -103,7 +103,16 @@ public final class ReportDocument {
      * @param rows    one field per column each
      */
     public ReportDocument table(List<String> columns, List<List<String>> rows) {
-        return add(row(columns) + "\n| ---" + " | ---:".repeat(columns.size() - 1) + " |"
+        return table(columns, " | ---:", rows);
+    }
+
+    /** Adds a table of text alone, see {@link #table}. */
+    public ReportDocument words(List<String> columns, List<List<String>> rows) {
+        return table(columns, " | ---", rows);
+    }
+
+    private ReportDocument table(List<String> columns, String alignment, List<List<String>> rows) {
+        return add(row(columns) + "\n| ---" + alignment.repeat(columns.size() - 1) + " |"
                 + rows.stream().map(fields -> "\n" + row(fields)).collect(Collectors.joining()));
     }
 
