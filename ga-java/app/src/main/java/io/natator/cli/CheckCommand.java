@@ -1,7 +1,5 @@
 package io.natator.cli;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
@@ -65,18 +63,11 @@ final class CheckCommand implements Callable<Integer> {
                 cacheOptions.in(executionOptions.execution(settings.backend())), settings);
         Swimmer swimmer = run.best().swimmer();
         Controls controls = new ControlRuns(settings, execution, starts).of(swimmer);
-        Double underWater = WaterCheck.shareUnderWater(runningOn(settings, swimmer),
+        Double underWater = WaterCheck.shareUnderWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),
                 List.of(controls.duration() / 2, controls.duration()), execution);
         Controls all = controls.withUnderWater(underWater);
         all.write(folder);
         new ControlReport(spec.commandLine().getOut()).print(all);
         return ExitCode.OK;
-    }
-
-    /** The swim from the scene's own start, without early stops. */
-    private static SimulationRequest runningOn(EvolutionSettings settings, Swimmer swimmer) {
-        ObjectNode patch = JsonNodeFactory.instance.objectNode();
-        patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
-        return SimulationRequest.of(0, settings, swimmer).withChange(patch);
     }
 }

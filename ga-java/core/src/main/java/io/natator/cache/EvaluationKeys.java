@@ -28,8 +28,7 @@ final class EvaluationKeys {
         program.put("instructionSet", info.instructionSet());
         program.put("backend", execution.backend());
         if (execution.backend() != Backend.CPU) {
-            program.put("device", info.devices().stream()
-                    .filter(device -> device.startsWith(execution.device() + ":")).findFirst().orElse("none"));
+            program.put("device", info.device(execution.device()).orElse("none"));
         }
     }
 

@@ -31,7 +31,7 @@ public record Program(String version, String commit, String instructionSet, Back
     /** The program at a path. */
     public static Program at(Path simulator, Backend backend, int device) throws InterruptedException {
         ProgramInfo info = ProgramInfo.of(simulator);
-        String gpu = backend != Backend.CPU && device < info.devices().size() ? info.devices().get(device) : null;
+        String gpu = backend != Backend.CPU ? info.device(device).orElse(null) : null;
         return new Program(info.version(), info.commit(), info.instructionSet(), backend, gpu, Sha256.of(simulator));
     }
 

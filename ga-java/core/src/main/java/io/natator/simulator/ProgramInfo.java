@@ -9,6 +9,7 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Arrays;
 import java.util.List;
+import java.util.Optional;
 import java.util.stream.IntStream;
 
 /**
@@ -65,7 +66,7 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
             throw new InvalidInputException("--device is " + choice + "; expected a GPU's number, several with commas between "
                     + "them, or all");
         }
-        List<String> kinds = numbers.stream().filter(number -> number < devices.size()).map(this::kind).distinct().toList();
+        List<String> kinds = numbers.stream().flatMap(number -> kind(number).stream()).distinct().toList();
         if (kinds.size() > 1) {
             throw new InvalidInputException("--device " + choice + " are GPUs of several kinds (" + String.join("; ", kinds)
                     + "), whose last digits differ; expected some of one kind");
@@ -73,9 +74,14 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
         return numbers;
     }
 
+    /** A GPU's description, with its number. */
+    public Optional<String> device(int number) {
+        return devices.stream().filter(device -> device.startsWith(number + ":")).findFirst();
+    }
+
     /** A GPU's description without its number. */
-    private String kind(int device) {
-        return devices.get(device).replaceFirst("^\\d+: ", "");
+    public Optional<String> kind(int number) {
+        return device(number).map(device -> device.substring(device.indexOf(':') + 1).strip());
     }
 
     /**

@@ -2,6 +2,8 @@ package io.natator.simulator;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Swimmer;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.MergePatch;
@@ -58,6 +60,13 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
     /** This request for another time in seconds, or null for the scene's own. */
     public SimulationRequest withDuration(Double newDuration) {
         return new SimulationRequest(id, scene, gait, newDuration, scheme, overrides, perturbation, start);
+    }
+
+    /** This request without early stops. */
+    public SimulationRequest withoutStops() {
+        ObjectNode patch = JsonNodeFactory.instance.objectNode();
+        patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
+        return withChange(patch);
     }
 
     /** This request in another scheme, or null for the scene's own. */

@@ -108,9 +108,7 @@ final class ExecutorSimulator {
 
     /** The name without the number, or null on the processor. */
     private String gpu() {
-        return settings.backend() == Backend.CPU ? null : info.devices().stream()
-                .filter(device -> device.startsWith(settings.device() + ":"))
-                .map(device -> device.substring(device.indexOf(':') + 1).strip()).findFirst().orElse("none");
+        return settings.backend() == Backend.CPU ? null : info.kind(settings.device()).orElse("none");
     }
 
     private SimulationResult swim(SimulationRequest sample) throws UnfitExecutorException, InterruptedException {

@@ -1,7 +1,5 @@
 package io.natator.report;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.BodyText;
 import io.natator.body.ProfileBody;
 import io.natator.checkpoint.BestGait;
@@ -84,7 +82,7 @@ public final class GaitReport {
         EvolutionSettings settings = run.settings();
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
-        SimulationRequest request = SimulationRequest.of(0, settings, run.best().swimmer()).withChange(runningOn());
+        SimulationRequest request = SimulationRequest.of(0, settings, run.best().swimmer()).withoutStops();
         Recording recording = RecordingFactory.of(request, duration / 2, execution);
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         difference = difference(recording, execution);
@@ -141,13 +139,6 @@ public final class GaitReport {
         int last = (int) stored.lastFrame();
         return last < 0 || last >= centres.length ? null
                 : stored.difference(centres[last][0] - centres[0][0], ROUNDING);
-    }
-
-    /** The same scene without early stops. */
-    private static ObjectNode runningOn() {
-        ObjectNode patch = JsonNodeFactory.instance.objectNode();
-        patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
-        return patch;
     }
 
     /** Whoever reads of a run that is not finished is told so first. */
