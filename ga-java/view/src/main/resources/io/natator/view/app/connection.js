@@ -15,6 +15,8 @@ export class Connection {
   #start;
   #socket = null;
   #waiting = new Map();
+  /** Sends what was asked for while the connection was being opened. */
+  #whenOpen = [];
   #nextId = 1;
   #granted = 0;
   #frames = [];
@@ -37,11 +39,14 @@ export class Connection {
   }
 
   /**
-   * Sends a command.
+   * Sends a command, after the start if the connection is only being opened.
    *
    * @returns {Promise<string|null>} the error that the simulator answers with, or null
    */
   send(command) {
+    if (this.#socket?.readyState === WebSocket.CONNECTING) {
+      return new Promise(resolve => this.#whenOpen.push(() => this.send(command).then(resolve)));
+    }
     if (!this.isOpen) {
       return Promise.resolve('not connected');
     }
@@ -79,6 +84,7 @@ export class Connection {
   #opened() {
     this.#retryMs = FIRST_RETRY_MS;
     this.begin();
+    this.#sendWaiting();
     this.#handlers.status('open', 'connected');
   }
 
@@ -151,8 +157,13 @@ export class Connection {
     waiting.forEach(resolve => resolve(error));
   }
 
+  #sendWaiting() {
+    this.#whenOpen.splice(0).forEach(send => send());
+  }
+
   #lost(reason) {
     this.#forgetFrames();
+    this.#sendWaiting();
     this.#answerAll('the connection was lost');
     if (this.#closed) {
       return;
