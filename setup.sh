@@ -9,7 +9,8 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers]
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
   --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there
   --readers also what the tests read exports back and try the Python client with: pyvista, plyfile, USD, numpy,
-            gymnasium and pycma, from PyPI into .readers (1 GB)
+            gymnasium and pycma, from PyPI into .readers (1 GB); and valgrind, in which they run the program on a
+            processor without AVX-512
 TEXT
 }
 
@@ -125,6 +126,7 @@ find_missing() {
         installed "$library" || missing+=("$library")
     done
     $with_browser && ! browser_works && missing+=(chromium)
+    $with_readers && ! command -v valgrind >/dev/null && missing+=(valgrind)
     nvcc_missing=false
     if $with_cuda && ! nvcc_works; then
         nvcc_missing=true

@@ -10,8 +10,10 @@ int main(int argc, char** argv) {
     if (argc > 1 && std::string_view(argv[1]) == "bench")
         return complaining("natator-sim", [argv]() -> int { start_bench(argv + 1); });
     CLI::App app("Simulates soft swimmers in a tank of fluid.", "natator-sim");
-    app.set_version_flag("--version", std::string("natator-sim " NATATOR_VERSION ", commit ") + commit() +
-                                          ", instruction set " + to_string(natator::instruction_set()));
+    app.set_version_flag("--version", [] {
+        return std::string("natator-sim " NATATOR_VERSION ", commit ") + commit() + ", instruction set " +
+               to_string(natator::instruction_set());
+    });
     app.footer(
         "Exit codes: 0 ok, 1 failure, 2 bad usage or input, 3 unstable simulation, 4 no such device.\n"
         "Scenes are names (see `natator-sim info`) or paths ending in .json.");

@@ -68,43 +68,27 @@ const char* to_string(InstructionSet set) {
 
 namespace cpu {
 
-namespace {
-
-/// One table of kernels per instruction set that this build has.
-template <class Kernels>
-struct KernelTables {
-    Kernels portable;
-#if defined(NATATOR_X86_KERNELS)
-    Kernels avx2, avx512;
-#endif
-
-    const Kernels& of([[maybe_unused]] InstructionSet set) const {
-#if defined(NATATOR_X86_KERNELS)
-        if (set == InstructionSet::avx512) return avx512;
-        if (set == InstructionSet::avx2) return avx2;
-#endif
-        return portable;
+// A function that gives the kernels of this name for an instruction set. It calls the maker of that set alone: a maker is
+// compiled for its set as its kernels are, and a processor that lacks the set can't run it.
+#define NATATOR_MADE_BY(set, Kernels, make)                    \
+    {                                                          \
+        static const Kernels<Real> kernels = set::make<Real>(); \
+        return kernels;                                        \
     }
-};
-
 #if defined(NATATOR_X86_KERNELS)
-#define NATATOR_TABLES(make) \
-    { portable::make(), avx2::make(), avx512::make() }
+#define NATATOR_MADE_FOR_X86(set, Kernels, make)                                       \
+    if (set == InstructionSet::avx512) NATATOR_MADE_BY(avx512, Kernels, make)          \
+    if (set == InstructionSet::avx2) NATATOR_MADE_BY(avx2, Kernels, make)
 #else
-#define NATATOR_TABLES(make) \
-    { portable::make() }
+#define NATATOR_MADE_FOR_X86(set, Kernels, make)
 #endif
-
-}  // namespace
-
-// A function that gives the kernels of this name for an instruction set.
-#define NATATOR_CHOICE(Kernels, make)                                               \
-    template <class Real>                                                           \
-    const Kernels<Real>& make(InstructionSet set) {                                 \
-        static const KernelTables<Kernels<Real>> tables NATATOR_TABLES(make<Real>); \
-        return tables.of(set);                                                      \
-    }                                                                               \
-    template const Kernels<float>& make<float>(InstructionSet);                     \
+#define NATATOR_CHOICE(Kernels, make)                                   \
+    template <class Real>                                               \
+    const Kernels<Real>& make([[maybe_unused]] InstructionSet set) {    \
+        NATATOR_MADE_FOR_X86(set, Kernels, make)                        \
+        NATATOR_MADE_BY(portable, Kernels, make)                        \
+    }                                                                   \
+    template const Kernels<float>& make<float>(InstructionSet);         \
     template const Kernels<double>& make<double>(InstructionSet);
 
 NATATOR_CHOICE(FluidKernels, fluid_kernels)
