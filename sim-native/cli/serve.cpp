@@ -3,10 +3,12 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <tuple>
 
 #include "commands.h"
+#include "evaluate/side_by_side.h"
 #include "io/strict_json.h"
 #include "job.h"
 #include "line_queue.h"
@@ -37,6 +39,8 @@ struct SharedJob {
 };
 
 void answer(const nlohmann::ordered_json& result) {
+    static std::mutex one_line_at_a_time;
+    const std::scoped_lock lock(one_line_at_a_time);
     print(result.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
@@ -70,6 +74,9 @@ void evaluate_group(const std::vector<SharedJob>& group) {
     const std::vector<MemberResult> results = evaluate_members(first.scene, members, together);
     for (std::size_t k = 0; k < group.size(); ++k) answer(group[k], results[k]);
 }
+
+/// Groups that are computed at a time, so that the host's work for one goes on beside the kernels of others. More gain nothing.
+constexpr std::size_t groups_at_a_time = 4;
 
 /// The jobs of a batch of requests, each once however many requests ask for it: all but their ids is the same. Lines
 /// that are no request are answered at once.
@@ -124,7 +131,9 @@ void serve_batch(const std::vector<std::string>& lines, ServeOptions& options, T
         const Request& request = job.request;
         groups[{request.scene, request.overrides.dump(), request.precision, job.backend.device}].push_back(shared);
     }
-    for (const auto& [key, jobs] : groups) evaluate_group(jobs);
+    std::vector<const std::vector<SharedJob>*> each;
+    for (const auto& [key, jobs] : groups) each.push_back(&jobs);
+    side_by_side(each.size(), [&each](std::size_t k) { evaluate_group(*each[k]); }, groups_at_a_time);
 }
 
 int serve(ServeOptions& options) {

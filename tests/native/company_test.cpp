@@ -1,9 +1,12 @@
 // More than one body in a tank, and obstacles.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "natator/actuate.h"
+#include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/model_builder.h"
 #include "scene/scene_json.h"
@@ -98,6 +101,41 @@ TEST(Company, AnObstacleHoldsABodyUp) {
     };
     EXPECT_LT(height_at_end(fall), -1);
     EXPECT_GT(height_at_end(held), 0.25);
+}
+
+/// Particles of a bundled hoop: as many as its volume asks for, none on its axis, and where its file says it is.
+TEST(Company, AMeshIsAnObstacleOfItsForm) {
+    const auto hoop = [](const json& keys) {
+        json obstacle{{"shape", "mesh"}, {"file", "hoop.obj"}, {"unit", 0.5}, {"centre", {3, 1, 0.8}}};
+        obstacle.update(keys);
+        return load_scene("open-water/water", {{"obstacles", {obstacle}}}).obstacles.at(0);
+    };
+    const Obstacle along_x = hoop(json::object());
+    const double tube = 0.28 * 0.5, volume = 2 * std::pow(std::numbers::pi, 2) * 0.5 * tube * tube;
+    EXPECT_NEAR(static_cast<double>(along_x.points.size()) * std::pow(0.075, 3) / volume, 1, 0.05);
+    double nearest_axis = 1;
+    for (const Eigen::Vector3d& point : along_x.points) {
+        nearest_axis = std::min(nearest_axis, std::hypot(point.y(), point.z()));
+        EXPECT_LE(std::abs(point.x()), tube);
+    }
+    EXPECT_GT(nearest_axis, 0.5 - tube - 0.01);
+    EXPECT_TRUE(along_x.holds({3, 1.5, 0.8}));
+    EXPECT_FALSE(along_x.holds({3, 1, 0.8}));  // the hole
+    const Obstacle along_y = hoop({{"forward", "y"}, {"up", "x"}});
+    EXPECT_FALSE(along_y.holds({3, 1.5, 0.8}));
+    EXPECT_TRUE(along_y.holds({3.5, 1, 0.8}));
+}
+
+TEST(Company, AnObstacleFromAMeshIsInTheModelAndInTheDefinition) {
+    const Scene scene = load_scene("company/hoop", json::object());
+    const Model model = build_model(scene);
+    std::size_t fixed = 0;
+    for (const double inverse_mass : model.inverse_mass) fixed += inverse_mass == 0;
+    EXPECT_EQ(fixed, scene.obstacles.at(0).points.size());
+    const json definition = scene_definition("company/hoop", json::object());
+    EXPECT_EQ(definition["obstacles"][0]["digest"].get<std::string>().size(), 16u);
+    const json changed{{"obstacles", {{{"shape", "mesh"}, {"file", "hoop.obj"}, {"digest", "0"}, {"centre", {3, 1, 1}}}}}};
+    EXPECT_THROW(load_scene("company/hoop", changed), InputError);
 }
 
 }  // namespace

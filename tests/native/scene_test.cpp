@@ -47,8 +47,8 @@ std::string message_of(const std::string& scene) {
 TEST(SceneTest, AllNamedScenesAreThere) {
     const std::vector<std::string> expected = {
         "bench/dam-break",          "bench/pool",               "bench/small-tank",
-        "company/pillars",          "company/school",           "endless/creature-2",
-        "endless/eel",              "endless/water",            "endless/wide-water",
+        "company/hoop",             "company/pillars",          "company/school",           "endless/creature-2",
+        "endless/eel",              "endless/evolved-eel",      "endless/water",            "endless/wide-water",
         "goals/cruise",             "goals/hold",               "goals/reach",
         "goals/turn",
         "open-water/creature-1",    "open-water/creature-2",    "open-water/creature-3",

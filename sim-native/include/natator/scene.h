@@ -162,18 +162,16 @@ struct Companion {
 
 /// Something that water and bodies can't enter and that stays where it is: particles of infinite mass.
 struct Obstacle {
-    enum class Shape { sphere, box };
+    enum class Shape { sphere, box, mesh };
     Shape shape = Shape::sphere;
-    Eigen::Vector3d centre{0, 0, 0};  ///< length
-    double radius = 0;                ///< of a sphere, length
-    Eigen::Vector3d size{0, 0, 0};    ///< edges of a box, length
-    double spacing = 0.075;           ///< of its particles, length
+    Eigen::Vector3d centre{0, 0, 0};      ///< length; of a mesh: the middle of its box
+    double radius = 0;                    ///< of a sphere, length
+    Eigen::Vector3d size{0, 0, 0};        ///< edges of a box, length
+    std::vector<Eigen::Vector3d> points;  ///< of a mesh: places of its particles from the centre, length
+    double spacing = 0.075;               ///< of its particles, length
 
-    /// Whether a place is within it.
-    bool holds(const Eigen::Vector3d& place) const {
-        const Eigen::Vector3d way = place - centre;
-        return shape == Shape::sphere ? way.norm() <= radius : (way.cwiseAbs().array() <= size.array() / 2).all();
-    }
+    /// Whether a place is within it; of a mesh, as near to one of its particles as any place between eight of them.
+    bool holds(const Eigen::Vector3d& place) const;
 };
 
 /// A tank without an end: it goes along with its swimmer. Where the swimmer has come `step` on from where it began, the

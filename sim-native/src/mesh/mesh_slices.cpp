@@ -1,143 +1,24 @@
 #include "mesh_slices.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
-#include <utility>
 
-#include "exact_grid.h"
+#include "mesh_lattice.h"
 #include "natator/error.h"
 #include "natator/limits.h"
 
 namespace natator {
 namespace {
 
-constexpr double most_across = 1000;      // spacings
 constexpr std::size_t most_left_out = 2;  // slices at each tip
 constexpr double most_asymmetric = 0.1;   // of the particles
-constexpr double most_volume_error = 0.25;
 constexpr int reach = 3;                  // spacings from the surface to the next particle
-
-struct Crossing {
-    double x;
-    int step;  ///< of the winding number, towards larger x
-};
-
-/// The lattice in the box of a mesh: slice 0 is nearest the head.
-class Lattice {
-public:
-    Lattice(const TriangleMesh& mesh, double spacing) : grid_(mesh.vertices), spacing_(spacing) {
-        const Eigen::Vector3d extent = grid_.high() - grid_.low();
-        for (int axis = 0; axis < 3; ++axis) {
-            const double across = extent[axis] / spacing;
-            if (across >= (axis == 0 ? 2 : 1.5) && across <= most_across) continue;
-            std::ostringstream text;
-            text << (axis == 0 ? "is " : axis == 1 ? "is high " : "is wide ") << across << " spacings"
-                 << (axis == 0 ? " long" : "") << ", " << extent[axis] << " units of the file of " << spacing
-                 << " to a spacing; must be " << (axis == 0 ? "2" : "1.5, which is two particles across,") << " to "
-                 << most_across << ": see unit and length";
-            throw InputError(text.str());
-        }
-        count_ = (extent / spacing).array().round().max(1).cast<int>();
-        count_.z() = 2 * static_cast<int>(std::lround(extent.z() / spacing / 2 + 0.5));  // on both sides, with room to spare
-        middle_ = (grid_.low() + grid_.high()) / 2;
-    }
-
-    const ExactGrid& grid() const { return grid_; }
-    const Eigen::Vector3i& count() const { return count_; }
-    double x(double slice) const { return middle_.x() + ((count_.x() - 1) / 2.0 - slice) * spacing_; }
-    double y(int row) const { return middle_.y() + (row - (count_.y() - 1) / 2.0) * spacing_; }
-    double z(int column) const { return middle_.z() + (column - (count_.z() - 1) / 2.0) * spacing_; }
-    const Eigen::Vector3d& middle() const { return middle_; }
-
-    /// Number of a place along an axis, not rounded; slices from the head.
-    double slice(double at) const { return (count_.x() - 1) / 2.0 - (at - middle_.x()) / spacing_; }
-    double row(double at) const { return (count_.y() - 1) / 2.0 + (at - middle_.y()) / spacing_; }
-    double column(double at) const { return (count_.z() - 1) / 2.0 + (at - middle_.z()) / spacing_; }
-    /// Half spacings of a column from the middle.
-    int from_middle(int column) const { return 2 * column - (count_.z() - 1); }
-    std::string part(double slice) const {
-        std::ostringstream text;
-        text << (slice + 0.5) / count_.x() << " of the length";
-        return text.str();
-    }
-
-private:
-    ExactGrid grid_;
-    double spacing_;
-    Eigen::Vector3i count_;
-    Eigen::Vector3d middle_;
-};
-
-/// On which side of the line from a to b a point of the plane (y, z) is, moved by an infinitesimal amount along y and by one
-/// that is infinitesimal even to that along z: never on it, unless a = b.
-int side_of_edge(const GridPoint& a, const GridPoint& b, const GridPoint& point) {
-    if (const int side = sign_of(area(a, b, point, 1, 2))) return side;
-    if (const int side = sign_of(Wide{a.z() - b.z()})) return side;
-    return sign_of(Wide{b.y() - a.y()});
-}
-
-/// What the lines of the lattice along x go through, by row and column.
-std::vector<std::vector<Crossing>> crossings_of(const TriangleMesh& mesh, const Lattice& lattice) {
-    const ExactGrid& grid = lattice.grid();
-    const int rows = lattice.count().y(), columns = lattice.count().z();
-    std::vector<std::vector<Crossing>> lines(static_cast<std::size_t>(rows) * columns);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const std::array<Eigen::Vector3d, 3> place{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
-        const std::array<GridPoint, 3> corner{grid.at(place[0]), grid.at(place[1]), grid.at(place[2])};
-        const Wide whole = area(corner[0], corner[1], corner[2], 1, 2);
-        if (whole == 0) continue;  // seen edge-on
-        const auto [low_y, high_y] = std::minmax({place[0].y(), place[1].y(), place[2].y()});
-        const auto [low_z, high_z] = std::minmax({place[0].z(), place[1].z(), place[2].z()});
-        const int last_row = std::min(rows - 1, static_cast<int>(std::ceil(lattice.row(high_y))));
-        const int last_column = std::min(columns - 1, static_cast<int>(std::ceil(lattice.column(high_z))));
-        for (int row = std::max(0, static_cast<int>(std::floor(lattice.row(low_y)))); row <= last_row; ++row)
-            for (int column = std::max(0, static_cast<int>(std::floor(lattice.column(low_z)))); column <= last_column;
-                 ++column) {
-                const GridPoint line{0, grid.at(lattice.y(row), 1), grid.at(lattice.z(column), 2)};
-                const bool inside = side_of_edge(corner[0], corner[1], line) == sign_of(whole) &&
-                                    side_of_edge(corner[1], corner[2], line) == sign_of(whole) &&
-                                    side_of_edge(corner[2], corner[0], line) == sign_of(whole);
-                if (!inside) continue;
-                double x = 0;
-                for (int k = 0; k < 3; ++k)
-                    x += place[k].x() * (static_cast<double>(area(corner[(k + 1) % 3], corner[(k + 2) % 3], line, 1, 2)) /
-                                         static_cast<double>(whole));
-                // A face that goes round from y to z looks to larger x: the line leaves the body there.
-                lines[static_cast<std::size_t>(row) * columns + column].push_back({x, whole > 0 ? -1 : 1});
-            }
-    }
-    return lines;
-}
-
-/// Numbers of the slices that are inside on one line, ascending; appended to `slices` by row and column.
-void add_inside(std::vector<Crossing>& line, const Lattice& lattice, int row, int column, std::vector<int>& inside) {
-    std::sort(line.begin(), line.end(),
-              [](const Crossing& a, const Crossing& b) { return a.x != b.x ? a.x < b.x : a.step > b.step; });
-    int winding = 0;
-    const double least = 1e-6 * std::abs(lattice.x(0) - lattice.x(1));
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        winding += line[i].step;
-        const double from = line[i].x, to = line[i + 1].x;
-        if ((winding < 0 || winding > 1) && to - from > least)
-            throw InputError(std::string(winding < 0 ? "has a part whose faces look inwards" : "has a part inside another") +
-                             ", at " + shown({(from + to) / 2, lattice.y(row), lattice.z(column)}) +
-                             " (forward, up, right); faces must bound one solid");
-        if (winding < 1) continue;
-        // Slices count against x: those with from <= x < to.
-        const int first = static_cast<int>(std::floor(lattice.slice(to))) + 1;
-        const int last = static_cast<int>(std::floor(lattice.slice(from)));
-        for (int slice = std::max(0, first); slice <= std::min(last, lattice.count().x() - 1); ++slice)
-            inside.push_back(slice);
-    }
-}
 
 /// Columns of each row of each slice, half spacings from the middle: those of the left half, mirrored.
 using Sites = std::vector<std::vector<std::vector<int>>>;
 
-Sites symmetric_sites(const TriangleMesh& mesh, const Lattice& lattice) {
+Sites symmetric_sites(const TriangleMesh& mesh, const MeshLattice& lattice) {
     const int rows = lattice.count().y(), columns = lattice.count().z();
     std::vector<std::vector<Crossing>> lines = crossings_of(mesh, lattice);
     Sites sites(static_cast<std::size_t>(lattice.count().x()), std::vector<std::vector<int>>(static_cast<std::size_t>(rows)));
@@ -190,7 +71,7 @@ bool thin(const Slice& slice) {
     return slice.height < 2 || slice.width < 2;
 }
 
-void refuse_thin(const Lattice& lattice, std::size_t number, const Slice& slice) {
+void refuse_thin(const MeshLattice& lattice, std::size_t number, const Slice& slice) {
     std::ostringstream text;
     text << "is thinner than two particles at " << lattice.part(static_cast<double>(number)) << ", "
          << (slice.height == 0 ? "where no particle is inside"
@@ -201,7 +82,7 @@ void refuse_thin(const Lattice& lattice, std::size_t number, const Slice& slice)
 }
 
 /// The surface is nowhere far from the particles.
-void check_reach(const TriangleMesh& mesh, const Lattice& lattice, const Sites& sites) {
+void check_reach(const TriangleMesh& mesh, const MeshLattice& lattice, const Sites& sites) {
     const auto near = [&](const Eigen::Vector3d& at) {
         const double slice = lattice.slice(at.x()), row = lattice.row(at.y()), column = lattice.column(at.z());
         for (int i = static_cast<int>(std::ceil(slice - reach)); i <= slice + reach; ++i)
@@ -230,7 +111,7 @@ void check_reach(const TriangleMesh& mesh, const Lattice& lattice, const Sites& 
 }  // namespace
 
 MeshSlices slice_mesh(const TriangleMesh& mesh, double spacing) {
-    const Lattice lattice(mesh, spacing);
+    const MeshLattice lattice(mesh, spacing);
     const Sites sites = symmetric_sites(mesh, lattice);
     std::vector<Slice> slices;
     for (const auto& rows : sites) slices.push_back(slice_of(rows));
@@ -248,13 +129,7 @@ MeshSlices slice_mesh(const TriangleMesh& mesh, double spacing) {
     result.volume = signed_volume(mesh);
     double particles = 0;
     for (const Slice& slice : result.slices) particles += slice.particles();
-    const double volume = particles * spacing * spacing * spacing;
-    if (std::abs(volume / result.volume - 1) > most_volume_error) {
-        std::ostringstream text;
-        text << "is too coarsely sampled: its " << particles << " particles have " << volume / result.volume
-             << " of its volume; must be within a quarter of it, by a finer spacing";
-        throw InputError(text.str());
-    }
+    check_volume(particles, spacing, result.volume);
     return result;
 }
 

@@ -17,8 +17,6 @@ struct MeshSlices {
 ///
 /// Along each line of the lattice the winding number counts the faces that it goes through (Jacobson, Kavan,
 /// Sorkine-Hornung: Robust Inside-Outside Segmentation using Generalized Winding Numbers, 2013, for closed meshes): 1 inside.
-/// Which faces a line goes through is told by exact signs; a line through an edge or a corner is moved aside by symbolic
-/// perturbation (Edelsbrunner, Mücke: Simulation of Simplicity, 1990), so that it counts once.
 ///
 /// Slices at the tips that are less than two particles high or wide are left out, two at each end at most. Refuses by an
 /// InputError that says where: fewer than 2 or more than 1000 spacings along any axis, more than limits::particles, a part of

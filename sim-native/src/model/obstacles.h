@@ -7,10 +7,10 @@
 
 namespace natator {
 
-/// As many particles as the obstacle's surrounding box holds.
+/// As many particles as a mesh has, or as the box around a sphere holds.
 std::int64_t most_particles(const Obstacle& obstacle);
 
-/// Adds particles of infinite mass on a cubic lattice about the obstacle's centre, wherever it holds one.
+/// Adds particles of infinite mass: those of the mesh, or on a cubic lattice about the centre wherever the obstacle holds one.
 void add_obstacle(const Obstacle& obstacle, Model& model);
 
 }  // namespace natator

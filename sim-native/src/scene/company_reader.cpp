@@ -12,25 +12,42 @@ const json& checked_array(const json& value, const Place& place, std::size_t mos
     return value;
 }
 
-Obstacle read_obstacle(const json& value, const Place& place) {
+/// Keys of an obstacle's extent, by its shape; the first is given for spheres and boxes, and all belong to a mesh.
+std::vector<std::string_view> extent_keys(Obstacle::Shape shape) {
+    switch (shape) {
+        case Obstacle::Shape::sphere:
+            return {"radius"};
+        case Obstacle::Shape::box:
+            return {"size"};
+        case Obstacle::Shape::mesh:
+            break;
+    }
+    return {"file", "digest", "unit", "length", "forward", "up"};
+}
+
+Obstacle read_obstacle(const json& value, const Place& place, const std::filesystem::path& data) {
     static const std::vector<Field<Obstacle>> table = {
         {"centre", &Obstacle::centre, {-10000, 10000, false, "length"}},
         {"spacing", &Obstacle::spacing, {0, 1000, true, "length"}},
     };
     Obstacle obstacle;
     if (!value.is_object()) refuse(place, value, "an object with `shape`");
-    obstacle.shape =
-        read_choice<Obstacle::Shape>(required(value, place, "shape"), place.key("shape"),
-                                     {{"sphere", Obstacle::Shape::sphere}, {"box", Obstacle::Shape::box}});
-    const char* extent = obstacle.shape == Obstacle::Shape::sphere ? "radius" : "size";
-    read_object(value, place, table, {"shape", extent}, obstacle);
+    obstacle.shape = read_choice<Obstacle::Shape>(
+        required(value, place, "shape"), place.key("shape"),
+        {{"sphere", Obstacle::Shape::sphere}, {"box", Obstacle::Shape::box}, {"mesh", Obstacle::Shape::mesh}});
+    const std::vector<std::string_view> extent = extent_keys(obstacle.shape);
+    std::vector<std::string_view> others = extent;
+    others.push_back("shape");
+    read_object(value, place, table, others, obstacle);
     required(value, place, "centre");
-    const json& size = required(value, place, extent);
+    const json& size = required(value, place, extent.front().data());
     const Range length{0, 10000, true, "length"};
     if (obstacle.shape == Obstacle::Shape::sphere)
-        read(size, place.key(extent), length, obstacle.radius);
+        read(size, place.key(extent.front().data()), length, obstacle.radius);
+    else if (obstacle.shape == Obstacle::Shape::box)
+        read(size, place.key(extent.front().data()), length, obstacle.size);
     else
-        read(size, place.key(extent), length, obstacle.size);
+        obstacle.points = read_mesh_points(value, place, data, obstacle.spacing);
     return obstacle;
 }
 
@@ -50,10 +67,10 @@ std::vector<Companion> read_companions(const json& value, const Place& place, co
     return companions;
 }
 
-std::vector<Obstacle> read_obstacles(const json& value, const Place& place) {
+std::vector<Obstacle> read_obstacles(const json& value, const Place& place, const std::filesystem::path& data) {
     std::vector<Obstacle> obstacles;
     for (const json& one : checked_array(value, place, max_obstacles, "obstacles"))
-        obstacles.push_back(read_obstacle(one, place.item(obstacles.size())));
+        obstacles.push_back(read_obstacle(one, place.item(obstacles.size()), data));
     return obstacles;
 }
 

@@ -13,12 +13,21 @@ using nlohmann::json;
 
 constexpr int max_bases = 8;
 
+/// A mesh that a file names is beside that file, whatever the working directory. `mesh`: what has the key `file`.
+void place_mesh(json& mesh, const std::string& name) {
+    if (!name.ends_with(".json") || !mesh.is_object() || !mesh.contains("file") || !mesh.at("file").is_string()) return;
+    const std::filesystem::path file = mesh.at("file").get<std::string>(), folder = std::filesystem::path(name).parent_path();
+    if (file.is_relative()) mesh["file"] = ((folder.empty() ? "." : folder) / file).string();
+}
+
 /// A scene file merged onto the scene that its `base` names, and so on.
 json with_bases(const std::string& name, const std::filesystem::path& data, int level) {
     const Place place{"scene " + quoted(name), ""};
     json document = read_data_file("scenes", name, data);
     if (!document.is_object()) fields::refuse(place, document, "an object");
     fields::drop_schema_key(document, place);
+    if (document.contains("obstacles") && document.at("obstacles").is_array())
+        for (json& obstacle : document.at("obstacles")) place_mesh(obstacle, name);
     if (!document.contains("base")) return document;
 
     const json base = document.at("base");
@@ -29,15 +38,6 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     json merged = with_bases(base.get<std::string>(), data, level + 1);
     merged.merge_patch(document);
     return merged;
-}
-
-/// A mesh that a creature's file names is beside that file, whatever the working directory.
-void place_mesh(json& creature, const std::string& name) {
-    if (!name.ends_with(".json") || !creature.contains("mesh")) return;
-    json& mesh = creature.at("mesh");
-    if (!mesh.is_object() || !mesh.contains("file") || !mesh.at("file").is_string()) return;
-    const std::filesystem::path file = mesh.at("file").get<std::string>(), folder = std::filesystem::path(name).parent_path();
-    if (file.is_relative()) mesh["file"] = ((folder.empty() ? "." : folder) / file).string();
 }
 
 /// Of unit and length a mesh has one: what the scene gives takes the place of what the file has.
@@ -66,7 +66,7 @@ void resolve_creature(json& holder, const Place& place, const std::filesystem::p
     }
     if (!merged.is_object()) fields::refuse(place.key("name"), merged, "the name of a file that holds an object");
     fields::drop_schema_key(merged, place);
-    place_mesh(merged, name.get<std::string>());
+    if (merged.contains("mesh")) place_mesh(merged.at("mesh"), name.get<std::string>());
     for (const char* kind : {"profile", "mesh"}) {
         if (!creature.contains(kind) || merged.contains(kind)) continue;
         for (const char* key : {"slices", "joints", "muscleSlices", "profile", "mesh"}) merged.erase(key);
@@ -77,12 +77,15 @@ void resolve_creature(json& holder, const Place& place, const std::filesystem::p
 }
 
 /// Adds what tells the file of a mesh from others, so that a definition says all that a simulation depends on.
-void add_mesh_digest(json& scene, const Place& place, const std::filesystem::path& data) {
-    if (!scene.contains("creature") || !scene.at("creature").is_object() || !scene.at("creature").contains("mesh")) return;
-    json& mesh = scene.at("creature").at("mesh");
+void add_digest(json& mesh, const Place& place, const std::filesystem::path& data) {
     if (!mesh.is_object() || mesh.contains("digest") || !mesh.contains("file") || !mesh.at("file").is_string()) return;
-    mesh["digest"] =
-        fields::mesh_digest(mesh.at("file").get<std::string>(), place.key("mesh").key("file"), data);
+    mesh["digest"] = fields::mesh_digest(mesh.at("file").get<std::string>(), place.key("file"), data);
+}
+
+/// `holder`: the scene, or one of its companions.
+void add_mesh_digest(json& holder, const Place& creature, const std::filesystem::path& data) {
+    if (!holder.contains("creature") || !holder.at("creature").is_object() || !holder.at("creature").contains("mesh")) return;
+    add_digest(holder.at("creature").at("mesh"), creature.key("mesh"), data);
 }
 
 }  // namespace
@@ -102,6 +105,11 @@ json scene_definition(const std::string& name, const json& overrides, const std:
             resolve_creature(companions[k], at, data);
             add_mesh_digest(companions[k], at, data);
         }
+    }
+    if (document.contains("obstacles") && document.at("obstacles").is_array()) {
+        json& obstacles = document.at("obstacles");
+        for (std::size_t k = 0; k < obstacles.size(); ++k)
+            add_digest(obstacles[k], place.key("obstacles").item(k), data);
     }
     return document;
 }

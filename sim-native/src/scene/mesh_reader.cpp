@@ -8,6 +8,7 @@
 #include "io/strict_json.h"
 #include "measure/fnv1a.h"
 #include "mesh/check_mesh.h"
+#include "mesh/mesh_points.h"
 #include "mesh/mesh_slices.h"
 #include "natator/error.h"
 #include "natator/limits.h"
@@ -90,6 +91,36 @@ auto of_file(const Place& place, const std::string& file, const F& function) {
     }
 }
 
+/// Keys of a mesh's file, its scale and its axes.
+const std::vector<std::string_view> mesh_keys{"file", "digest", "unit", "length", "forward", "up"};
+
+/// A mesh as its file has it but for its axes, and what a Skin says of the file.
+struct TurnedMesh {
+    TriangleMesh mesh;  ///< x forward, y up, z right, in units of the file
+    Skin skin;          ///< without vertices, triangles, origin and volume
+};
+
+TurnedMesh read_turned_mesh(const json& value, const Place& place, const std::filesystem::path& data) {
+    TurnedMesh turned;
+    auto& [mesh, skin] = turned;
+    const Place at = place.key("file");
+    read(required(value, place, "file"), at, {}, skin.file);
+    mesh = of_file(at, skin.file, [&file = skin.file, &digest = skin.digest, &data] {
+        const std::string bytes = mesh_bytes(file, data);
+        digest = digest_of(bytes);
+        TriangleMesh read = natator::read_mesh(bytes, file);
+        check_mesh(read);
+        return read;
+    });
+    if (value.contains("digest") && value.at("digest") != skin.digest)
+        refuse(place.key("digest"), value.at("digest"),
+               skin.digest + ", that of " + natator::quoted(skin.file) + ", which has changed; or left out");
+    skin.axes = read_axes(value, place);
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = skin.axes * vertex;
+    skin.unit = read_unit(value, place, mesh);
+    return turned;
+}
+
 }  // namespace
 
 std::string mesh_digest(const std::string& file, const Place& place, const std::filesystem::path& data) {
@@ -97,25 +128,13 @@ std::string mesh_digest(const std::string& file, const Place& place, const std::
 }
 
 void read_mesh_body(const json& value, const Place& place, const std::filesystem::path& data, Creature& creature) {
-    check_keys(value, place, {"file", "digest", "unit", "length", "forward", "up", "joints"});
-    auto skin = std::make_shared<Skin>();
-    const Place at = place.key("file");
-    read(required(value, place, "file"), at, {}, skin->file);
-    TriangleMesh mesh = of_file(at, skin->file, [&] {
-        const std::string bytes = mesh_bytes(skin->file, data);
-        skin->digest = digest_of(bytes);
-        TriangleMesh read = natator::read_mesh(bytes, skin->file);
-        check_mesh(read);
-        return read;
-    });
-    if (value.contains("digest") && value.at("digest") != skin->digest)
-        refuse(place.key("digest"), value.at("digest"),
-               skin->digest + ", that of " + natator::quoted(skin->file) + ", which has changed; or left out");
-    skin->axes = read_axes(value, place);
-    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = skin->axes * vertex;
-    skin->unit = read_unit(value, place, mesh);
-    const MeshSlices body =
-        of_file(at, skin->file, [&] { return slice_mesh(mesh, creature.spacing / skin->unit); });
+    std::vector<std::string_view> keys = mesh_keys;
+    keys.push_back("joints");
+    check_keys(value, place, keys);
+    auto [mesh, read_skin] = read_turned_mesh(value, place, data);
+    auto skin = std::make_shared<Skin>(std::move(read_skin));
+    const MeshSlices body = of_file(place.key("file"), skin->file,
+                                    [&, &mesh = mesh] { return slice_mesh(mesh, creature.spacing / skin->unit); });
     skin->origin = skin->axes.transpose() * body.rear_centre;
     skin->volume = body.volume * skin->unit * skin->unit * skin->unit;
     for (const Eigen::Vector3d& vertex : mesh.vertices)
@@ -125,6 +144,16 @@ void read_mesh_body(const json& value, const Place& place, const std::filesystem
     creature.joints = read_joint_parts(required(value, place, "joints"), place.key("joints"),
                                        static_cast<int>(creature.slices.size()));
     creature.skin = std::move(skin);
+}
+
+std::vector<Eigen::Vector3d> read_mesh_points(const json& value, const Place& place, const std::filesystem::path& data,
+                                              double spacing) {
+    const auto [mesh, skin] = read_turned_mesh(value, place, data);
+    std::vector<Eigen::Vector3d> points = of_file(place.key("file"), skin.file, [&mesh = mesh, &skin = skin, spacing] {
+        return points_inside(mesh, spacing / skin.unit);
+    });
+    for (Eigen::Vector3d& point : points) point *= skin.unit;
+    return points;
 }
 
 }  // namespace natator::fields

@@ -14,7 +14,7 @@ FluidBlock read_fluid(const json& value, const Place& place);
 Creature read_creature(const json& value, const Place& place, const std::filesystem::path& data);
 std::vector<Companion> read_companions(const json& value, const Place& place,
                                        const std::filesystem::path& data);
-std::vector<Obstacle> read_obstacles(const json& value, const Place& place);
+std::vector<Obstacle> read_obstacles(const json& value, const Place& place, const std::filesystem::path& data);
 MovingTank read_moving_tank(const json& value, const Place& place);
 std::vector<Goal> read_goals(const json& value, const Place& place);
 
@@ -23,6 +23,10 @@ void read_profile(const json& value, const Place& place, Creature& creature);
 
 /// Gives a creature whose spacing is known the slices, the joints and the skin of a mesh.
 void read_mesh_body(const json& value, const Place& place, const std::filesystem::path& data, Creature& creature);
+
+/// Places of particles inside a mesh, from the middle of its box, length.
+std::vector<Eigen::Vector3d> read_mesh_points(const json& value, const Place& place, const std::filesystem::path& data,
+                                              double spacing);
 
 /// What tells a mesh's file from others: 16 hexadecimal digits.
 std::string mesh_digest(const std::string& file, const Place& place, const std::filesystem::path& data);

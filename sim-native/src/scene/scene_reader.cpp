@@ -140,7 +140,7 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     if (document.contains("companions"))
         scene.companions = fields::read_companions(document.at("companions"), place.key("companions"), data);
     if (document.contains("obstacles"))
-        scene.obstacles = fields::read_obstacles(document.at("obstacles"), place.key("obstacles"));
+        scene.obstacles = fields::read_obstacles(document.at("obstacles"), place.key("obstacles"), data);
     if (has(document, "movingTank"))
         scene.moving_tank = fields::read_moving_tank(document.at("movingTank"), place.key("movingTank"));
     if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));

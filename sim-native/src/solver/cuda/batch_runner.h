@@ -62,7 +62,7 @@ public:
         start.record();
         launch_batch(batch, on_chip_, blocks);
         end.record();
-        check(cudaDeviceSynchronize(), "run");
+        check(cudaStreamSynchronize(nullptr), "run");
         seconds_ = end.seconds_since(start);
         if (profile) add_to(*profile, cycles.download());
     }

@@ -16,6 +16,12 @@ inline void check(cudaError_t status, const char* doing) {
         throw std::runtime_error(std::string("cuda: ") + doing + ": " + cudaGetErrorString(status));
 }
 
+/// Waits for uploads and clears, on the default stream. Not for the whole device: that is refused, and breaks what another
+/// thread is capturing, as long as it captures a graph.
+inline void wait_for_uploads() {
+    check(cudaStreamSynchronize(nullptr), "upload");
+}
+
 /// An array in device memory. Throws std::bad_alloc when there is none left.
 template <class T>
 class DeviceBuffer {

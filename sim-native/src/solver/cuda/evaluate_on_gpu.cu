@@ -1,14 +1,11 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
-#include <future>
 #include <mutex>
 #include <new>
-#include <thread>
 
 #include "evaluate/perturb.h"
 #include "evaluate/settled_state_key.h"
+#include "evaluate/side_by_side.h"
 #include "evaluation.h"
 #include "large/evaluate_large.h"
 #include "natator/actuate.h"
@@ -18,18 +15,6 @@
 namespace natator {
 namespace cuda {
 namespace {
-
-/// Calls work(0) .. work(count - 1), on all processors.
-void on_all_processors(int count, const std::function<void(int)>& work) {
-    const int most = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    std::atomic<int> next = 0;
-    std::vector<std::future<void>> workers;
-    for (int k = 0; k < std::min(count, most); ++k)
-        workers.push_back(std::async(std::launch::async, [&] {
-            for (int one = next++; one < count; one = next++) work(one);
-        }));
-    for (std::future<void>& worker : workers) worker.get();
-}
 
 /// The last settled start without a perturbation, so that a stream of batches of one scene settles it once.
 template <class Real>
@@ -154,7 +139,8 @@ private:
         const typename DeviceStates<Real>::Copy ends(states);
         const State<Real> like = initial_state<Real>(model_);
         std::vector<Evaluation> evaluations(members.size());
-        on_all_processors(states.count(), [&](int k) {
+        side_by_side(members.size(), [&](std::size_t number) {
+            const auto k = static_cast<int>(number);
             const Gait* const gait = settled[k].stopped >= 0 ? nullptr : &members[k].gait;
             const auto first = densities.begin() + static_cast<std::ptrdiff_t>(k) * view.fluid;
             evaluations[k] = evaluation_of(scene_, model_, runner_.model().particle_of(), progress[k], gait,

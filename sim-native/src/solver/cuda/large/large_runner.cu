@@ -50,7 +50,7 @@ LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room,
     before_.velocity = DeviceBuffer<Quad<Real>>(states * particles);
     before_.fit = DeviceBuffer<ClusterFit<Real>>(states * std::size_t(base_.model.clusters));
     launch_far_slot(base_);
-    check(cudaDeviceSynchronize(), "upload");  // the stream does not wait for the Model's uploads by itself
+    wait_for_uploads();  // the stream does not wait for the Model's by itself
 }
 
 template <class Real>
@@ -301,7 +301,12 @@ cudaGraphExec_t LargeRunner<Real>::graph_of(const Update& update) {
         graph = std::make_unique<Graph>();
         cudaGraph_t captured = nullptr;
         check(cudaStreamBeginCapture(base_.stream, cudaStreamCaptureModeThreadLocal), "capture");
-        launch(update, nullptr, {});
+        try {
+            launch(update, nullptr, {});
+        } catch (...) {  // a thread that goes on capturing could do nothing else
+            cudaStreamEndCapture(base_.stream, &captured);
+            throw;
+        }
         check(cudaStreamEndCapture(base_.stream, &captured), "capture");
         check(cudaGraphInstantiate(&graph->exec, captured, 0), "graph");
         cudaGraphDestroy(captured);
