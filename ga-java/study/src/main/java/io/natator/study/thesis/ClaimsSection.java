@@ -155,7 +155,7 @@ final class ClaimsSection {
         less(rows, scheme, "too much viscosity hinders", Parameter.VISCOSITY, 128, 0.9);
         still(rows, scheme, "a body much lighter than the fluid cannot move", Parameter.BODY_MASS, 0.05, 0.3);
         less(rows, scheme, "a larger radius hinders", Parameter.RADIUS, 0.225, 0.9);
-        less(rows, scheme, "damping slows a little in fluid", Parameter.DAMPING, 8, 1.0);
+        between(rows, scheme, "damping slows a little in fluid, by less than half", Parameter.DAMPING, 8, 0.5, 1.0);
         Sample plain = speed(Parameter.VORTICITY_CONFINEMENT, 0, scheme, false);
         Sample confined = speed(Parameter.VORTICITY_CONFINEMENT, CONFINEMENT, scheme, false);
         if (plain.count() > 1 && confined.count() > 1) {
@@ -177,10 +177,16 @@ final class ClaimsSection {
 
     private void less(List<List<String>> rows, Scheme scheme, String claim, Parameter parameter, double value,
             double share) {
+        between(rows, scheme, claim, parameter, value, Double.NEGATIVE_INFINITY, share);
+    }
+
+    /** Whether a changed parameter leaves from the one to the other share of the usual speed. */
+    private void between(List<List<String>> rows, Scheme scheme, String claim, Parameter parameter, double value, double least,
+            double share) {
         Sample usual = speed(parameter, parameter.standard(), scheme, false);
         Sample changed = speed(parameter, value, scheme, false);
         if (usual.count() > 0 && changed.count() > 0) {
-            rows.add(claim(scheme, claim, compared(parameter, value, changed, usual), changed.mean() < share * usual.mean()));
+            rows.add(claim(scheme, claim, compared(parameter, value, changed, usual), changed.mean() < share * usual.mean() && changed.mean() > least * usual.mean()));
         }
     }
 
