@@ -5,13 +5,10 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FileErrors;
-import io.natator.picture.From;
-import io.natator.picture.PictureOptions;
 import io.natator.report.GaitReport;
 import io.natator.run.EvolutionRun;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
@@ -27,8 +24,6 @@ import picocli.CommandLine.Spec;
         description = {"Runs a run's best gait once more, draws how it swims and says what fish it is like.",
             "Writes README.md, report.html and the pictures."})
 final class ReportCommand implements Callable<Integer> {
-
-    private static final PictureOptions PORTRAIT = new PictureOptions(From.THREE_QUARTER, 900, 400, true);
 
     @Spec
     private CommandSpec spec;
@@ -50,9 +45,7 @@ final class ReportCommand implements Callable<Integer> {
         Path folder = outputDir != null ? outputDir : directory.resolve("report");
         try {
             GaitReport report = new GaitReport(run, folder);
-            spec.commandLine().getOut().println(report.write(execution, png -> Files.write(png,
-                    DrawnSwim.of(SwimSource.of(directory.toString(), null, null), null, null, null, PORTRAIT,
-                            execution.simulator()).png())));
+            spec.commandLine().getOut().println(report.write(execution, DrawnSwim.portrait(directory, execution.simulator())));
             if (report.difference() != null) {
                 spec.commandLine().getErr().println(report.difference());
             }

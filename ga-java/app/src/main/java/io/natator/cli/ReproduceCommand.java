@@ -136,7 +136,9 @@ final class ReproduceCommand implements Callable<Integer> {
                 }
             }
             if (phase == Phase.REPORT || phase == Phase.ALL) {
-                out.println(study.report(plan, CommandText.of(spec, WITHOUT_OUTCOME)));
+                Path simulator = execution.simulator();
+                out.println(study.report(plan, CommandText.of(spec, WITHOUT_OUTCOME),
+                        study.portrayed().map(run -> DrawnSwim.portrait(run, simulator)).orElse(null)));
             }
         }
         return ExitCode.OK;

@@ -1,7 +1,10 @@
 package io.natator.kinematics;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import java.util.Arrays;
+import java.util.Comparator;
 import java.util.List;
+import java.util.Optional;
 
 /**
  * How far a swimmer's motion is from that of real fish of one mode (thesis eq. 2.14 to 2.16):
@@ -15,11 +18,19 @@ import java.util.List;
  * there gives an anguilliform one an e of up to 0.04, and more to the others. So it is in the thesis.
  *
  * @param mode  the real fish
- * @param error e; 0 for the same motion, 1/3 for none, above that only for what α = 0 would mend
+ * @param error e; 0 for the same motion, {@code none} for one that has nothing of it
  * @param alpha α ≥ 0, without unit
  * @param beta  β in seconds, within one beat
+ * @param none  e of a spine that does not move, over the same places and times: √(x_l/L)/3 on average over a beat; null in old
+ *              files, where it may be taken as 1/3
  */
-public record ModeFit(FishMode mode, double error, double alpha, double beta) {
+@JsonInclude(JsonInclude.Include.NON_NULL)
+public record ModeFit(FishMode mode, double error, double alpha, double beta, Double none) {
+
+    /** From this share of {@code none} on a motion is none of the fish's. */
+    private static final double UNLIKE = 0.8;
+    /** What has to be made smaller than this to fit is none of the fish's either: it fits best by hardly moving. */
+    private static final double LEAST_ALPHA = 0.1;
 
     /** Places along the spine (thesis 2.8). */
     static final int PLACES = 1001;
@@ -58,6 +69,26 @@ public record ModeFit(FishMode mode, double error, double alpha, double beta) {
         return least(mode, sums, frequency);
     }
 
+    /** The fish that the motion is nearest to, of those that it is like at all; empty if it is like none. */
+    public static Optional<ModeFit> nearest(List<ModeFit> fits) {
+        return fits.stream().filter(ModeFit::resembles).min(Comparator.comparingDouble(ModeFit::error));
+    }
+
+    /** Whether it is like the fish at all: nearer than no motion by a fifth, and not only once it has been made tiny. */
+    public boolean resembles() {
+        return resembles(relative(), alpha);
+    }
+
+    /** The same of means over several runs. */
+    public static boolean resembles(double relative, double alpha) {
+        return relative <= UNLIKE && alpha >= LEAST_ALPHA;
+    }
+
+    /** e as a share of what a spine has that does not move. */
+    public double relative() {
+        return error / (none == null ? 1.0 / 3 : none);
+    }
+
     private static double[] places(double end) {
         double[] places = new double[PLACES];
         Arrays.setAll(places, i -> end * i / (PLACES - 1));
@@ -66,6 +97,7 @@ public record ModeFit(FishMode mode, double error, double alpha, double beta) {
 
     private static ModeFit least(FishMode mode, Sums sums, double frequency) {
         ModeFit best = null;
+        double none = (sums.sineSine + sums.cosineCosine) / 2 / sums.count;
         for (int step = 0; step * STEP < 1 / frequency; step++) {
             double beta = step * STEP;
             double angle = 2 * Math.PI * frequency * beta;
@@ -74,7 +106,7 @@ public record ModeFit(FishMode mode, double error, double alpha, double beta) {
             double error = (sums.real(angle) - 2 * alpha * sums.product(angle) + alpha * alpha * sums.swimmer)
                     / sums.count;
             if (best == null || error < best.error) {
-                best = new ModeFit(mode, Math.max(error, 0), alpha, beta);
+                best = new ModeFit(mode, Math.max(error, 0), alpha, beta, none);
             }
         }
         return best;

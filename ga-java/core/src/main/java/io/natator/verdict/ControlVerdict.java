@@ -42,13 +42,15 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
 
     private static List<String> doubts(Controls controls, double net, double unit) {
         List<String> doubts = new ArrayList<>();
-        if ((net - Verdict.SURE * controls.error()) / unit < Verdict.LEAST_DISTANCE) {
+        if (!Verdict.getsFar(net, controls.error(), unit)) {
             doubts.add("its runs differ too much to tell");
         }
         if (controls.underWater() != null && controls.underWater() < Verdict.LEAST_LEFT) {
             doubts.add("it skims: " + percent(controls.underWater()) + " of its body are under water");
         }
-        doubt(doubts, "at half the time step", controls.halfStep(), controls);
+        if (controls.halfStep() != null && !HalfStep.agrees(1, left(controls.halfStep(), controls))) {
+            doubts.add("at half the time step it has " + percent(left(controls.halfStep(), controls)) + " of its way");
+        }
         doubt(doubts, "mirrored", controls.mirrored(), controls);
         doubt(doubts, "on " + controls.backend(), controls.otherBackend(), controls);
         return doubts;

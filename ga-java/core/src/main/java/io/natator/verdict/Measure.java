@@ -48,12 +48,12 @@ public record Measure(String name, String value, String expected, Outcome outcom
         String least = "more than " + Verdict.LEAST_DISTANCE + " " + name;
         if (fresh == null) {
             all.add(new Measure("way, one run", Numbers.fixed(way / unit, 2) + " " + name, least,
-                    outcome(way / unit > Verdict.LEAST_DISTANCE)));
+                    outcome(Verdict.getsFar(way, 0, unit))));
         } else {
             SwimSample base = fresh.base();
-            double error = Verdict.SURE * base.distance().sd() / Math.sqrt(base.runs());
+            double error = base.distance().sd() / Math.sqrt(base.runs());
             all.add(new Measure("way, " + base.runs() + " fresh starts", spread(base.distance(), unit) + " " + name,
-                    least + ", by two standard errors", outcome((way - error) / unit > Verdict.LEAST_DISTANCE)));
+                    least + ", by two standard errors", outcome(Verdict.getsFar(way, error, unit))));
         }
         all.add(halfStep(fresh, way, unit, name));
         all.add(vacuum(best.vacuum(), best, way));
@@ -68,11 +68,11 @@ public record Measure(String name, String value, String expected, Outcome outcom
 
     private static Measure halfStep(FreshRuns fresh, double way, double unit, String name) {
         if (fresh == null || fresh.halfStep() == null) {
-            return missing("half the time step", HALF);
+            return missing("half the time step", HalfStep.EXPECTED);
         }
         Spread half = fresh.halfStep().distance();
-        return new Measure("half the time step", spread(half, unit) + " " + name, HALF,
-                outcome(half.mean() >= Verdict.LEAST_LEFT * way));
+        return new Measure("half the time step", spread(half, unit) + " " + name, HalfStep.EXPECTED,
+                outcome(HalfStep.agrees(way, half.mean())));
     }
 
     /** By speeds, since old folders have runs of other lengths. */

@@ -32,8 +32,8 @@ public record Verdict(Kind kind, String text, String advice) {
     static final double WAY_TO_WALL = 0.5;
 
     /** A mean is known to so many standard errors. */
-    static final double SURE = 2;
-    /** What keeps less than this share of its way under another condition, half the time step say, is no swimmer under that. */
+    private static final double SURE = 2;
+    /** What keeps less than this share of its way under another condition, mirrored say, is no swimmer under that. */
     static final double LEAST_LEFT = 0.5;
 
     private static final String CONSERVING = "conserving";
@@ -136,16 +136,24 @@ public record Verdict(Kind kind, String text, String advice) {
     /** Why fresh runs do not show that it swims; null if they do. */
     private static String doubt(FreshRuns fresh, Length length) {
         SwimSample base = fresh.base();
-        double error = base.distance().sd() / Math.sqrt(base.runs());
-        if ((base.distance().mean() - SURE * error) / length.unit() < LEAST_DISTANCE) {
+        if (!getsFar(base.distance().mean(), base.distance().sd() / Math.sqrt(base.runs()), length.unit())) {
             return "the runs differ too much to tell";
         }
         int unmeasured = base.stopped().getOrDefault("unstable", 0) + base.stopped().getOrDefault("failed", 0);
         if (2 * unmeasured > base.runs()) {
             return unmeasured + " of " + base.runs() + " runs were unstable or failed";
         }
-        return fresh.halfStep() != null && fresh.halfStep().distance().mean() < LEAST_LEFT * base.distance().mean()
-                ? "it loses more than half at half the time step" : null;
+        return fresh.halfStep() == null ? null : HalfStep.doubt(base.distance().mean(), fresh.halfStep().distance().mean());
+    }
+
+    /**
+     * Whether a mean way is beyond doubt more than none.
+     *
+     * @param error standard error of the way, in its unit
+     * @param unit  length of the body in that unit, or 1
+     */
+    static boolean getsFar(double way, double error, double unit) {
+        return (way - SURE * error) / unit >= LEAST_DISTANCE;
     }
 
     private static Verdict unproven(String text, String advice) {

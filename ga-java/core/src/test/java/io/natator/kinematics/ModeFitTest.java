@@ -60,6 +60,21 @@ class ModeFitTest {
         assertThat(own.beta()).isCloseTo(0.13, within(1e-9));
     }
 
+    @ParameterizedTest
+    @EnumSource(FishMode.class)
+    void aFishIsLikeItselfAndNothingIsLikeNone(FishMode mode) {
+        LateralMotion fish = unturned((x, t) -> mode.lateral(x, t, LENGTH, FREQUENCY) / 3);
+        LateralMotion tenfold = unturned((x, t) -> 20 * mode.lateral(x, t, LENGTH, FREQUENCY));
+        LateralMotion still = unturned((x, t) -> 0);
+
+        assertThat(ModeFit.nearest(ModeFit.all(fish, FREQUENCY))).map(ModeFit::mode).hasValue(mode);
+        assertThat(ModeFit.of(tenfold, mode, FREQUENCY).relative()).isLessThan(0.01);
+        assertThat(ModeFit.of(tenfold, mode, FREQUENCY).resembles()).as("its motion is twenty times a fish's").isFalse();
+        assertThat(ModeFit.of(still, mode, FREQUENCY).relative()).isCloseTo(1, within(0.02));
+        assertThat(ModeFit.of(still, mode, FREQUENCY).none()).isCloseTo(Math.sqrt(0.9) / 3, within(0.01));
+        assertThat(ModeFit.nearest(ModeFit.all(still, FREQUENCY))).isEmpty();
+    }
+
     /** The definition, summed up as it is written: least of all α and β of the grid. */
     @Test
     void isTheLeastOfTheDefinition() {

@@ -35,7 +35,9 @@ class ControlVerdictTest {
         "0.74|0.01|0.0|-0.01|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 0 % of its way "
             + "is left",
         "0.74|0.01|0.0|0.70|0.20|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but at half the "
-            + "time step 28 % of its way is left",
+            + "time step it has 28 % of its way",
+        "0.74|0.01|0.0|0.70|1.20|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but at half the "
+            + "time step it has 161 % of its way",
         "0.74|0.01|0.0|0.70|0.70|-0.2|0.2|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but it skims: "
             + "20 % of its body are under water; mirrored -25 % of its way is left",
         "0.74|0.70|0.0|0.70|0.70|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.20 body lengths/s more than a resting body; but its runs "

@@ -16,6 +16,8 @@ import io.natator.simulator.SimulationResult;
 import java.util.Arrays;
 import java.util.List;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 class MeasureTest {
 
@@ -58,6 +60,16 @@ class MeasureTest {
                 tuple("way, one run", "2.00 body lengths", HOLDS), tuple("half the time step", "", NOT_MEASURED),
                 tuple("without water", "80 % of its speed", FAILS), tuple("resting muscles", "", NOT_MEASURED),
                 tuple("mirrored", "", NOT_MEASURED));
+    }
+
+    /** What gets faster with the time step is no more converged than what gets slower. */
+    @ParameterizedTest
+    @CsvSource({"0.9, FAILS", "1.1, HOLDS", "2.9, HOLDS", "3.1, FAILS"})
+    void halfTheTimeStepMayChangeAWayByHalfOfIt(double half, Measure.Outcome outcome) {
+        FreshRuns fresh = FreshRuns.of(4.0, sample(1.9, 2.1), sample(half), Judge.MEAN, 2.0, 1, 2.0);
+
+        assertThat(Measure.of(best(fresh, 0), null)).filteredOn(one -> one.name().equals("half the time step"))
+                .extracting(Measure::outcome, Measure::expected).containsExactly(tuple(outcome, "its way to within half of it"));
     }
 
     @Test

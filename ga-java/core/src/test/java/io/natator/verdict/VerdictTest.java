@@ -58,6 +58,9 @@ class VerdictTest {
         "0.7 0.8 0.7 0.8|completed|0.7|SWIMS|swims: 0.15 ± 0.01 body lengths/s, 0.14 at half the time step, 0.00 in vacuum",
         "0.7 0.8 0.7 0.8|completed|0.3|UNPROVEN|may swim: 0.15 ± 0.01 body lengths/s, 0.06 at half the time step, 0.00 in vacuum; "
             + "it loses more than half at half the time step",
+        "0.7 0.8 0.7 0.8|completed|1.2|UNPROVEN|may swim: 0.15 ± 0.01 body lengths/s, 0.24 at half the time step, 0.00 in vacuum; "
+            + "it gets more than half as far again at half the time step",
+        "0.7 0.8 0.7 0.8|completed|1.1|SWIMS|swims: 0.15 ± 0.01 body lengths/s, 0.22 at half the time step, 0.00 in vacuum",
         "1.9 -0.4 -0.2 0.1|completed|0.4|UNPROVEN|may swim: 0.07 ± 0.21 body lengths/s, 0.08 at half the time step, 0.00 in "
             + "vacuum; the runs differ too much to tell",
         "0.1 0.0 0.0 0.0|completed|0.1|DOES_NOT_SWIM|does not swim: moves 0.02 ± 0.04 body lengths in 4.00 s, less than 0.05",

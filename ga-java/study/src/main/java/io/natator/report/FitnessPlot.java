@@ -3,16 +3,11 @@ package io.natator.report;
 import io.natator.checkpoint.RunFolder;
 import io.natator.evolution.GenerationSummary;
 import io.natator.plot.Picture;
-import java.awt.BasicStroke;
-import java.awt.Color;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.function.ToDoubleFunction;
 import org.knowm.xchart.XYChart;
-import org.knowm.xchart.XYChartBuilder;
-import org.knowm.xchart.style.Styler;
-import org.knowm.xchart.style.markers.SeriesMarkers;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -20,8 +15,6 @@ import org.slf4j.LoggerFactory;
 public final class FitnessPlot {
 
     private static final Logger LOG = LoggerFactory.getLogger(FitnessPlot.class);
-    private static final int WIDTH = 900;
-    private static final int HEIGHT = 540;
 
     private FitnessPlot() {
     }
@@ -44,20 +37,17 @@ public final class FitnessPlot {
      * @throws IOException if a file cannot be written
      */
     public static void draw(String title, List<GenerationSummary> history, Path folder) throws IOException {
-        XYChart chart = new XYChartBuilder().width(WIDTH).height(HEIGHT).title(title).xAxisTitle("generation")
-                .yAxisTitle("distance (scene units)").build();
-        chart.getStyler().setLegendPosition(Styler.LegendPosition.OutsideE).setChartBackgroundColor(Color.WHITE);
-        chart.getStyler().setPlotGridLinesStroke(new BasicStroke(0.5f));
-        add(chart, "best", history, GenerationSummary::best);
-        add(chart, "mean", history, GenerationSummary::mean);
-        add(chart, "median", history, GenerationSummary::median);
+        XYChart chart = Charts.lines(title, "generation", "distance (scene units)");
+        add(chart, "best", history, GenerationSummary::best, 0);
+        add(chart, "mean", history, GenerationSummary::mean, 1);
+        add(chart, "median", history, GenerationSummary::median, 2);
         Picture.save(chart, folder.resolve("fitness"));
     }
 
     private static void add(XYChart chart, String name, List<GenerationSummary> history,
-            ToDoubleFunction<GenerationSummary> value) {
+            ToDoubleFunction<GenerationSummary> value, int number) {
         double[] x = history.stream().mapToDouble(GenerationSummary::generation).toArray();
         double[] y = history.stream().mapToDouble(value).toArray();
-        chart.addSeries(name, x, y).setMarker(SeriesMarkers.CIRCLE);
+        Charts.addMarked(chart, name, x, y, number);
     }
 }

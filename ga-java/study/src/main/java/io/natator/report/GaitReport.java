@@ -30,30 +30,22 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.Comparator;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Optional;
 import java.util.stream.Collectors;
 
 /** What came of a run: its best gait recorded once more, with the thesis' pictures and numbers. */
 public final class GaitReport {
 
     private static final double ROUNDING = 1e-5;
-    private static final Map<Measure.Outcome, String> OUTCOMES = Map.of(Measure.Outcome.HOLDS, "✔ holds", Measure.Outcome.FAILS,
-            "✘ does not", Measure.Outcome.NOT_MEASURED, "– not measured");
+    private static final Map<Measure.Outcome, String> OUTCOMES = Map.of(Measure.Outcome.HOLDS, "holds", Measure.Outcome.FAILS,
+            "does not", Measure.Outcome.NOT_MEASURED, "not measured");
 
     private final StoredRun run;
     private final Path folder;
     private String difference;
-
-    /** Draws the swimmer of the report. */
-    @FunctionalInterface
-    public interface Portrait {
-
-        /** Writes a PNG file. */
-        void draw(Path png) throws IOException, InterruptedException;
-    }
 
     /**
      * A report on a run.
@@ -78,7 +70,7 @@ public final class GaitReport {
      * @throws IOException          if a file cannot be written
      * @throws InterruptedException if the calling thread is interrupted
      */
-    public Path write(ExecutionSettings execution, Portrait portrait) throws IOException, InterruptedException {
+    public Path write(ExecutionSettings execution, FirstScreen.Portrait portrait) throws IOException, InterruptedException {
         EvolutionSettings settings = run.settings();
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
@@ -86,15 +78,11 @@ public final class GaitReport {
         Recording recording = RecordingFactory.of(request, duration / 2, execution);
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         difference = difference(recording, execution);
-        answer(page);
-        page.contents();
+        progress(page);
         Files.createDirectories(folder);
         Path swimmer = folder.resolve("swimmer.png");
         portrait.draw(swimmer);
-        page.picture(swimmer, "the swimmer in its tank");
-        page.words(List.of("measure", "value", "of a swimmer", "outcome"), Measure.of(run.best(), controls()).stream()
-                .map(one -> List.of(one.name(), one.value(), one.expected(), OUTCOMES.get(one.outcome()))).toList());
-        page.text("After ± stands a standard deviation.");
+        FirstScreen.add(page, answer(), swimmer, "the swimmer in its tank", evidence());
         course(page);
         motion(page, recording);
         flow(page, recording);
@@ -106,14 +94,20 @@ public final class GaitReport {
         return Controls.of(run.directory(), run.best().swimmer());
     }
 
+    private FirstScreen.Evidence evidence() {
+        return new FirstScreen.Evidence(List.of("measure", "value", "of a swimmer", "outcome"),
+                Measure.of(run.best(), controls()).stream().map(one -> List.of(one.name(), one.value(), one.expected(),
+                        FirstScreen.SIGNS.get(one.outcome()) + " " + OUTCOMES.get(one.outcome()))).toList(),
+                "After ± stands a standard deviation.");
+    }
+
     /** What came of it, in a few sentences. */
-    private void answer(ReportDocument page) {
-        progress(page);
+    private List<String> answer() {
         Verdict verdict = Verdict.of(run.best());
         Controls controls = controls();
         Map<String, String> facts = WinnerFacts.of(run.directory(), run.best());
         List<String> sentences = new ArrayList<>();
-        sentences.add("**The best gait " + verdict.text() + "**" + (run.best().fresh() == null ? " (one run, not a mean)." : "."));
+        sentences.add("**The best gait " + (verdict.text().startsWith("not ") ? "is " : "") + verdict.text() + "**" + (run.best().fresh() == null ? " (one run, not a mean)." : "."));
         if (run.best().fresh() != null && run.best().fresh().base().perBeat() != null) {
             sentences.add("It gets " + Numbers.significant(run.best().fresh().base().perBeat().mean(), 3)
                     + " body lengths further in a beat, at " + Numbers.significant(run.best().gait().frequency(), 3) + " beats a second.");
@@ -125,7 +119,7 @@ public final class GaitReport {
             sentences.add(cost.substring(0, 1).toUpperCase(Locale.ROOT) + cost.substring(1) + ".");
         }
         sentences.add(difference != null ? difference + "." : verdict.advice() != null ? "To go on: " + verdict.advice() + "." : "");
-        page.text(String.join(" ", sentences).strip());
+        return sentences;
     }
 
     /** Once written: what today's program did otherwise than the run has stored, on one line; null if nothing. */
@@ -174,8 +168,24 @@ public final class GaitReport {
         page.heading(2, "Motion").picture(plots.position("position"), "position over time");
         page.picture(plots.rotation("rotation"), "rotation over time");
         page.picture(plots.spines("spines"), "spine in four phases with its envelope");
-        page.heading(2, "Beside real fish").picture(plots.envelopes("envelopes"), "envelope against real fish");
-        page.picture(plots.scaled("scaled", nearest(recording).mode()), "scaled against the nearest real fish");
+        List<ModeFit> fits = fits(recording);
+        Optional<ModeFit> nearest = ModeFit.nearest(fits);
+        page.heading(2, "Beside real fish").text((nearest.isPresent() ? "It moves like **" + nearest.get().mode().label() + "** fish"
+                : "It moves like **none** of the " + FishMode.values().length + " kinds of fish")
+                + ": of " + fits.stream().map(GaitReport::told).collect(Collectors.joining(", "))
+                + ". e is how far the motion is from the fish's: 0 is the same motion, " + number(fits.get(0).none())
+                + " is no motion at all; like a fish is what has at most four fifths of that and needs not be scaled to less than a "
+                + "tenth. α scales the simulated spine; the body's roll is taken out.");
+        page.text(String.format(Locale.ROOT, "The simulated curves end at %.2f of the length: bent, the spine is so much shorter "
+                + "along its line, and beyond that its motion is not known at all times (thesis 2.8).", plots.measuredPart()));
+        page.picture(plots.envelopes("envelopes"), "envelope against real fish");
+        if (nearest.isPresent()) {
+            page.picture(plots.scaled("scaled", nearest.get().mode()), "scaled against the nearest real fish");
+        }
+    }
+
+    private static String told(ModeFit fit) {
+        return String.format(Locale.ROOT, "%s e %.4f (α %.2f)", fit.mode().label(), fit.error(), fit.alpha());
     }
 
     private void flow(ReportDocument page, Recording recording) throws IOException {
@@ -187,10 +197,6 @@ public final class GaitReport {
             page.picture(FlowPlot.draw(run.settings().scene(), field, folder.resolve(name)),
                     "velocity and vorticity of the fluid " + field.view().label());
         }
-    }
-
-    private ModeFit nearest(Recording recording) {
-        return fits(recording).stream().min(Comparator.comparingDouble(ModeFit::error)).orElseThrow();
     }
 
     private List<ModeFit> fits(Recording recording) {
@@ -227,9 +233,6 @@ public final class GaitReport {
         rows.add(List.of("turned at the end, θ ρ ω (degrees)", String.format(Locale.ROOT, "%.1f %.1f %.1f",
                 Math.toDegrees(end.roll()), Math.toDegrees(end.yaw()), Math.toDegrees(end.pitch()))));
         page.heading(2, "Numbers").folded("all numbers", inside -> inside.table(List.of("", "value"), rows));
-        page.text("e is how far the motion is from the fish's: 0 is the same motion, 1/3 is none; α scales the simulated spine; the body's roll is "
-                + "taken out. Nearest: **"
-                + nearest(recording).mode().label() + "** (of " + FishMode.values().length + ").");
         page.heading(2, "Command").code("java -jar ga-java/target/natator.jar report " + run.directory());
     }
 

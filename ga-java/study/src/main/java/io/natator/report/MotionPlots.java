@@ -6,13 +6,13 @@ import io.natator.kinematics.ModeFit;
 import io.natator.kinematics.SpinePath;
 import io.natator.kinematics.Swimming;
 import io.natator.plot.Picture;
-import java.awt.BasicStroke;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.Locale;
 import java.util.function.ToDoubleFunction;
 import java.util.stream.IntStream;
+import java.util.stream.Stream;
 import org.knowm.xchart.XYChart;
 
 /**
@@ -23,6 +23,11 @@ public final class MotionPlots {
 
     private static final int PLACES = 49;
     private static final int PHASES = 4;
+    /** Number of its colour and dashes, of none of the phases. */
+    private static final int ENVELOPE = 5;
+    /** Room above and below what is drawn. */
+    private static final double MARGIN = 1.15;
+    private static final String FROM_THE_HEAD = "from the head (body lengths)";
     /** One frame of so many is drawn over time, which keeps the files small. */
     private static final int FRAMES_PER_POINT = 3;
 
@@ -82,32 +87,28 @@ public final class MotionPlots {
 
     /** Figure 3.2: the spine in four phases of the last beat, with the envelope of all times. */
     public Path spines(String name) throws IOException {
-        XYChart chart = Charts.lines(title + ": spine in four phases, envelope", "from the head (body lengths)",
-                "sideways (body lengths)");
         double length = swimming.length();
-        double[] places = places(swimming.measuredLength());
-        double[] envelope = Arrays.stream(places).map(x -> swimming.envelope(x) / length).toArray();
-        double[] shares = Arrays.stream(places).map(x -> x / length).toArray();
-        Charts.add(chart, "envelope", shares, envelope, 5, 1.5f);
-        Charts.add(chart, "− envelope", shares, Arrays.stream(envelope).map(a -> -a).toArray(), 5, 1.5f)
-                .setShowInLegend(false);
-        for (int phase = 0; phase < PHASES; phase++) {
-            int frame = frameOfPhase(phase);
-            double[][] line = swimming.line(frame);
-            Charts.add(chart, label(phase, recording.spine().times()[frame]), scaled(line[0], 1 / length),
-                    scaled(line[1], 1 / length), phase, 2f);
-        }
-        return Picture.save(chart, folder.resolve(name));
+        double[] shares = scaled(places(swimming.measuredLength()), 1 / length);
+        double[] envelope = envelope();
+        double[][][] lines = IntStream.range(0, PHASES).mapToObj(phase -> swimming.line(frameOfPhase(phase))).toArray(double[][][]::new);
+        double widest = Math.max(largest(envelope), Stream.of(lines).mapToDouble(line -> largest(line[1]) / length).max().orElseThrow());
+        double least = Stream.of(lines).mapToDouble(line -> Arrays.stream(line[0]).min().orElseThrow() / length).min().orElseThrow();
+        return Picture.save(Charts.toScale(title + ": spine in four phases, envelope", FROM_THE_HEAD, "sideways (body lengths)",
+                Math.min(0, least), 1, MARGIN * widest, chart -> {
+                    Charts.add(chart, "envelope", shares, envelope, ENVELOPE, 1.5f);
+                    Charts.add(chart, "− envelope", shares, scaled(envelope, -1), ENVELOPE, 1.5f).setShowInLegend(false);
+                    for (int phase = 0; phase < PHASES; phase++) {
+                        Charts.add(chart, label(phase), scaled(lines[phase][0], 1 / length), scaled(lines[phase][1], 1 / length),
+                                phase, 2f);
+                    }
+                }), folder.resolve(name));
     }
 
     /** Figure 3.3: the envelope against those of real fish. */
     public Path envelopes(String name) throws IOException {
-        XYChart chart = Charts.lines(title + ": envelope against real fish", "from the head (body lengths)",
-                "amplitude (body lengths)");
+        XYChart chart = Charts.lines(title + ": envelope against real fish", FROM_THE_HEAD, "amplitude (body lengths), stretched");
         double length = swimming.length();
-        double[] measured = places(swimming.measuredLength());
-        Charts.add(chart, "simulated", scaled(measured, 1 / length),
-                Arrays.stream(measured).map(x -> swimming.envelope(x) / length).toArray(), 0, 3f);
+        Charts.add(chart, "simulated", scaled(places(swimming.measuredLength()), 1 / length), envelope(), 0, 3f);
         double[] whole = places(length);
         for (FishMode mode : FishMode.values()) {
             Charts.add(chart, mode.label(), scaled(whole, 1 / length),
@@ -120,26 +121,44 @@ public final class MotionPlots {
     /** Figure 3.4: the spine scaled by α against the real fish that it fits, in four phases. */
     public Path scaled(String name, FishMode mode) throws IOException {
         ModeFit fit = ModeFit.of(swimming, mode, frequency);
-        XYChart chart = Charts.lines(String.format(Locale.ROOT, "%s, scaled by %.2f, and %s fish (thin): e = %.4f", title, fit.alpha(),
-                mode.label(), fit.error()), "from the head (body lengths)", "sideways (body lengths)");
         double length = swimming.length();
         double[] measured = places(swimming.measuredLength());
         double[] whole = places(length);
-        for (int phase = 0; phase < PHASES; phase++) {
-            int frame = frameOfPhase(phase);
-            double time = recording.spine().times()[frame];
-            double[] spine = Arrays.stream(measured).map(x -> fit.alpha() * swimming.lateral(frame, x) / length).toArray();
-            Charts.add(chart, label(phase, time), scaled(measured, 1 / length), spine, phase, 2.5f);
-            double[] real = Arrays.stream(whole)
-                    .map(x -> mode.lateral(x, time - fit.beta(), length, frequency) / length).toArray();
-            Charts.add(chart, mode.label() + " " + phase, scaled(whole, 1 / length), real, phase, 1f)
-                    .setLineStyle(new BasicStroke(1f)).setShowInLegend(false);
-        }
-        return Picture.save(chart, folder.resolve(name));
+        double widest = Math.max(fit.alpha() * largest(envelope()),
+                Arrays.stream(whole).map(x -> mode.amplitude(x, length, frequency)).map(Math::abs).max().orElseThrow() / length);
+        String heading = String.format(Locale.ROOT, "%s, scaled by %.2f, %s %s fish (thin): e = %.4f", title, fit.alpha(),
+                fit.resembles() ? "and" : "not like", mode.label(), fit.error());
+        return Picture.save(Charts.toScale(heading, FROM_THE_HEAD, "sideways (body lengths)", 0, 1, MARGIN * widest, chart -> {
+            for (int phase = 0; phase < PHASES; phase++) {
+                int frame = frameOfPhase(phase);
+                double time = recording.spine().times()[frame];
+                double[] spine = Arrays.stream(measured).map(x -> fit.alpha() * swimming.lateral(frame, x) / length).toArray();
+                Charts.add(chart, label(phase), scaled(measured, 1 / length), spine, phase, 2.5f);
+                double[] real = Arrays.stream(whole)
+                        .map(x -> mode.lateral(x, time - fit.beta(), length, frequency) / length).toArray();
+                Charts.add(chart, mode.label() + " " + phase, scaled(whole, 1 / length), real, phase, 1f).setShowInLegend(false);
+            }
+        }), folder.resolve(name));
     }
 
-    private static String label(int phase, double time) {
-        return String.format(Locale.ROOT, "%d/%d, %.2f s", phase, PHASES, time);
+    /**
+     * Up to which part of the body its motion is known at all times. Pictures end there: a spine that is bent is shorter along
+     * its line than the body is at rest, and the thesis measures up to where the shortest one ends.
+     */
+    public double measuredPart() {
+        return swimming.measuredLength() / swimming.length();
+    }
+
+    private double[] envelope() {
+        return Arrays.stream(places(swimming.measuredLength())).map(x -> swimming.envelope(x) / swimming.length()).toArray();
+    }
+
+    private static double largest(double[] values) {
+        return Arrays.stream(values).map(Math::abs).max().orElseThrow();
+    }
+
+    private String label(int phase) {
+        return String.format(Locale.ROOT, "%d/%d, %.2f s", phase, PHASES, recording.spine().times()[frameOfPhase(phase)]);
     }
 
     /** The frame nearest to a phase of the last whole beat. */

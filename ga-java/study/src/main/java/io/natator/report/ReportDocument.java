@@ -6,14 +6,17 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Base64;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Set;
 import java.util.function.Consumer;
 import java.util.stream.Collectors;
 import org.commonmark.Extension;
 import org.commonmark.ext.gfm.tables.TablesExtension;
 import org.commonmark.node.Heading;
+import org.commonmark.node.Image;
 import org.commonmark.node.Node;
 import org.commonmark.node.Text;
 import org.commonmark.parser.Parser;
@@ -30,12 +33,16 @@ public final class ReportDocument {
             <html lang="en"><head><meta charset="utf-8"><title>%s</title>
             <meta name="viewport" content="width=device-width">
             <style>:root{color-scheme:light dark;--line:#bbb;--code:#f4f4f4;--holds:#1a7f37;--fails:#c62828;--unknown:#6e6e6e}
-            @media(prefers-color-scheme:dark){:root{--line:#555;--code:#262626;--holds:#57c47a;--fails:#ff8a80;--unknown:#a8a8a8}}
-            body{font:16px/1.45 sans-serif;max-width:64em;margin:2em auto;padding:0 1em;overflow-wrap:anywhere}
+            @media(prefers-color-scheme:dark){:root{--line:#555;--code:#262626;--holds:#57c47a;--fails:#ff8a80;--unknown:#a8a8a8}
+            img.chart{filter:invert(.9) hue-rotate(180deg)}img.portrait{filter:brightness(.85)}}
+            body{font:16px/1.45 sans-serif;max-width:64em;margin:1em auto;padding:0 1em;overflow-wrap:anywhere}
             table{border-collapse:collapse;margin:1em 0;font-size:14px;display:block;overflow-x:auto}
             td,th{border:1px solid var(--line);padding:.2em .5em;overflow-wrap:normal}
             td.holds{color:var(--holds)}td.fails{color:var(--fails)}td.unknown{color:var(--unknown)}
-            img{max-width:100%%;background:#fff}pre{background:var(--code);padding:.6em;overflow:auto}
+            img{max-width:100%%;background:#fff;vertical-align:top}p.figure{overflow-x:auto}img.portrait{max-height:18em}h1{margin:.5em 0}
+            blockquote{margin:1em 0;padding:0 1em;border-left:3px solid var(--line)}
+            @media(max-width:42em){img.chart{max-width:none;width:40em}}
+            pre{background:var(--code);padding:.6em;overflow:auto}
             summary{cursor:pointer;margin:1em 0}
             </style></head><body>
             %s</body></html>
@@ -49,6 +56,7 @@ public final class ReportDocument {
     private final String title;
     private final List<String> parts = new ArrayList<>();
     private final List<String> sections = new ArrayList<>();
+    private final Set<String> portraits = new HashSet<>();
 
     /**
      * An empty page.
@@ -121,14 +129,23 @@ public final class ReportDocument {
     }
 
     /**
-     * Adds a picture; one that is not there is left out.
+     * Adds a chart; one that is not there is left out. Where a reader prefers dark pages, its colours are turned round.
      *
      * @param png   its file
      * @param about what it shows
      */
     public ReportDocument picture(Path png, String about) {
-        return Files.exists(png)
-                ? add("![" + about + "](" + folder.relativize(png).toString().replace('\\', '/') + ")") : this;
+        return Files.exists(png) ? add("![" + about + "](" + name(png) + ")") : this;
+    }
+
+    /** Adds a picture whose colours are those of what it shows, see {@link #picture}. */
+    public ReportDocument portrait(Path png, String about) {
+        portraits.add(name(png));
+        return picture(png, about);
+    }
+
+    private String name(Path png) {
+        return folder.relativize(png).toString().replace('\\', '/');
     }
 
     /** Adds commands or other text of fixed width. */
@@ -161,7 +178,10 @@ public final class ReportDocument {
         Node document = Parser.builder().extensions(TABLES).build().parse(markdown);
         return HtmlRenderer.builder().extensions(TABLES)
                 .attributeProviderFactory(context -> (node, tag, attributes) -> {
-                    if (tag.equals("img")) {
+                    if (tag.equals("p") && node.getFirstChild() instanceof Image && node.getFirstChild() == node.getLastChild()) {
+                        attributes.put("class", "figure");
+                    } else if (tag.equals("img")) {
+                        attributes.put("class", portraits.contains(attributes.get("src")) ? "portrait" : "chart");
                         attributes.computeIfPresent("src", (key, file) -> embedded(folder.resolve(file)));
                     } else if (node instanceof Heading) {
                         attributes.put("id", anchor(textOf(node)));

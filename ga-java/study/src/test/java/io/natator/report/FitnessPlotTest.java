@@ -25,8 +25,8 @@ class FitnessPlotTest {
         FitnessPlot.draw("title", history, folder);
 
         BufferedImage image = ImageIO.read(folder.resolve("fitness.png").toFile());
-        assertThat(image.getWidth()).isEqualTo(900);
-        assertThat(image.getHeight()).isEqualTo(540);
+        assertThat(image.getWidth()).isEqualTo(800);
+        assertThat(image.getHeight()).isEqualTo(480);
     }
 
     @Test

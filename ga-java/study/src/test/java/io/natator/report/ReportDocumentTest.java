@@ -65,6 +65,21 @@ class ReportDocumentTest {
                 "class=\"unknown\">– not measured", "<td align=\"right\">5 %");
     }
 
+    /** Charts are on white and have their colours turned round on a dark page; a portrait keeps its own. */
+    @Test
+    void tellsChartsFromPortraits() throws IOException {
+        XYChart chart = Charts.lines("a chart", "x", "y");
+        Charts.add(chart, "line", new double[] {0, 1}, new double[] {0, 1}, 0, 1f);
+        Path png = Picture.save(chart, folder.resolve("chart"));
+        Path swimmer = Files.copy(png, folder.resolve("swimmer.png"));
+
+        new ReportDocument(folder, "Title").portrait(swimmer, "a swimmer").picture(png, "a line").write("README.md");
+
+        assertThat(Files.readString(folder.resolve("report.html"))).containsPattern("<p class=\"figure\"><img [^>]*alt=\"a swimmer\" class=\"portrait\"")
+                .containsPattern("alt=\"a line\" class=\"chart\"")
+                .contains("@media(prefers-color-scheme:dark)", "img.chart{filter:invert", "@media(max-width:42em)");
+    }
+
     @Test
     void foldsWhatFewWillRead() throws IOException {
         new ReportDocument(folder, "Title")

@@ -9,6 +9,7 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Locale;
+import java.util.Optional;
 import java.util.function.Function;
 
 /** Table 3.2: which fish a creature swims like; and how the bodies lie and turn. */
@@ -22,7 +23,8 @@ final class RealismTables {
 
     void add(ReportDocument page) {
         page.heading(3, "Table 3.2: e against real fish");
-        page.text("0 is the same motion, 1/3 is none. α scales the simulated spine: as printed in the thesis it scales the "
+        page.text("0 is the same motion, 1/3 or less, √(x_l/L)/3, is none, x_l being where the shortest spine ends; so the least e alone "
+                + "names no fish: what the motion is like, where that is another or none, stands in brackets. α scales the simulated spine: as printed in the thesis it scales the "
                 + "real one, which cannot give its values. Sideways is z, as in the thesis; mean ± standard deviation over "
                 + "recorded runs. Flex 1.2.0: the same measure on one recorded run.");
         page.table(List.of("creature", "from", "anguilliform", "carangiform", "thunniform", "least"),
@@ -79,7 +81,9 @@ final class RealismTables {
             List<String> row = new ArrayList<>(List.of(subject.creature(), subject.from()));
             Arrays.stream(FishMode.values())
                     .forEach(mode -> row.add(TableFormat.speed(StudyResults.error(subject.motions(), mode, fits))));
-            row.add(StudyResults.nearest(subject.motions(), fits).label());
+            FishMode least = StudyResults.nearest(subject.motions(), fits);
+            Optional<FishMode> like = StudyResults.like(subject.motions(), fits);
+            row.add(least.label() + (like.isEmpty() ? " (like none)" : like.get() == least ? "" : " (like " + like.get().label() + ")"));
             rows.add(row);
         }
         return rows;

@@ -4,8 +4,10 @@ import io.natator.config.Scheme;
 import io.natator.kinematics.FishMode;
 import io.natator.kinematics.ModeFit;
 import io.natator.study.Sample;
+import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
+import java.util.Optional;
 import java.util.function.Function;
 import java.util.stream.IntStream;
 
@@ -70,6 +72,26 @@ record StudyResults(ThesisData data, ExperimentCatalogue catalogue, MeasurementL
         return motions.isEmpty() ? null : IntStream.range(0, FishMode.values().length).mapToObj(i -> FishMode.values()[i])
                 .min((a, b) -> Double.compare(error(motions, a, fits).mean(), error(motions, b, fits).mean()))
                 .orElseThrow();
+    }
+
+    /** Whether that mode is like them at all, by means over the runs; see {@link ModeFit#resembles}. */
+    private static boolean resembles(List<SwimKinematics> motions, FishMode mode, Function<SwimKinematics, List<ModeFit>> fits) {
+        List<ModeFit> own = motions.stream().map(motion -> fits.apply(motion).get(mode.ordinal())).toList();
+        return ModeFit.resembles(Sample.of(own.stream().map(ModeFit::relative).toList()).mean(),
+                Sample.of(own.stream().map(ModeFit::alpha).toList()).mean());
+    }
+
+    /** Of the modes that they are like at all the one with the least mean e; empty if there is none. */
+    static Optional<FishMode> like(List<SwimKinematics> motions, Function<SwimKinematics, List<ModeFit>> fits) {
+        return motions.isEmpty() ? Optional.empty() : Arrays.stream(FishMode.values()).filter(mode -> resembles(motions, mode, fits))
+                .min(Comparator.comparingDouble(mode -> error(motions, mode, fits).mean()));
+    }
+
+    /** The same in words, with e, or with the least e where they are like none; a dash without recordings. */
+    static String likeWhich(List<SwimKinematics> motions, Function<SwimKinematics, List<ModeFit>> fits) {
+        FishMode fish = like(motions, fits).orElse(nearest(motions, fits));
+        return fish == null ? TableFormat.NOTHING : like(motions, fits).map(FishMode::label).orElse("none")
+                + " (" + TableFormat.number(error(motions, fish, fits).mean()) + ")";
     }
 
     /** Recorded runs of the best gait of one evolution. */

@@ -36,7 +36,8 @@ final class ThesisFigures {
     }
 
     void add(ReportDocument page) throws IOException {
-        page.heading(2, "Pictures");
+        page.text("Curves of spines and envelopes end where the shortest spine does: bent, it is shorter along its line than the "
+                + "body is at rest, and beyond that its motion is not known at all times (thesis 2.8).");
         addFitness(page);
         addMotions(page);
         addParameters(page);
@@ -51,7 +52,8 @@ final class ThesisFigures {
                     List<GenerationSummary> history = StoredRun.state(run.plan().directory()).history();
                     Charts.add(chart, TableFormat.name(scheme) + ", seed " + run.seed(),
                             history.stream().mapToDouble(GenerationSummary::generation).toArray(),
-                            history.stream().mapToDouble(GenerationSummary::best).toArray(), scheme.ordinal(), 1.5f);
+                            history.stream().mapToDouble(GenerationSummary::best).toArray(), scheme.ordinal(),
+                            (int) run.seed() - 1, 1.5f);
                 }
             }
             if (!chart.getSeriesMap().isEmpty()) {
@@ -69,6 +71,7 @@ final class ThesisFigures {
             page.picture(plots.rotation("3.1-rotation-" + name), "figure 3.1: rotation");
             page.picture(plots.spines("3.2-spines-" + name), "figure 3.2: spine in four phases");
             page.picture(plots.envelopes("3.3-envelopes-" + name), "figure 3.3: envelope against real fish");
+            page.text(String.format(Locale.ROOT, "The simulated curves end at %.2f of the length.", plots.measuredPart()));
             if (entry.getValue().request().scene().endsWith("creature-2")) {
                 page.picture(plots.scaled("3.4-scaled-" + name, FishMode.ANGUILLIFORM),
                         "figure 3.4: scaled against anguilliform fish");
@@ -147,7 +150,7 @@ final class ThesisFigures {
             Charts.addOnTheRight(chart, "cost, " + TableFormat.name(scheme),
                     points.stream().mapToDouble(point -> point[0]).toArray(),
                     points.stream().mapToDouble(point -> point[1]).toArray(), "cost (core seconds per simulated second)",
-                    scheme == Scheme.FLEX ? Color.GRAY : Color.LIGHT_GRAY);
+                    scheme == Scheme.FLEX ? Color.GRAY : Color.LIGHT_GRAY, 1 + scheme.ordinal());
         }
     }
 }

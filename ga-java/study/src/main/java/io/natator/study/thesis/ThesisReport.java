@@ -3,6 +3,7 @@ package io.natator.study.thesis;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
+import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
 import io.natator.report.ReportDocument;
 import java.io.IOException;
@@ -22,12 +23,18 @@ final class ThesisReport {
 
     private static final Logger LOG = LoggerFactory.getLogger(ThesisReport.class);
     private static final String COMMENTARY = "commentary.md";
+    /** What a person wants said first. */
+    private static final String NOTE = "note.md";
+
+    private static final String ABOUT = "P. Fajdiga's master's thesis (University of Ljubljana, 2019) evolved swimming creatures in NVIDIA "
+            + "Flex; this is the same work with Natator.";
 
     private final Path directory;
     private final StudyResults results;
     private final int asked;
     private final Map<String, Recording> recordings;
     private final String command;
+    private final FirstScreen.Portrait portrait;
 
     /**
      * A report.
@@ -35,34 +42,60 @@ final class ThesisReport {
      * @param directory where it goes
      * @param asked     how many evolutions were asked for
      * @param command   what the study was made by
+     * @param portrait  draws the swimmer of {@link Answers#portrayed}; null for none
      */
-    ThesisReport(Path directory, StudyResults results, int asked, Map<String, Recording> recordings, String command) {
+    ThesisReport(Path directory, StudyResults results, int asked, Map<String, Recording> recordings, String command,
+            FirstScreen.Portrait portrait) {
         this.directory = directory;
         this.results = results;
         this.asked = asked;
         this.recordings = recordings;
         this.command = command;
+        this.portrait = portrait;
     }
 
-    Path write() {
+    Path write() throws InterruptedException {
         ReportDocument page = new ReportDocument(directory, "The thesis, redone");
-        page.text("P. Fajdiga's master's thesis (University of Ljubljana, 2019) evolved swimming creatures in NVIDIA Flex. "
-                + "This is the same work with Natator: what was asked, what came out, and where it disagrees. Generated; "
-                + "do not edit.");
-        page.list(scale());
-        new ClaimsSection(results).add(page);
-        addPictures(page);
-        page.heading(2, "Tables");
-        new SpeedTables(results).add(page);
-        new RealismTables(results).add(page);
-        new ExperimentTables(results).add(page);
+        addByHand(page, NOTE);
+        ClaimsSection claims = new ClaimsSection(results);
+        addFirstScreen(page, new Answers(results, claims));
+        claims.add(page);
+        page.heading(2, "Pictures").folded("all pictures", this::addPictures);
+        page.heading(2, "Tables").folded("all tables", inside -> {
+            new SpeedTables(results).add(inside);
+            new RealismTables(results).add(inside);
+            new ExperimentTables(results).add(inside);
+        });
         new DifferencesSection(results).add(page);
         addCommentary(page);
+        page.heading(2, "How it was made").list(scale());
+        page.text("Generated; do not edit.");
         addCommands(page);
         try {
             return page.write("README.md");
         } catch (IOException e) {
             throw new UncheckedIOException("cannot write the report: " + e.getMessage(), e);
+        }
+    }
+
+    private void addFirstScreen(ReportDocument page, Answers answers) throws InterruptedException {
+        Path swimmer = directory.resolve("figures").resolve("swimmer.png");
+        try {
+            Files.createDirectories(swimmer.getParent());
+            if (portrait != null) {
+                portrait.draw(swimmer);
+            }
+            Path chart = answers.draw(directory.resolve("figures").resolve("answers"));
+            FirstScreen.add(page, answers.sentences(), swimmer, answers.portrayed().map(run -> "creature " + run.creature()
+                    + ", evolved in scheme " + TableFormat.name(run.scheme())).orElse("the swimmer"), answers.evidence());
+            if (chart != null) {
+                page.picture(chart, "speeds in water with standard deviations");
+            }
+            page.text(ABOUT);
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot draw: " + e.getMessage(), e);
+        } catch (LinkageError e) {
+            LOG.warn("pictures not drawn: {}", e.toString());
         }
     }
 
@@ -99,12 +132,19 @@ final class ThesisReport {
 
     /** What a person wrote, marked as such. */
     private void addCommentary(ReportDocument page) {
-        Path file = directory.resolve(COMMENTARY);
+        if (Files.exists(directory.resolve(COMMENTARY))) {
+            page.heading(2, "Commentary");
+            page.text("Written by hand, from `" + COMMENTARY + "`; everything else on this page is computed.");
+            addByHand(page, COMMENTARY);
+        }
+    }
+
+    /** The paragraphs of a file, if it is there. */
+    private void addByHand(ReportDocument page, String name) {
+        Path file = directory.resolve(name);
         if (!Files.exists(file)) {
             return;
         }
-        page.heading(3, "Commentary");
-        page.text("Written by hand, from `" + COMMENTARY + "`; everything else on this page is computed.");
         try {
             for (String paragraph : Files.readString(file).strip().split("\n\\s*\n")) {
                 page.text(paragraph.strip());
@@ -115,7 +155,6 @@ final class ThesisReport {
     }
 
     private void addCommands(ReportDocument page) {
-        page.heading(2, "Commands");
         page.code(command);
         page.text("which continues where it was stopped; `--phase evolve`, `measure` and `report` do a part of it. Every "
                 + "speed is the mean of rows of `measurements.jsonl` that hold the whole request and result; every e that "

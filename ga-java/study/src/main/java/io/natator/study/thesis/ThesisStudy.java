@@ -5,6 +5,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.config.Limits;
 import io.natator.config.Scheme;
+import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
 import io.natator.report.RecordingFactory;
 import io.natator.simulator.Evaluator;
@@ -142,12 +143,20 @@ public final class ThesisStudy implements AutoCloseable {
     /**
      * Writes the report on what is there.
      *
-     * @param plan    the evolutions that were asked for
-     * @param command what the study was made by
+     * @param plan     the evolutions that were asked for
+     * @param command  what the study was made by
+     * @param portrait draws the swimmer of {@link #portrayed}; null for none
      * @return the page
+     * @throws InterruptedException if the calling thread is interrupted
      */
-    public Path report(EvolutionPlan plan, String command) {
-        return new ThesisReport(directory, results(), plan.runs().size(), recordings(), command).write();
+    public Path report(EvolutionPlan plan, String command, FirstScreen.Portrait portrait) throws InterruptedException {
+        return new ThesisReport(directory, results(), plan.runs().size(), recordings(), command, portrait).write();
+    }
+
+    /** The run folder whose winner the report shows; empty if nothing evolved was measured. */
+    public Optional<Path> portrayed() {
+        StudyResults results = results();
+        return new Answers(results, new ClaimsSection(results)).portrayed().map(run -> run.plan().directory());
     }
 
     @Override

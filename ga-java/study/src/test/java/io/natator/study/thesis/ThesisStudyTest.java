@@ -96,10 +96,13 @@ class ThesisStudyTest {
         Path page;
         try (ThesisStudy study = study()) {
             measure(study);
-            page = study.report(nothingEvolved(), "the command");
+            page = study.report(nothingEvolved(), "the command", null);
         }
 
         String text = Files.readString(page);
+        assertThat(text).containsSubsequence("# The thesis, redone", "**Of the thesis' gaits ", " swim", "[Pictures](#pictures)",
+                "| creature | thesis' gait, flex |", "| 2, with twice", "figures/answers.png", "## All verdicts",
+                "<details><summary>every gait</summary>", "<details><summary>every conclusion</summary>", "## How it was made");
         assertThat(text).contains("0 of 1 evolutions are finished",
                 "| 1 | published | 0.1834 | 0.1511 | 0.1997 | carangiform |", "Published gait 2, flex",
                 "figures/3.5-flow-thesis-2.png", "figures/4.1-acceleration-clamp.png", "the command")

@@ -1,0 +1,29 @@
+package io.natator.verdict;
+
+/** Whether a swim at half the time step is still the same swim. */
+final class HalfStep {
+
+    /** Change of the way, up or down, as a share of it, from which on the time step makes the swim. */
+    static final double MOST_CHANGE = 0.5;
+    /** What is expected, in words. */
+    static final String EXPECTED = "its way to within half of it";
+
+    private HalfStep() {
+    }
+
+    /**
+     * Whether two ways agree. One that gets much longer is as far from converged as one that gets much shorter.
+     *
+     * @param way    at the time step, in any unit
+     * @param atHalf at half of it, in the same
+     */
+    static boolean agrees(double way, double atHalf) {
+        return Math.abs(atHalf - way) <= MOST_CHANGE * Math.abs(way);
+    }
+
+    /** In words how they do not agree; null if they do. */
+    static String doubt(double way, double atHalf) {
+        return agrees(way, atHalf) ? null : (atHalf - way) * way > 0 ? "it gets more than half as far again at half the time step"
+                : "it loses more than half at half the time step";
+    }
+}
