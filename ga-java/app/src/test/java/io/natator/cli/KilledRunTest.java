@@ -12,6 +12,8 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 import java.util.concurrent.TimeUnit;
+import java.util.stream.IntStream;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -99,15 +101,13 @@ class KilledRunTest {
         Path run = folder.resolve("killed");
         Files.writeString(folder.resolve("most"), ANSWERS);
         Random random = new Random(7);
-        Process process = start(evolve(ISLANDS, run));
-        for (int i = 1; i <= 16; i++) {
-            Thread.sleep(700 + random.nextInt(500));
-            assertThat(process.isAlive()).as("end %d came before that of the run", i).isTrue();
-            process.destroyForcibly().waitFor();
-            process = start(command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", "--timeout", "3600",
+        assertThat(ended(start(evolve(ISLANDS, run)), run, random, true)).isTrue();
+        for (int i = 1; i < 16; i++) {
+            Process next = start(command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", "--timeout", "3600",
                     run.toString()));
+            assertThat(ended(next, run, random, i % 8 != 4)).as("end %d came before that of the run", i).isTrue();
         }
-        process.destroyForcibly().waitFor();
+        assertThat(run.resolve("island-1/migrants.jsonl")).exists();
         Files.delete(folder.resolve("slow"));
         Files.delete(folder.resolve("most"));
 
@@ -156,12 +156,11 @@ class KilledRunTest {
      */
     private boolean ended(Process process, Path run, Random random, boolean force)
             throws IOException, InterruptedException {
-        Path evaluations = run.resolve("evaluations.jsonl");
-        long before = Files.exists(evaluations) ? Files.size(evaluations) : 0;
+        long before = evaluated(run);
         if (force && before > 0 && random.nextInt(3) == 0) {
             Thread.sleep(random.nextInt(300));
         } else {
-            while (process.isAlive() && (!Files.exists(evaluations) || Files.size(evaluations) <= before)) {
+            while (process.isAlive() && evaluated(run) <= before) {
                 Thread.sleep(2);
             }
             Thread.sleep(random.nextInt(60));
@@ -178,6 +177,12 @@ class KilledRunTest {
                     .doesNotContain("Exception", "internal error");
         }
         return alive;
+    }
+
+    /** Bytes of evaluations that a run, or all islands of one, has written. */
+    private static long evaluated(Path run) {
+        return Stream.concat(Stream.of(run), IntStream.rangeClosed(1, 3).mapToObj(i -> run.resolve("island-" + i)))
+                .mapToLong(folder -> folder.resolve("evaluations.jsonl").toFile().length()).sum();
     }
 
     /** A limit on the size of files ends a write as a full disk does. */
