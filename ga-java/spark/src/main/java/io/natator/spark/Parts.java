@@ -1,5 +1,6 @@
 package io.natator.spark;
 
+import io.natator.simulator.PartSize;
 import io.natator.simulator.SimulationRequest;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -8,21 +9,15 @@ import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
 
 /**
- * Divides evaluations into parts, of which Spark does one at a time in each of its slots. A part costs the driver some
- * milliseconds whatever is in it, so parts are large; but what an executor does not finish is lost, and at the end of a
- * generation all wait for the last part. So a part takes half of what is left for each slot (guided self-scheduling,
- * Polychronopoulos and Kuck 1987), and at most {@value #LONGEST} s, by the time that such evaluations took before.
+ * Divides evaluations into parts, of which Spark does one at a time in each of its slots: as {@link PartSize} says where it is
+ * known how long such evaluations take.
  */
 final class Parts {
 
-    /** Time of the longest parts, s. */
-    static final double LONGEST = 2;
-    /** Time below which a part is not made shorter, s: ten times what it costs. */
-    static final double SHORTEST = 0.05;
-    /** Of what is left, a part has one in so many for each slot. */
-    private static final int SHARES = 2;
     /** Parts for each slot at most while it is not known how long evaluations take. */
     private static final int UNKNOWN = 256;
+    /** A time that a clock can tell from none, s. */
+    private static final double LEAST = 1e-6;
     /** Weight of the latest part in the mean. */
     private static final double LATEST = 0.2;
 
@@ -40,7 +35,7 @@ final class Parts {
 
     /** Takes note of how long a part took. */
     void took(List<SimulationRequest> part, double time) {
-        double each = time / part.size();
+        double each = Math.max(time, LEAST) / part.size();
         seconds.merge(kind(part.get(0)), each, (mean, latest) -> mean + LATEST * (latest - mean));
     }
 
@@ -56,8 +51,7 @@ final class Parts {
         for (int first = 0; first < requests.size();) {
             List<Object> kind = kind(requests.get(first));
             Double each = seconds.get(kind);
-            double time = Math.max(SHORTEST, Math.min(LONGEST, left / (SHARES * slots)));
-            int most = each == null ? evenly : (int) Math.max(1, Math.min(Math.round(time / each), requests.size()));
+            int most = each == null ? evenly : PartSize.of(left, each, slots);
             int end = first + 1;
             while (end < requests.size() && end - first < most && kind(requests.get(end)).equals(kind)) {
                 end++;
