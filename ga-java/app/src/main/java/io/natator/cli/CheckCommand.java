@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import io.natator.body.Swimmer;
+import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -54,7 +55,7 @@ final class CheckCommand implements Callable<Integer> {
         if (starts < 2 || starts > Limits.STARTS) {
             throw new InvalidInputException("--starts is " + starts + "; expected a whole number from 2 to " + Limits.STARTS);
         }
-        StoredRun run = StoredRun.in(folder);
+        StoredRun run = StoredRun.in(Archipelago.run(folder));
         if (run.best() == null) {
             throw new InvalidInputException(folder + " has no best gait yet; finish it by natator resume");
         }
@@ -66,7 +67,7 @@ final class CheckCommand implements Callable<Integer> {
         Double underWater = WaterCheck.shareUnderWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),
                 List.of(controls.duration() / 2, controls.duration()), execution);
         Controls all = controls.withUnderWater(underWater);
-        all.write(folder);
+        all.write(run.directory());
         new ControlReport(spec.commandLine().getOut()).print(all);
         return ExitCode.OK;
     }

@@ -63,8 +63,13 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
     private long seed;
 
     @Section(Topic.COMPUTING)
-    @Option(names = "--driver-ms", paramLabel = "MS", defaultValue = "3",
-            description = "Time of the driver for each evaluation. Default: ${DEFAULT-VALUE}.")
+    @Option(names = "--part-ms", paramLabel = "MS", defaultValue = "3",
+            description = "Time of the driver for each part of a generation, which is one evaluation or more. Default: ${DEFAULT-VALUE}.")
+    private double perPart;
+
+    @Section(Topic.COMPUTING)
+    @Option(names = "--driver-ms", paramLabel = "MS", defaultValue = "0.5",
+            description = "Time of the driver for each evaluation, besides that for its part. Default: ${DEFAULT-VALUE}.")
     private double perEvaluation;
 
     @Section(Topic.COMPUTING)
@@ -100,6 +105,7 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         Limits.checkCount("--evaluations", evaluations, MOST_EVALUATIONS);
+        check("--part-ms", perPart, 0, 1 / MILLISECOND);
         check("--driver-ms", perEvaluation, 0, 1 / MILLISECOND);
         check("--generation-ms", perGeneration, 0, Limits.SECONDS / MILLISECOND);
         check("--latency-ms", latency, 0, Limits.SECONDS / MILLISECOND);
@@ -113,7 +119,7 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
             if (!Files.exists(times)) {
                 measure(times);
             }
-            Assumptions cluster = new Assumptions(MILLISECOND * perEvaluation, MILLISECOND * latency, MILLISECOND * perGeneration,
+            Assumptions cluster = new Assumptions(MILLISECOND * perPart, MILLISECOND * perEvaluation, MILLISECOND * latency, MILLISECOND * perGeneration,
                     failures, restart, slowShare, slowFactor, true);
             spec.commandLine().getOut().println(new ClusterStudy(cluster, EvaluationTimes.read(times), seed)
                     .writeTo(directory, CommandText.of(spec, List.of("--simulator-path"))));

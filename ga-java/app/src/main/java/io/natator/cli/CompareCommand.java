@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
@@ -58,7 +59,7 @@ final class CompareCommand implements Callable<Integer> {
         if (starts != 0 && starts < 2 || starts > Limits.STARTS) {
             throw new InvalidInputException("--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
         }
-        List<StoredRun> runs = folders.stream().map(StoredRun::in).toList();
+        List<StoredRun> runs = folders.stream().map(folder -> StoredRun.in(Archipelago.run(folder))).toList();
         PrintWriter out = spec.commandLine().getOut();
         for (int i = 0; i < runs.size(); i++) {
             out.printf("%d  %s: %s%n", i + 1, runs.get(i).directory(), ShowCommand.settings(runs.get(i).settings()));
@@ -78,7 +79,7 @@ final class CompareCommand implements Callable<Integer> {
                 : Backend.CPU;
         ExecutionSettings execution =
                 EvolutionRun.withTimeLimit(cacheOptions.in(executionOptions.execution(backend)), settings);
-        RunComparison comparison = new RunComparison(folders, starts);
+        RunComparison comparison = new RunComparison(folders.stream().map(Archipelago::run).toList(), starts);
         PrintWriter err = spec.commandLine().getErr();
         err.println("running " + comparison.swims() + " swims from fresh starts; --starts 0 leaves that out");
         err.flush();

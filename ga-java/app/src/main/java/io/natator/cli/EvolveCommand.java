@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
@@ -62,6 +63,9 @@ final class EvolveCommand implements Callable<Integer> {
 
     @Mixin
     private SceneChoice choice;
+
+    @Mixin
+    private IslandOptions islandOptions;
 
     @Section(Topic.EXTENT)
     @Option(names = "--preset", paramLabel = "PRESET", defaultValue = "quick",
@@ -175,9 +179,16 @@ final class EvolveCommand implements Callable<Integer> {
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
         Path directory = outputDir != null ? outputDir : freeFolder(settings.scene());
-        RunPreview preview = new RunPreview(settings, execution);
+        Archipelago.Plan islands = islandOptions.plan(settings);
+        RunPreview preview = new RunPreview(settings, islands, execution);
         if (dryRun) {
             preview.print(directory, spec.commandLine().getOut());
+            return ExitCode.OK;
+        }
+        if (islands != null) {
+            Archipelago archipelago = Archipelago.create(directory, islands);
+            preview.printAnyway(directory, spec.commandLine().getOut());
+            new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
             return ExitCode.OK;
         }
         RunFolder folder = RunFolder.create(directory, settings);

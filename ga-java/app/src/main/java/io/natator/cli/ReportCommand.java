@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
@@ -40,9 +41,9 @@ final class ReportCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        StoredRun run = StoredRun.in(directory);
+        StoredRun run = StoredRun.in(Archipelago.run(directory));
         ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(Backend.CPU), run.settings());
-        Path folder = outputDir != null ? outputDir : directory.resolve("report");
+        Path folder = outputDir != null ? outputDir : run.directory().resolve("report");
         try {
             GaitReport report = new GaitReport(run, folder);
             spec.commandLine().getOut().println(report.write(execution, DrawnSwim.portrait(directory, execution.simulator())));

@@ -1,7 +1,9 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
 import io.natator.cli.Section.Topic;
+import io.natator.config.Backend;
 import java.nio.file.Path;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
@@ -44,14 +46,33 @@ final class ResumeCommand implements Callable<Integer> {
     static void resume(Path directory, ExecutionOptions options, CacheOptions cache, Double stopAfter,
             CommandSpec spec) throws InterruptedException {
         EvolveCommand.checkStopAfter(stopAfter);
+        if (Archipelago.exists(directory)) {
+            resume(Archipelago.in(directory), options, cache, stopAfter, spec);
+            return;
+        }
         RunFolder folder = RunFolder.open(directory);
-        if (options.backend() != null && options.backend() != folder.settings().backend()) {
-            spec.commandLine().getErr().println("backend was " + folder.settings().backend().argument()
-                    + ", is now " + options.backend().argument() + ": last digits, and with them gaits, will differ "
-                    + "from those of a run that kept it");
+        if (isChanged(folder.settings().backend(), options, spec)) {
             folder.changeBackend(options.backend());
         }
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder,
                 cache.in(options.execution(folder.settings().backend())), stopAfter);
+    }
+
+    private static void resume(Archipelago stored, ExecutionOptions options, CacheOptions cache, Double stopAfter,
+            CommandSpec spec) throws InterruptedException {
+        Backend before = stored.plan().settings().backend();
+        Archipelago archipelago = isChanged(before, options, spec) ? stored.changeBackend(options.backend()) : stored;
+        new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago,
+                cache.in(options.execution(before)), stopAfter);
+    }
+
+    /** Whether another backend is asked for, which is told of. */
+    private static boolean isChanged(Backend before, ExecutionOptions options, CommandSpec spec) {
+        boolean changed = options.backend() != null && options.backend() != before;
+        if (changed) {
+            spec.commandLine().getErr().println("backend was " + before.argument() + ", is now " + options.backend().argument()
+                    + ": last digits, and with them gaits, will differ from those of a run that kept it");
+        }
+        return changed;
     }
 }

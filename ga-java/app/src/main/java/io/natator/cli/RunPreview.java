@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
@@ -17,10 +18,17 @@ import java.util.Locale;
 final class RunPreview {
 
     private final EvolutionSettings settings;
+    private final Archipelago.Plan islands;
     private final ExecutionSettings execution;
 
-    RunPreview(EvolutionSettings settings, ExecutionSettings execution) {
+    /**
+     * Of a run, or of the islands that it is the first of.
+     *
+     * @param islands null for a run by itself
+     */
+    RunPreview(EvolutionSettings settings, Archipelago.Plan islands, ExecutionSettings execution) {
         this.settings = settings;
+        this.islands = islands;
         this.execution = execution;
     }
 
@@ -39,14 +47,17 @@ final class RunPreview {
         out.printf(Locale.ROOT, "  scene       %d particles, %d actuators, %.2f s%n", scene.particles(),
                 scene.actuators(), duration);
         out.printf("  genes       %s%n", String.join(", ", settings.genome().genes().stream().map(GeneRange::name).toList()));
-        out.printf("  evaluations %s%n", estimate.total());
+        if (islands != null) {
+            out.printf("  islands     %s%n", IslandsReport.exchange(islands));
+        }
+        out.printf("  evaluations %s%s%n", islands == null ? "" : islands.islands() + " times ", estimate.total());
         out.printf(Locale.ROOT, "  simulator   %s, %s, time limit %s each%n",
                 execution.mode().name().toLowerCase(Locale.ROOT), execution.mode() == SimulatorMode.BATCH
                         ? "a generation at once" : execution.mode() == SimulatorMode.SPARK ? "as many at once as the cluster can"
                         : execution.workers() + " at once",
                 ProgressEstimate.readable(limited.timeout().toSeconds()));
         out.printf("  run folder  %s%n", folder);
-        printTime(limited, duration, estimate.expected(), out);
+        printTime(limited, duration, (islands == null ? 1 : islands.islands()) * estimate.expected(), out);
         out.flush();
     }
 
@@ -57,13 +68,20 @@ final class RunPreview {
      */
     void print(RunFolder folder, PrintWriter out) throws InterruptedException {
         try {
-            print(folder.directory(), out);
-        } catch (InvalidInputException | IllegalStateException e) {
-            out.println("  time        not known: " + e.getMessage());
-            out.flush();
+            printAnyway(folder.directory(), out);
         } catch (InterruptedException e) {
             folder.close();
             throw e;
+        }
+    }
+
+    /** The same of islands, which have no open folder yet. */
+    void printAnyway(Path folder, PrintWriter out) throws InterruptedException {
+        try {
+            print(folder, out);
+        } catch (InvalidInputException | IllegalStateException e) {
+            out.println("  time        not known: " + e.getMessage());
+            out.flush();
         }
     }
 

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
@@ -38,8 +39,11 @@ final class ShowCommand implements Callable<Integer> {
 
     @Override
     public Integer call() {
-        StoredRun run = StoredRun.in(folder);
         PrintWriter out = spec.commandLine().getOut();
+        if (Archipelago.exists(folder)) {
+            IslandsReport.print(Archipelago.in(folder), out);
+        }
+        StoredRun run = StoredRun.in(Archipelago.run(folder));
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {
@@ -72,6 +76,8 @@ final class ShowCommand implements Callable<Integer> {
         text.append(settings.evolve() == null ? "" : settings.evolve().what() == Evolved.BODY ? ", bodies with one gait"
                 : ", gaits and bodies");
         text.append(", seed ").append(settings.seed());
+        text.append(settings.migration() == null ? "" : ", island " + settings.migration().island() + " of "
+                + settings.migration().islands());
         text.append(", ").append(settings.encoding().name().toLowerCase(Locale.ROOT)).append(" genes");
         if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.gaussianDeviation());
@@ -89,7 +95,7 @@ final class ShowCommand implements Callable<Integer> {
         return text.toString();
     }
 
-    private static String progress(StoredRun run) {
+    private String progress(StoredRun run) {
         if (run.state() == null) {
             return "generation 0 under way: " + run.evaluations().size() + " evaluations";
         }
@@ -98,7 +104,7 @@ final class ShowCommand implements Callable<Integer> {
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
-                                + " resume " + run.directory());
+                                + " resume " + folder);
     }
 
     /** What no other gait is better than in all objectives. */

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.body.Swimmer;
+import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
@@ -78,6 +79,7 @@ final class ViewCommand implements Callable<Integer> {
             throw new InvalidInputException("--port is " + port + "; expected a whole number from 0 to 65535");
         }
         Path program = simulator.path();
+        runs = Archipelago.runs(runs);
         String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
         Path shown = shownRun();
         ViewSettings settings = new ViewSettings(program, host, port, start(scene, shown, program),

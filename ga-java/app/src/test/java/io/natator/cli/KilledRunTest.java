@@ -12,6 +12,8 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 import java.util.concurrent.TimeUnit;
+import java.util.stream.IntStream;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -26,9 +28,11 @@ class KilledRunTest {
 
     private static final List<String> RESULTS =
             List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl");
-    private static final List<String> SETTINGS =
-            List.of("--population", "30", "--evaluations", "400", "--simulator", "resident", "--workers", "2",
-                    "--no-cache", "--timeout", "3600");
+    private static final List<String> HOW =
+            List.of("--simulator", "resident", "--workers", "2", "--no-cache", "--timeout", "3600");
+    private static final List<String> SETTINGS = List.of("--population", "30", "--evaluations", "400");
+    private static final List<String> ISLANDS = List.of("--population", "6", "--generations", "5", "--starts", "1", "--islands", "3",
+            "--migrate-every", "1", "--migrants", "2");
     /** Answers that a simulator gives at most until it waits to be killed: no run gets to its end between two kills. */
     private static final String ANSWERS = "4";
 
@@ -59,12 +63,17 @@ class KilledRunTest {
 
     /** A run without any trouble, in this process. */
     private Path whole(String... more) throws IOException {
+        return whole(SETTINGS, more);
+    }
+
+    private Path whole(List<String> settings, String... more) throws IOException {
         Path run = folder.resolve("whole");
         Path slow = folder.resolve("slow");
         Files.delete(slow);
         List<String> arguments = new ArrayList<>(List.of("evolve", "--simulator-path",
                 folder.resolve("fake-simulator.sh").toString(), "--output-dir", run.toString()));
-        arguments.addAll(SETTINGS);
+        arguments.addAll(HOW);
+        arguments.addAll(settings);
         arguments.addAll(List.of(more));
         PrintWriter nowhere = new PrintWriter(Writer.nullWriter());
         assertThat(Main.commandLine().setOut(nowhere).setErr(nowhere).execute(arguments.toArray(String[]::new)))
@@ -74,10 +83,41 @@ class KilledRunTest {
     }
 
     private List<String> evolve(Path run, String... more) {
+        return evolve(SETTINGS, run, more);
+    }
+
+    private List<String> evolve(List<String> settings, Path run, String... more) {
         List<String> command = command("evolve", "--output-dir", run.toString());
-        command.addAll(SETTINGS);
+        command.addAll(HOW);
+        command.addAll(settings);
         command.addAll(List.of(more));
         return command;
+    }
+
+    /** All islands run in one process and die together, each where it is. */
+    @Test
+    void killsOfIslandsChangeNothing() throws IOException, InterruptedException {
+        Path whole = whole(ISLANDS);
+        Path run = folder.resolve("killed");
+        Files.writeString(folder.resolve("most"), ANSWERS);
+        Random random = new Random(7);
+        assertThat(ended(start(evolve(ISLANDS, run)), run, random, true)).isTrue();
+        for (int i = 1; i < 16; i++) {
+            Process next = start(command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", "--timeout", "3600",
+                    run.toString()));
+            assertThat(ended(next, run, random, i % 8 != 4)).as("end %d came before that of the run", i).isTrue();
+        }
+        assertThat(run.resolve("island-1/migrants.jsonl")).exists();
+        Files.delete(folder.resolve("slow"));
+        Files.delete(folder.resolve("most"));
+
+        assertThat(start(command("resume", "--no-cache", run.toString())).waitFor()).as(Files.readString(log)).isZero();
+
+        for (int i = 1; i <= 3; i++) {
+            assertSame(run.resolve("island-" + i), whole.resolve("island-" + i));
+            assertThat(run.resolve("island-" + i + "/migrants.jsonl")).hasSameBinaryContentAs(
+                    whole.resolve("island-" + i + "/migrants.jsonl"));
+        }
     }
 
     private static void assertSame(Path run, Path whole) {
@@ -116,12 +156,11 @@ class KilledRunTest {
      */
     private boolean ended(Process process, Path run, Random random, boolean force)
             throws IOException, InterruptedException {
-        Path evaluations = run.resolve("evaluations.jsonl");
-        long before = Files.exists(evaluations) ? Files.size(evaluations) : 0;
+        long before = evaluated(run);
         if (force && before > 0 && random.nextInt(3) == 0) {
             Thread.sleep(random.nextInt(300));
         } else {
-            while (process.isAlive() && (!Files.exists(evaluations) || Files.size(evaluations) <= before)) {
+            while (process.isAlive() && evaluated(run) <= before) {
                 Thread.sleep(2);
             }
             Thread.sleep(random.nextInt(60));
@@ -138,6 +177,12 @@ class KilledRunTest {
                     .doesNotContain("Exception", "internal error");
         }
         return alive;
+    }
+
+    /** Bytes of evaluations that a run, or all islands of one, has written. */
+    private static long evaluated(Path run) {
+        return Stream.concat(Stream.of(run), IntStream.rangeClosed(1, 3).mapToObj(i -> run.resolve("island-" + i)))
+                .mapToLong(folder -> folder.resolve("evaluations.jsonl").toFile().length()).sum();
     }
 
     /** A limit on the size of files ends a write as a full disk does. */

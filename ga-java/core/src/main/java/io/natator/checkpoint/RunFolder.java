@@ -6,6 +6,8 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.Migration;
+import io.natator.evolution.Departure;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
@@ -36,18 +38,20 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     static final String CONTROLS = "check.json";
     static final String ENVIRONMENT = "environment.json";
     static final String EVALUATIONS = "evaluations.jsonl";
+    static final String MIGRANTS = "migrants.jsonl";
     private static final String GENERATIONS = "generations.csv";
     private static final String TIMINGS = "timings.csv";
     private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
     private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
-            CONTROLS, ENVIRONMENT, EVALUATIONS, GENERATIONS, TIMINGS, CONFIG, ".");
+            CONTROLS, ENVIRONMENT, EVALUATIONS, MIGRANTS, GENERATIONS, TIMINGS, CONFIG, ".");
 
     private final Path directory;
     private EvolutionSettings settings;
     private final Genome genome;
     private final EvolutionState checkpoint;
     private final JsonLines<EvaluationRecord> log;
+    private final JsonLines<Departure> departures;
     private final GenerationTimes timings;
 
     private RunFolder(Path directory, EvolutionSettings settings) {
@@ -58,6 +62,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         try {
             this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
                     ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
+            this.departures = JsonLines.of(directory.resolve(MIGRANTS), Departure.class);
         } catch (InvalidInputException e) {
             log.close();
             throw e;
@@ -71,8 +76,15 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * @throws InvalidInputException if there is something in it already, or it cannot be made
      */
     public static RunFolder create(Path directory, EvolutionSettings settings) {
+        make(directory, CONFIG, settings);
+        return new RunFolder(directory, settings);
+    }
+
+    /** Makes a new folder with a first file, a JSON document; also where a kill ended that before the file was whole. */
+    static void make(Path directory, String name, Object content) {
         try {
             Files.createDirectories(directory);
+            AtomicFile.deleteUnfinished(directory.resolve(name));
             if (isOccupied(directory)) {
                 throw new InvalidInputException("output folder " + directory + " is not empty; choose another by "
                         + "--output-dir, or continue the run in it by --resume " + directory);
@@ -82,11 +94,10 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
                     + FileErrors.reason(directory, e), e);
         }
         try {
-            AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+            AtomicFile.write(directory.resolve(name), Json.document(content));
         } catch (UncheckedIOException e) {
             throw new InvalidInputException("output folder " + directory + " cannot be used: " + e.getMessage(), e);
         }
-        return new RunFolder(directory, settings);
     }
 
     /** Removes what a run wrote, and its folder unless there is something else in it. Can be done again after a kill. */
@@ -126,8 +137,21 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + recorded
                     + " whole lines; expected at least the " + folder.checkpoint.evaluations() + " of " + CHECKPOINT);
         }
+        folder.checkDepartures();
         folder.dropFailures();
         return folder;
+    }
+
+    /** After each exchange up to the checkpoint somebody left, if only nobody: the next island has gone on by that. */
+    private void checkDepartures() {
+        Migration migration = settings.migration();
+        int expected = migration == null || checkpoint == null ? 0 : Math.max(checkpoint.generation() - 1, 0) / migration.every();
+        if (departures.rows().size() < expected) {
+            close();
+            throw new InvalidInputException(directory + " is damaged: " + MIGRANTS + " has " + departures.rows().size()
+                    + " whole lines; expected at least " + expected + ", one for each exchange before generation "
+                    + checkpoint.generation());
+        }
     }
 
     /**
@@ -174,6 +198,17 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     /** Simulations that were recorded when the folder was opened, in the order of their ids. */
     public List<EvaluationRecord> recorded() {
         return log.rows();
+    }
+
+    /** The gaits that had left the run, as one of several islands, when the folder was opened. */
+    public List<Departure> departures() {
+        return departures.rows();
+    }
+
+    /** Writes, to the disk itself, which gaits leave the run: the next island goes on by them. */
+    public void append(Departure departure) {
+        departures.append(departure);
+        departures.force();
     }
 
     /** Writes where and how the run is carried out. */
@@ -245,6 +280,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     @Override
     public void close() {
+        departures.close();
         log.close();
     }
 }

@@ -5,6 +5,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
+import io.natator.evolution.Departure;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
@@ -101,6 +102,11 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     /** The evaluations that the run in a folder has recorded. */
     public static List<EvaluationRecord> evaluations(Path directory) {
         return JsonLines.read(directory.resolve(RunFolder.EVALUATIONS), EvaluationRecord.class);
+    }
+
+    /** The gaits that have left the run in a folder for another island. */
+    public static List<Departure> departures(Path directory) {
+        return JsonLines.read(directory.resolve(RunFolder.MIGRANTS), Departure.class);
     }
 
     /** The state after the last finished generation of the run in a folder, or null. */

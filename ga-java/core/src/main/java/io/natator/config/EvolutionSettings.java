@@ -37,12 +37,13 @@ import java.util.stream.Collectors;
  * @param objectives        what is to be great instead of the fitness: one, several with weights, or for {@code nsga2}
  *                          several without; null for the fitness
  * @param evolve            bodies to be evolved; null for gaits of the scene's body alone
+ * @param migration         which of several islands the run is, and how they exchange gaits; null for a run by itself
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record EvolutionSettings(String scene, EncodingKind encoding, int actuators, OptimizerKind optimizer,
         int population, int generations, Long evaluations, long seed, OperatorSet operators, double gaussianDeviation,
         FitnessKind fitness, Boolean vacuumCheck, Backend backend, Scheme scheme, Double duration,
-        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives, BodyEvolution evolve) {
+        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives, BodyEvolution evolve, Migration migration) {
 
     /** Generations of a run that ends by its number of evaluations alone. */
     public static final int NO_LIMIT = Integer.MAX_VALUE;
@@ -80,6 +81,9 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
                 "one for the " + actuators + " of the scene's body");
         require(evaluations == null || evaluations >= starts, "evaluations", evaluations,
                 "at least the " + starts + " starts of one gait");
+        if (migration != null) {
+            migration.check(optimizer, population);
+        }
     }
 
     private static void checkObjectives(OptimizerKind optimizer, FitnessKind fitness, Judge judge,
@@ -118,7 +122,7 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
     public static EvolutionSettings of(String scene, EncodingKind encoding, int actuators) {
         return new EvolutionSettings(scene, encoding, actuators, OptimizerKind.JGAP, Preset.THESIS.population(),
                 Preset.THESIS.generations(), null, 1, OperatorSet.CORRECTED, 0.05, FitnessKind.DISTANCE, false,
-                Backend.CPU, null, null, null, 1, Judge.MEAN, null, null);
+                Backend.CPU, null, null, null, 1, Judge.MEAN, null, null, null);
     }
 
     /** These settings with another size. */
@@ -126,21 +130,21 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
         return new EvolutionSettings(scene, encoding, actuators, optimizer, newPopulation, newGenerations,
                 evaluations, seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration,
                 overrides, starts, judge,
-                objectives, evolve);
+                objectives, evolve, migration);
     }
 
     /** These settings with a number of simulations, or null, after which the run ends. */
     public EvolutionSettings withEvaluations(Long newEvaluations) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, newEvaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve);
+                objectives, evolve, migration);
     }
 
     /** These settings with another seed. */
     public EvolutionSettings withSeed(long newSeed) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 newSeed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve);
+                objectives, evolve, migration);
     }
 
     /** These settings with another optimizer and, for JGAP, its operators. */
@@ -148,49 +152,56 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
             double newGaussianDeviation) {
         return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
                 seed, newOperators, newGaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve);
+                objectives, evolve, migration);
     }
 
     /** These settings with another reward, and with or without the check of new bests in vacuum. */
     public EvolutionSettings withFitness(FitnessKind newFitness, boolean newVacuumCheck) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, newFitness, newVacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve);
+                objectives, evolve, migration);
     }
 
     /** These settings on another backend. */
     public EvolutionSettings withBackend(Backend newBackend) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, newBackend, scheme, duration, overrides, starts, judge,
-                objectives, evolve);
+                objectives, evolve, migration);
     }
 
     /** These settings with the scene changed; null leaves what the scene has. */
     public EvolutionSettings withScene(Scheme newScheme, Double newDuration, JsonNode newOverrides) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, newScheme, newDuration,
-                newOverrides, starts, judge, objectives, evolve);
+                newOverrides, starts, judge, objectives, evolve, migration);
     }
 
     /** These settings with another number of starts of each gait. */
     public EvolutionSettings withStarts(int newStarts, Judge newJudge) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides,
-                newStarts, newJudge, objectives, evolve);
+                newStarts, newJudge, objectives, evolve, migration);
     }
 
     /** These settings with objectives instead of the fitness, or null; and for these, an optimizer. */
     public EvolutionSettings withObjectives(OptimizerKind newOptimizer, List<WeightedObjective> newObjectives) {
         return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides,
-                starts, judge, newObjectives, evolve);
+                starts, judge, newObjectives, evolve, migration);
     }
 
     /** These settings with bodies to be evolved, or null for gaits alone. */
     public EvolutionSettings withBodies(BodyEvolution newEvolve) {
         return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
                 seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, newEvolve);
+                objectives, newEvolve, migration);
+    }
+
+    /** These settings as one of several islands, or null for a run by itself. */
+    public EvolutionSettings withMigration(Migration newMigration) {
+        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
+                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
+                objectives, evolve, newMigration);
     }
 
     /** What genes stand for in this run. */

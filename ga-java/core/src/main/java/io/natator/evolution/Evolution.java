@@ -21,6 +21,7 @@ public final class Evolution {
     private final Evaluator evaluator;
     private final List<EvolutionListener> listeners;
     private final List<EvaluationRecord> recorded;
+    private final Exchange exchange;
 
     private int generation;
     private long evaluations;
@@ -41,11 +42,18 @@ public final class Evolution {
      */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
             List<EvaluationRecord> recorded) {
+        this(settings, evaluator, listeners, recorded, Exchange.NONE);
+    }
+
+    /** The same on an island. */
+    public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
+            List<EvaluationRecord> recorded, Exchange exchange) {
         this.settings = settings;
         this.genome = settings.genome();
         this.evaluator = evaluator;
         this.listeners = List.copyOf(listeners);
         this.recorded = List.copyOf(recorded);
+        this.exchange = exchange;
     }
 
     /**
@@ -66,11 +74,21 @@ public final class Evolution {
             optimizer.recall(newborns(recorded.subList(0, (int) evaluations)));
             EvolutionState state = from;
             while (state == null || !state.isLastOf(settings)) {
+                List<Individual> parents = state == null ? List.of() : parents(state);
                 generation = state == null ? 0 : state.generation() + 1;
                 simulated.clear();
-                state = finish(state, optimizer.next(generation, state == null ? List.of() : state.population()));
+                state = finish(state, optimizer.next(generation, parents));
             }
             return state;
+        }
+    }
+
+    private List<Individual> parents(EvolutionState state) {
+        try {
+            return exchange.parents(state);
+        } catch (InterruptedException e) {
+            throw new EvolutionStoppedException("stopped after generation " + state.generation() + " and " + evaluations
+                    + " evaluations, in wait for the gaits of another island");
         }
     }
 
@@ -83,8 +101,9 @@ public final class Evolution {
         List<Individual> population = bred;
         List<Individual> champions = null;
         Individual best = before == null ? null : before.best();
+        List<Individual> natives = bred.stream().filter(exchange::isNative).toList();
         if (settings.starts() > 1) {
-            Race race = new Race(settings, this::repeat, bred, before == null ? List.of() : before.champions());
+            Race race = new Race(settings, this::repeat, natives, before == null ? List.of() : before.champions());
             champions = race.run();
             if (budgetLeft() > 0 && budgetLeft() < settings.starts()) {
                 champions = race.useUp((int) budgetLeft());
@@ -92,7 +111,7 @@ public final class Evolution {
             population = bred.stream().map(race::known).toList();
             best = race.winner();
         } else {
-            for (Individual individual : population) {
+            for (Individual individual : natives) {
                 if (individual.isMeasured() && (best == null || individual.score() > best.score())) {
                     best = individual;
                 }

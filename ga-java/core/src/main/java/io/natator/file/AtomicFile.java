@@ -21,7 +21,7 @@ public final class AtomicFile {
      * @throws UncheckedIOException if that fails; the old file is then untouched
      */
     public static void write(Path file, String content) {
-        Path fresh = file.resolveSibling(file.getFileName() + ".new");
+        Path fresh = unfinished(file);
         try {
             try (FileOutputStream out = new FileOutputStream(fresh.toFile())) {
                 out.write(content.getBytes(StandardCharsets.UTF_8));
@@ -31,6 +31,15 @@ public final class AtomicFile {
         } catch (IOException e) {
             throw new UncheckedIOException("cannot write " + reason(file, e), e);
         }
+    }
+
+    private static Path unfinished(Path file) {
+        return file.resolveSibling(file.getFileName() + ".new");
+    }
+
+    /** Removes what a write that was killed has left, if anything. */
+    public static void deleteUnfinished(Path file) throws IOException {
+        Files.deleteIfExists(unfinished(file));
     }
 
     /** The file and what is wrong with it, once each. */

@@ -13,6 +13,7 @@ import io.natator.config.OptimizerKind;
 import io.natator.evolution.Evolution;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.Exchange;
 import io.natator.evolution.Individual;
 import io.natator.simulator.BodyCheckEvaluator;
 import io.natator.simulator.EffortEvaluator;
@@ -105,15 +106,25 @@ public final class EvolutionRun {
      */
     public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
             throws InterruptedException {
+        if (settings.migration() != null) {
+            throw new InvalidInputException(folder.directory() + " is one of " + settings.migration().islands()
+                    + " islands, which go on together; expected the folder that they are in");
+        }
+        return run(execution, evaluator, Exchange.NONE, listeners);
+    }
+
+    /** The same of an island. */
+    Outcome run(ExecutionSettings execution, Evaluator evaluator, Exchange exchange, EvolutionListener... listeners)
+            throws InterruptedException {
         folder.write(Environment.present(execution));
         if (evaluator instanceof CachedEvaluator shared) {
             CachedEvaluator own = shared.counting();
-            return run(execution, own, own::found, List.of(listeners));
+            return run(execution, own, exchange, own::found, List.of(listeners));
         }
-        return run(execution, evaluator, () -> 0, List.of(listeners));
+        return run(execution, evaluator, exchange, () -> 0, List.of(listeners));
     }
 
-    private Outcome run(ExecutionSettings execution, Evaluator evaluator, LongSupplier found,
+    private Outcome run(ExecutionSettings execution, Evaluator evaluator, Exchange exchange, LongSupplier found,
             List<EvolutionListener> listeners) throws InterruptedException {
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
@@ -124,8 +135,8 @@ public final class EvolutionRun {
         all.addAll(listeners);
         Evaluator checked = settings.evolve() == null ? evaluator
                 : new BodyCheckEvaluator(evaluator, settings, execution.simulator());
-        EvolutionState state = new Evolution(settings, measuring(rewarding(settings, checked), scene), all, folder.recorded())
-                .run(folder.checkpoint());
+        EvolutionState state = new Evolution(settings, measuring(rewarding(settings, checked), scene), all, folder.recorded(),
+                exchange).run(folder.checkpoint());
         BestGait best = folder.writeResults(state);
         if (best != null) {
             best = examined(best, state.best(), new FreshStarts(settings, evaluator, execution.simulator()), evaluator,

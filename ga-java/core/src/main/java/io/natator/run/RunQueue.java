@@ -4,8 +4,10 @@ import io.natator.checkpoint.RunFolder;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
+import io.natator.evolution.Exchange;
 import io.natator.simulator.Evaluator;
 import java.util.List;
+import java.util.function.Function;
 
 /** Carries out many runs, several at the same time with one evaluator, so that their generations share a batch. */
 public final class RunQueue {
@@ -51,6 +53,12 @@ public final class RunQueue {
 
     private static void carryOut(PlannedRun run, ExecutionSettings execution, Evaluator evaluator, Watcher watcher)
             throws InterruptedException {
+        carryOut(run, execution, evaluator, watcher, folder -> Exchange.NONE);
+    }
+
+    /** One run, to its end. */
+    static void carryOut(PlannedRun run, ExecutionSettings execution, Evaluator evaluator, Watcher watcher,
+            Function<RunFolder, Exchange> exchange) throws InterruptedException {
         try (RunFolder folder = run.open()) {
             int before = folder.recorded().size();
             EvolutionListener counter = new EvolutionListener() {
@@ -62,7 +70,7 @@ public final class RunQueue {
                 }
             };
             watcher.finished(folder,
-                    new EvolutionRun(folder).run(execution, evaluator, counter, watcher.forRun()));
+                    new EvolutionRun(folder).run(execution, evaluator, exchange.apply(folder), counter, watcher.forRun()));
         }
     }
 }

@@ -18,11 +18,11 @@ import scala.runtime.AbstractFunction1;
 import scala.runtime.AbstractFunction2;
 import scala.runtime.BoxedUnit;
 
-/** An action under way, of whose parts each hands over its results when it is done. Of parts done twice one counts. */
+/** An action under way, of whose parts each hands over its answer when it is done. Of parts done twice one counts. */
 final class ClusterJob implements AutoCloseable {
 
     private final SimpleFutureAction<BoxedUnit> action;
-    private final BlockingQueue<String> results = new LinkedBlockingQueue<>();
+    private final BlockingQueue<String> answers = new LinkedBlockingQueue<>();
 
     /** Spark gave the action up; the message says why, in one line. */
     static final class FailedException extends RuntimeException {
@@ -38,23 +38,23 @@ final class ClusterJob implements AutoCloseable {
      * Begins.
      *
      * @param group of actions that can be cancelled together
-     * @param lines what the parts share
-     * @param parts how many
+     * @param what  it does, for Spark's page
+     * @param parts begun in this order
      * @param work  what is done with each
      */
-    ClusterJob(Cluster cluster, String group, List<String> lines, int parts, Partition work) {
+    ClusterJob(Cluster cluster, String group, String what, List<String> parts, Partition work) {
         SparkContext context = cluster.context().sc();
         try {
-            cluster.context().setJobGroup(group, lines.size() + " evaluations", true);
+            cluster.context().setJobGroup(group, what, true);
             // Several evolutions at once share the cluster evenly.
             context.setLocalProperty("spark.scheduler.pool", Thread.currentThread().getName());
-            RDD<String> answers = cluster.context().parallelize(lines, parts).mapPartitions(work).rdd();
-            Seq<Object> all = CollectionConverters.asScala(IntStream.range(0, parts).<Object>mapToObj(i -> i).toList())
+            RDD<String> done = cluster.context().parallelize(parts, parts.size()).mapPartitions(work).rdd();
+            Seq<Object> all = CollectionConverters.asScala(IntStream.range(0, parts.size()).<Object>mapToObj(i -> i).toList())
                     .toSeq();
-            action = context.submitJob(answers, new Collected(), all, new AbstractFunction2<>() {
+            action = context.submitJob(done, new Collected(), all, new AbstractFunction2<>() {
                 @Override
                 public BoxedUnit apply(Object part, ArrayList<String> lines) {
-                    results.addAll(lines);
+                    answers.addAll(lines);
                     return BoxedUnit.UNIT;
                 }
             }, new AbstractFunction0<>() {
@@ -68,7 +68,7 @@ final class ClusterJob implements AutoCloseable {
         }
     }
 
-    /** Takes the results of a part; runs where they are. */
+    /** Takes the answer to a part; runs where it is. */
     private static final class Collected extends AbstractFunction1<Iterator<String>, ArrayList<String>> implements Serializable {
 
         private static final long serialVersionUID = 1L;
@@ -83,17 +83,18 @@ final class ClusterJob implements AutoCloseable {
         }
     }
 
-    boolean hasResults() {
-        return !results.isEmpty();
+    /** Whether there are answers that were not taken. */
+    boolean hasAnswers() {
+        return !answers.isEmpty();
     }
 
-    /** The next result, or null if there is none in that time. */
+    /** The next answer, or null if there is none in that time. */
     String next(long time, TimeUnit unit) throws InterruptedException {
-        return results.poll(time, unit);
+        return answers.poll(time, unit);
     }
 
     /**
-     * Whether no more results will come than there are.
+     * Whether no more answers will come than there are.
      *
      * @throws FailedException if the action failed
      */

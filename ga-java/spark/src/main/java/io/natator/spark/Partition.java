@@ -12,11 +12,12 @@ import org.apache.spark.TaskContext;
 import org.apache.spark.api.java.function.FlatMapFunction;
 import org.apache.spark.resource.ResourceInformation;
 
-/** What an executor does with a part of a generation: requests in, results out, each as JSON. */
+/** What an executor does with a part of a generation: a list of requests in, an {@link Answer} out, both as JSON. */
 final class Partition implements FlatMapFunction<Iterator<String>, String> {
 
     private static final long serialVersionUID = 1L;
     private static final String GPU = "gpu";
+    private static final double NANOSECONDS = 1e9;
 
     private final String mission;
 
@@ -28,23 +29,23 @@ final class Partition implements FlatMapFunction<Iterator<String>, String> {
     @Override
     public Iterator<String> call(Iterator<String> lines)
             throws UnfitExecutorException, InterruptedException, JsonProcessingException {
-        List<SimulationRequest> requests = new ArrayList<>();
+        List<String> answers = new ArrayList<>();
         while (lines.hasNext()) {
-            requests.add(Json.parse(lines.next(), SimulationRequest.class));
+            answers.add(answer(List.of(Json.parse(lines.next(), SimulationRequest[].class))));
         }
-        if (requests.isEmpty()) {
-            return List.<String>of().iterator();
-        }
+        return answers.iterator();
+    }
+
+    private String answer(List<SimulationRequest> requests)
+            throws UnfitExecutorException, InterruptedException, JsonProcessingException {
         Mission known = Json.parse(mission, Mission.class);
         ExecutorSimulator simulator = ExecutorSimulator.of(known, device(known));
         if (known.backend() != Backend.CPU && known.hash() == null) {
-            return List.of(Json.line(simulator.kind(known))).iterator();
+            return Json.line(simulator.kind(known));
         }
-        List<String> answers = new ArrayList<>();
-        for (SimulationResult result : simulator.evaluate(requests, known)) {
-            answers.add(Json.line(result));
-        }
-        return answers.iterator();
+        long begun = System.nanoTime();
+        List<SimulationResult> results = simulator.evaluate(requests, known);
+        return Json.line(new Answer((System.nanoTime() - begun) / NANOSECONDS, results));
     }
 
     /** The GPU that Spark gave this task, else that of the mission. */

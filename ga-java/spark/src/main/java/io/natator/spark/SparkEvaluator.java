@@ -13,28 +13,30 @@ import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SimulationResult.Status;
 import java.util.ArrayList;
-import java.util.HashSet;
+import java.util.HashMap;
 import java.util.List;
-import java.util.Set;
+import java.util.Map;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.Consumer;
 
 /**
- * Spreads evaluations over a cluster. A call is one action of Spark; results come as soon as a part is done. What an
- * executor does not finish another one does again, with the same bits.
+ * Spreads evaluations over a cluster. A call is one action of Spark; results come as soon as a {@link Parts part} is done.
+ * What an executor does not finish another one does again, with the same bits.
  */
 final class SparkEvaluator implements Evaluator {
 
     /** Simulated time of the swim that executors are compared by, s. */
     private static final double SAMPLE = 0.05;
-    /** Parts of a generation for each evaluation that the cluster does at once; as a rule a part is one evaluation. */
-    private static final int PARTS = 256;
     private static final long POLL_MILLISECONDS = 100;
 
     private final Cluster cluster;
     private final ExecutionSettings execution;
     private final SceneFiles scenes;
+    private final Parts parts = new Parts();
+    /** Calls under way, which share the cluster evenly. */
+    private final AtomicInteger calls = new AtomicInteger();
     private final String name = "natator-" + UUID.randomUUID();
     private Mission mission;
     private volatile boolean closed;
@@ -56,36 +58,60 @@ final class SparkEvaluator implements Evaluator {
         if (cluster.isLost()) {
             throw new RequestRejectedException("the cluster is lost: Spark has ended the application", false);
         }
-        List<String> lines = new ArrayList<>();
-        Set<Long> open = new HashSet<>();
-        for (SimulationRequest request : requests) {
-            lines.add(Json.line(scenes.sent(request)));
-            open.add(request.id());
+        Mission known = missionFor(requests.get(0));
+        int together = calls.incrementAndGet();
+        try {
+            evaluate(requests, Math.max(1, cluster.slots(execution.backend()) / together), known, whenDone);
+        } finally {
+            calls.decrementAndGet();
         }
-        int slots = cluster.slots(execution.backend());
-        int parts = execution.backend() == Backend.CPU ? Math.min(lines.size(), PARTS * slots) : Math.min(lines.size(), slots);
-        carryOut(lines, parts, missionFor(requests.get(0)), line -> {
-            SimulationResult result = read(line, SimulationResult.class);
-            if (result.status() == Status.ERROR) {
-                throw new RequestRejectedException(result.error(), true);
+    }
+
+    /** With so many slots for this call. */
+    private void evaluate(List<SimulationRequest> requests, int slots, Mission given, Consumer<SimulationResult> whenDone)
+            throws InterruptedException {
+        Map<Long, List<SimulationRequest>> open = new HashMap<>();
+        List<String> lines = new ArrayList<>();
+        for (List<SimulationRequest> part : execution.backend() == Backend.CPU ? parts.of(requests, slots)
+                : Parts.evenly(requests, cluster.slots(execution.backend()))) {
+            List<SimulationRequest> sent = new ArrayList<>();
+            for (SimulationRequest request : part) {
+                sent.add(scenes.sent(request));
+                open.put(request.id(), part);
             }
-            if (!open.remove(result.id())) {
-                throw new IllegalStateException("result " + result.id() + " came twice, or was not asked for");
+            lines.add(Json.line(sent));
+        }
+        carryOut(requests.size() + " evaluations", lines, given, line -> {
+            Answer answer = read(line, Answer.class);
+            List<SimulationRequest> part = null;
+            for (SimulationResult result : answer.results()) {
+                if (result.status() == Status.ERROR) {
+                    throw new RequestRejectedException(result.error(), true);
+                }
+                part = open.remove(result.id());
+                if (part == null) {
+                    throw new IllegalStateException("result " + result.id() + " came twice, or was not asked for");
+                }
+                whenDone.accept(result);
             }
-            whenDone.accept(result);
+            if (part == null || answer.results().size() != part.size()) {
+                throw new IllegalStateException(answer.results().size() + " results came of a part that has "
+                        + (part == null ? "others" : part.size()));
+            }
+            parts.took(part, answer.seconds());
         });
     }
 
-    private void carryOut(List<String> lines, int parts, Mission given, Consumer<String> whenDone) throws InterruptedException {
-        try (ClusterJob job = new ClusterJob(cluster, name, lines, parts, new Partition(Json.line(given)))) {
+    private void carryOut(String what, List<String> lines, Mission given, Consumer<String> whenDone) throws InterruptedException {
+        try (ClusterJob job = new ClusterJob(cluster, name, what, lines, new Partition(Json.line(given)))) {
             for (int left = lines.size(); left > 0;) {
                 failIfClosed();
                 String line = job.next(POLL_MILLISECONDS, TimeUnit.MILLISECONDS);
                 if (line != null) {
                     whenDone.accept(line);
                     left--;
-                } else if (job.hasEnded() && !job.hasResults()) {
-                    throw new IllegalStateException(left + " of " + lines.size() + " results did not come");
+                } else if (job.hasEnded() && !job.hasAnswers()) {
+                    throw new IllegalStateException(left + " of " + lines.size() + " answers did not come");
                 } else {
                     cluster.tellOfWaiting();
                 }
@@ -135,7 +161,7 @@ final class SparkEvaluator implements Evaluator {
     /** The mission with the kind of the GPU that answers first. */
     private Mission like(Mission first) throws InterruptedException {
         List<ExecutorSimulator.Kind> kinds = new ArrayList<>();
-        carryOut(List.of(Json.line(first.sample())), 1, first,
+        carryOut("a first swim", List.of(Json.line(List.of(first.sample()))), first,
                 line -> kinds.add(read(line, ExecutorSimulator.Kind.class)));
         return first.like(kinds.get(0).hash(), kinds.get(0).gpu());
     }

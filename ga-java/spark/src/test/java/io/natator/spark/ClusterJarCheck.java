@@ -157,6 +157,30 @@ class ClusterJarCheck {
         assertSame(run, folder.resolve("alone"));
     }
 
+    /** Islands are evolutions at the same time, which wait for each other's gaits. */
+    @Test
+    void islandsAreTheSameAfterKills() throws IOException, InterruptedException {
+        String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "16", "--generations", "4", "--seed", "3",
+            "--islands", "2", "--migrate-every", "1", "--migrants", "3"};
+        alone(fake, folder.resolve("alone"), settings);
+        Files.writeString(folder.resolve("slow"), "0.03");
+        Path run = folder.resolve("run");
+        Process driver = evolve(fake, run, List.of(), settings);
+        killAnExecutor(run.resolve("island-1"), 30, 0);
+        TestCluster.await("evaluations after the kill", () -> evaluations(run.resolve("island-2")) >= 60);
+        assertThat(driver.isAlive()).as(Files.readString(log)).isTrue();
+        driver.destroyForcibly().waitFor();
+        Files.delete(folder.resolve("slow"));
+
+        assertSucceeds(cluster.submit(log, List.of(), "resume", "--no-cache", "--simulator-path", fake.toString(), run.toString()));
+
+        for (String island : List.of("island-1", "island-2")) {
+            assertSame(run.resolve(island), folder.resolve("alone").resolve(island));
+            assertThat(run.resolve(island).resolve("migrants.jsonl"))
+                    .hasSameBinaryContentAs(folder.resolve("alone").resolve(island).resolve("migrants.jsonl"));
+        }
+    }
+
     private static long killAnExecutor(Path run, long after, int which) throws IOException, InterruptedException {
         TestCluster.await(after + " evaluations", () -> evaluations(run) >= after);
         TestCluster.await("executors", () -> !cluster.executors().isEmpty());

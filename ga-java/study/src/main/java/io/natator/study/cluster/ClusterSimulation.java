@@ -1,5 +1,6 @@
 package io.natator.study.cluster;
 
+import io.natator.simulator.PartSize;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -12,9 +13,9 @@ import java.util.Random;
 import java.util.Set;
 
 /**
- * A driver that hands evaluations to executors, event by event: one evaluation a task, the generations of a run one after
- * another, the run with the fewest tasks under way first, as Spark's FAIR scheduling does. The same seed gives the same
- * outcome.
+ * A driver that hands parts of generations to executors, event by event: of the {@link PartSize size} that they have in mode
+ * spark, the generations of a run one after another, the run with the fewest parts under way first, as Spark's FAIR scheduling
+ * does. The same seed gives the same outcome.
  */
 public final class ClusterSimulation {
 
@@ -27,6 +28,7 @@ public final class ClusterSimulation {
     private final Assumptions cluster;
     private final Load load;
     private final double[] times;
+    private final double mean;
     private final int executors;
     private final Random random;
     private final PriorityQueue<Event> events =
@@ -54,34 +56,37 @@ public final class ClusterSimulation {
         }
     }
 
-    private static final class Evaluation {
+    /** Evaluations that an executor gets together. */
+    private static final class Part {
         private final Run run;
+        private final int evaluations;
         private final double seconds;
         private final List<Task> tasks = new ArrayList<>();
         private boolean done;
         private boolean watched;
 
-        private Evaluation(Run run, double seconds) {
+        private Part(Run run, int evaluations, double seconds) {
             this.run = run;
+            this.evaluations = evaluations;
             this.seconds = seconds;
         }
     }
 
-    /** An attempt at an evaluation. */
+    /** An attempt at a part. */
     private static final class Task {
-        private final Evaluation evaluation;
+        private final Part part;
         private final Executor executor;
         private final double begun;
 
-        private Task(Evaluation evaluation, Executor executor, double begun) {
-            this.evaluation = evaluation;
+        private Task(Part part, Executor executor, double begun) {
+            this.part = part;
             this.executor = executor;
             this.begun = begun;
         }
     }
 
     private static final class Run {
-        private final Deque<Evaluation> waiting = new ArrayDeque<>();
+        private final Deque<Part> waiting = new ArrayDeque<>();
         private final Set<Task> underWay = new LinkedHashSet<>();
         private int generationsLeft;
         private double[] took;
@@ -93,6 +98,7 @@ public final class ClusterSimulation {
         this.load = load;
         this.executors = executors;
         this.times = times;
+        this.mean = Arrays.stream(times).average().orElseThrow();
         this.random = new Random(seed);
     }
 
@@ -133,10 +139,17 @@ public final class ClusterSimulation {
     private void beginGeneration(Run run) {
         run.generationsLeft--;
         run.done = 0;
-        run.took = new double[load.evaluations()];
-        for (int i = 0; i < load.evaluations(); i++) {
-            run.waiting.add(new Evaluation(run, times[random.nextInt(times.length)]));
+        int slots = Math.max(1, executors / load.runsAtOnce());
+        for (int left = load.evaluations(); left > 0;) {
+            int size = Math.min(left, PartSize.of(left * mean, mean, slots));
+            double seconds = 0;
+            for (int i = 0; i < size; i++) {
+                seconds += times[random.nextInt(times.length)];
+            }
+            run.waiting.add(new Part(run, size, seconds));
+            left -= size;
         }
+        run.took = new double[run.waiting.size()];
     }
 
     /** Gives idle executors work, as long as there are both. */
@@ -147,39 +160,39 @@ public final class ClusterSimulation {
             if (run == null) {
                 return;
             }
-            Evaluation next = run.waiting.remove();
+            Part next = run.waiting.remove();
             if (!next.done) {
                 begin(next);
             }
         }
     }
 
-    private void begin(Evaluation evaluation) {
-        driverFree = Math.max(driverFree, now) + cluster.perEvaluation();
-        Task task = new Task(evaluation, idle.remove(), driverFree);
-        copies += evaluation.tasks.isEmpty() ? 0 : 1;
+    private void begin(Part part) {
+        driverFree = Math.max(driverFree, now) + cluster.perPart() + part.evaluations * cluster.perEvaluation();
+        Task task = new Task(part, idle.remove(), driverFree);
+        copies += part.tasks.isEmpty() ? 0 : part.evaluations;
         task.executor.task = task;
-        evaluation.tasks.add(task);
-        evaluation.run.underWay.add(task);
-        at(driverFree + cluster.latency() + evaluation.seconds * task.executor.factor, () -> {
+        part.tasks.add(task);
+        part.run.underWay.add(task);
+        at(driverFree + cluster.latency() + part.seconds * task.executor.factor, () -> {
             if (task.executor.task == task) {
-                end(evaluation, task);
+                end(part, task);
             }
         });
     }
 
-    private void end(Evaluation evaluation, Task first) {
-        Run run = evaluation.run;
-        evaluation.done = true;
-        useful += evaluation.seconds;
+    private void end(Part part, Task first) {
+        Run run = part.run;
+        part.done = true;
+        useful += part.seconds;
         run.took[run.done++] = now - first.begun;
-        for (Task task : List.copyOf(evaluation.tasks)) {
+        for (Task task : List.copyOf(part.tasks)) {
             remove(task);
             idle.add(task.executor);
         }
-        if (run.done == load.evaluations()) {
+        if (run.done == run.took.length) {
             endGeneration(run);
-        } else if (cluster.speculation() && run.waiting.isEmpty() && run.done >= SPECULATION_SHARE * load.evaluations()) {
+        } else if (cluster.speculation() && run.waiting.isEmpty() && run.done >= SPECULATION_SHARE * run.took.length) {
             watch(run);
         }
     }
@@ -195,8 +208,8 @@ public final class ClusterSimulation {
 
     private void remove(Task task) {
         task.executor.task = null;
-        task.evaluation.tasks.remove(task);
-        task.evaluation.run.underWay.remove(task);
+        task.part.tasks.remove(task);
+        task.part.run.underWay.remove(task);
     }
 
     /** Plans second tries of what will have been under way for too long. */
@@ -204,12 +217,12 @@ public final class ClusterSimulation {
         double median = Arrays.stream(run.took, 0, run.done).sorted().skip(run.done / 2).findFirst().orElseThrow();
         double limit = Math.max(SPECULATION_SECONDS, SPECULATION_MULTIPLE * median);
         for (Task task : run.underWay) {
-            Evaluation evaluation = task.evaluation;
-            if (!evaluation.watched) {
-                evaluation.watched = true;
+            Part part = task.part;
+            if (!part.watched) {
+                part.watched = true;
                 at(Math.max(now, task.begun + limit), () -> {
-                    if (!evaluation.done) {
-                        run.waiting.add(evaluation);
+                    if (!part.done) {
+                        run.waiting.add(part);
                     }
                 });
             }
@@ -228,8 +241,8 @@ public final class ClusterSimulation {
             idle.remove(executor);
         } else {
             remove(task);
-            lost++;
-            task.evaluation.run.waiting.addFirst(task.evaluation);
+            lost += task.part.evaluations;
+            task.part.run.waiting.addFirst(task.part);
         }
         at(now + cluster.restart(), () -> {
             idle.add(executor);

@@ -2,6 +2,7 @@ package io.natator.study.cluster;
 
 import io.natator.file.AtomicFile;
 import io.natator.plot.Picture;
+import io.natator.simulator.PartSize;
 import io.natator.study.Sample;
 import java.awt.Color;
 import java.io.IOException;
@@ -84,7 +85,7 @@ public final class ClusterStudy {
                 new Variant("32 runs at once, 150 gaits", side, cluster),
                 new Variant("32 runs at once, 150 gaits × 8 starts", sideStarts, cluster),
                 new Variant("32 runs at once, 150 gaits × 8 starts, a tenth of the driver's time", sideStarts,
-                        cluster.withPerEvaluation(TENTH * cluster.perEvaluation())));
+                        cluster.withDriver(TENTH * cluster.perPart(), TENTH * cluster.perEvaluation())));
     }
 
     private List<Point> curve(Variant variant) {
@@ -95,13 +96,13 @@ public final class ClusterStudy {
     }
 
     private static String csv(List<List<Point>> curves) {
-        StringBuilder rows = new StringBuilder("variant,evaluations,runs_at_once,generations,seconds_per_evaluation_of_driver,"
+        StringBuilder rows = new StringBuilder("variant,evaluations,runs_at_once,generations,seconds_per_part_of_driver,seconds_per_evaluation_of_driver,"
                 + "second_tries,executors,repeats,seconds,efficiency,efficiency_sd,lost,copies\n");
         curves.stream().flatMap(List::stream).forEach(point -> {
             Load load = point.variant.load;
             rows.append('"').append(point.variant.name).append("\",").append(load.evaluations()).append(',')
                     .append(load.runsAtOnce()).append(',').append(load.generations()).append(',')
-                    .append(point.variant.cluster.perEvaluation()).append(',').append(point.variant.cluster.speculation())
+                    .append(point.variant.cluster.perPart()).append(',').append(point.variant.cluster.perEvaluation()).append(',').append(point.variant.cluster.speculation())
                     .append(',').append(point.executors).append(',').append(REPEATS).append(',')
                     .append(mean(point.usages.stream().mapToDouble(Usage::seconds))).append(',')
                     .append(point.efficiency().mean()).append(',').append(point.efficiency().standardDeviation()).append(',')
@@ -162,9 +163,11 @@ public final class ClusterStudy {
     }
 
     private String described() {
-        return format("the driver spends %.1f ms on each evaluation and %.2f s between generations, one after another; %.0f ms from the driver "
+        return format("the driver spends %.1f ms on each part of a generation, %.1f ms on each evaluation and %.2f s between generations, one after "
+                + "another; a part is half of what is left for each executor, and takes at most %.0f s; %.0f ms from the driver "
                 + "to an executor and back; an executor fails %.2f times an hour and is back after %.0f s; %.0f %% of the executors are %.1f "
-                + "times as slow; %s", 1e3 * cluster.perEvaluation(), cluster.perGeneration(), 1e3 * cluster.latency(),
+                + "times as slow; %s", 1e3 * cluster.perPart(), 1e3 * cluster.perEvaluation(), cluster.perGeneration(), PartSize.LONGEST,
+                1e3 * cluster.latency(),
                 cluster.failuresPerHour(), cluster.restart(), 100 * cluster.slowShare(), cluster.slowFactor(),
                 cluster.speculation() ? "what is slow is begun a second time" : "nothing is begun a second time");
     }

@@ -26,12 +26,20 @@ class ClusterSimulationTest {
 
     @Test
     void aDriverHandsOutOneAfterAnother() {
-        Assumptions cluster = new Assumptions(0.5, 0, 0, 0, 0, 0, 1, false);
+        Assumptions cluster = new Assumptions(0.4, 0.1, 0, 0, 0, 0, 0, 1, false);
 
         // One evaluation begins every half second, so two executors are busy however many there are.
         assertThat(run(cluster, new Load(20, 1, 1), 100, SECOND).seconds()).isCloseTo(20 * 0.5 + 1, within(1e-9));
-        assertThat(run(new Assumptions(0, 0.25, 2, 0, 0, 0, 1, false), new Load(4, 1, 3), 4, SECOND).seconds())
+        assertThat(run(new Assumptions(0, 0, 0.25, 2, 0, 0, 0, 1, false), new Load(4, 1, 3), 4, SECOND).seconds())
                 .isCloseTo(3 * 1.25 + 2 * 2, within(1e-9));
+    }
+
+    /** Ten evaluations of 0.1 s on one executor: 5, 2, 1, 1 and 1 of them, each part half a second of the driver. */
+    @Test
+    void shortEvaluationsGoOutTogether() {
+        Assumptions cluster = new Assumptions(0.5, 0, 0, 0, 0, 0, 0, 1, false);
+
+        assertThat(run(cluster, new Load(10, 1, 1), 1, 0.1).seconds()).isCloseTo(5 * 0.5 + 10 * 0.1, within(1e-9));
     }
 
     @Test
@@ -46,7 +54,7 @@ class ClusterSimulationTest {
 
     @Test
     void slowExecutorsAreOvertaken() {
-        Assumptions slow = new Assumptions(0, 0, 0, 0, 0, 0.01, 100, false);
+        Assumptions slow = new Assumptions(0, 0, 0, 0, 0, 0, 0.01, 100, false);
         Load load = new Load(300, 1, 3);
 
         Usage without = run(slow, load, 100, SECOND);
@@ -60,21 +68,21 @@ class ClusterSimulationTest {
 
     @Test
     void whatFailsIsDoneAgain() {
-        Assumptions failing = new Assumptions(0, 0, 0, 360, 5, 0, 1, false);
+        Assumptions failing = new Assumptions(0, 0, 0, 0, 180, 10, 0, 1, false);
         Load load = new Load(200, 2, 5);
 
-        Usage usage = run(failing, load, 20, SECOND);
+        Usage usage = run(failing, load, 20, 2);
 
-        // One in ten is lost, after half a second in the mean; an executor is away for a third of the time.
+        // One in ten is lost, after a second in the mean; an executor is away for a third of the time.
         double busy = usage.seconds() * 20 * usage.efficiency();
-        assertThat(busy).as("every evaluation counts once").isCloseTo(2000, within(1e-6));
+        assertThat(busy).as("every evaluation counts once").isCloseTo(4000, within(1e-6));
         assertThat(usage.lost()).isBetween(150L, 260L);
         assertThat(usage.efficiency()).isBetween(0.5, 0.7);
     }
 
     @Test
     void theSameSeedGivesTheSameOutcome() {
-        Assumptions cluster = new Assumptions(0.001, 0.01, 0.1, 30, 5, 0.1, 3, true);
+        Assumptions cluster = new Assumptions(0.001, 0.001, 0.01, 0.1, 30, 5, 0.1, 3, true);
         double[] times = DoubleStream.iterate(0.2, each -> each * 1.1).limit(20).toArray();
 
         assertThat(ClusterSimulation.run(cluster, new Load(150, 3, 4), 40, times, 7))

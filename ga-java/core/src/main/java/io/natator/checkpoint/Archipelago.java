@@ -1,0 +1,171 @@
+package io.natator.checkpoint;
+
+import io.natator.config.Backend;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.config.Limits;
+import io.natator.config.Migration;
+import io.natator.evolution.EvolutionState;
+import io.natator.evolution.Individual;
+import io.natator.evolution.Surest;
+import io.natator.file.AtomicFile;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.stream.IntStream;
+
+/**
+ * Several evolutions of the same creature that exchange gaits: a folder with {@code islands.json}, and in it the run folder of
+ * each, {@code island-1} and so on.
+ *
+ * @param directory the folder
+ * @param plan      what they have in common
+ */
+public record Archipelago(Path directory, Plan plan) {
+
+    private static final String PLAN = "islands.json";
+
+    /**
+     * Content of {@code islands.json}: all that determines the outcome.
+     *
+     * @param settings of the first island, as a run by itself; the others have the seeds after its own
+     * @param islands  how many, from 2
+     * @param every    generations from one exchange to the next, from 1
+     * @param migrants gaits that go from each island to the next one each time; 0 for islands that know nothing of each other
+     */
+    public record Plan(EvolutionSettings settings, int islands, int every, int migrants) {
+
+        /**
+         * Checks the ranges.
+         *
+         * @throws InvalidInputException naming what is out of range
+         */
+        public Plan {
+            if (islands < 2 || islands > Limits.AT_ONCE) {
+                throw new InvalidInputException("islands are " + islands + "; expected a whole number from 2 to " + Limits.AT_ONCE);
+            }
+            Limits.checkCount("generations between exchanges", every, Integer.MAX_VALUE);
+            if (migrants < 0) {
+                throw new InvalidInputException("migrants are " + migrants + "; expected a whole number from 0");
+            }
+            if (migrants > 0) {
+                if (every >= settings.generations()) {
+                    throw new InvalidInputException("generations between exchanges are " + every + "; expected fewer than the run's "
+                            + settings.generations() + ", or no migrants");
+                }
+                settings.withMigration(new Migration(islands, 1, every, migrants));  // refused if it cannot be
+            }
+        }
+
+        /** Those of an island, numbered from 1. Without migrants it is a run like any other of its seed. */
+        public EvolutionSettings settings(int island) {
+            return settings.withSeed(settings.seed() + island - 1)
+                    .withMigration(migrants == 0 ? null : new Migration(islands, island, every, migrants));
+        }
+    }
+
+    /**
+     * Makes the folder of a new archipelago; the islands' are made when they are begun.
+     *
+     * @throws InvalidInputException if there is something in it already, or it cannot be made
+     */
+    public static Archipelago create(Path directory, Plan plan) {
+        RunFolder.make(directory, PLAN, plan);
+        return new Archipelago(directory, plan);
+    }
+
+    /** Whether there is one in this folder. */
+    public static boolean exists(Path directory) {
+        return Files.isRegularFile(directory.resolve(PLAN));
+    }
+
+    /**
+     * The one in a folder.
+     *
+     * @throws InvalidInputException if there is none
+     */
+    public static Archipelago in(Path directory) {
+        return new Archipelago(directory, Json.read(directory.resolve(PLAN), Plan.class, "islands"));
+    }
+
+    /** The run folder of an island, numbered from 1. */
+    public Path folder(int island) {
+        return directory.resolve("island-" + island);
+    }
+
+    /** All run folders that there are. */
+    public List<Path> folders() {
+        return IntStream.rangeClosed(1, plan.islands()).mapToObj(this::folder).filter(StoredRun::exists).toList();
+    }
+
+    /** The same archipelago, from here on on another backend. */
+    public Archipelago changeBackend(Backend backend) {
+        Plan changed = new Plan(plan.settings.withBackend(backend), plan.islands, plan.every, plan.migrants);
+        AtomicFile.write(directory.resolve(PLAN), Json.document(changed));
+        return new Archipelago(directory, changed);
+    }
+
+    /**
+     * Number of the island with the best gait as yet, judged as each island judges its own; the first of equals. The first
+     * that has begun if none has a gait, -1 if none has begun.
+     */
+    public int winner() {
+        int first = -1;
+        List<Integer> numbers = new ArrayList<>();
+        List<Individual> bests = new ArrayList<>();
+        for (int i = 1; i <= plan.islands; i++) {
+            if (StoredRun.exists(folder(i))) {
+                first = first < 0 ? i : first;
+                EvolutionState state = StoredRun.state(folder(i));
+                if (state != null && state.best() != null) {
+                    numbers.add(i);
+                    bests.add(state.best());
+                }
+            }
+        }
+        return bests.isEmpty() ? first : numbers.get(best(bests));
+    }
+
+    private int best(List<Individual> bests) {
+        if (plan.settings.starts() > 1) {
+            return Surest.of(bests.stream().map(Individual::estimate).toList());
+        }
+        int best = 0;
+        for (int i = 1; i < bests.size(); i++) {
+            best = bests.get(i).score() > bests.get(best).score() ? i : best;
+        }
+        return best;
+    }
+
+    /**
+     * The run folder that a folder stands for: of an archipelago that of its winner, else itself.
+     *
+     * @throws InvalidInputException if no island has begun
+     */
+    public static Path run(Path directory) {
+        if (!exists(directory)) {
+            return directory;
+        }
+        Archipelago archipelago = in(directory);
+        int winner = archipelago.winner();
+        if (winner < 0) {
+            throw new InvalidInputException("no island of " + directory + " has begun; continue by natator resume");
+        }
+        return archipelago.folder(winner);
+    }
+
+    /** The run folders that folders stand for: of an archipelago those of all its islands, the winner's first. */
+    public static List<Path> runs(List<Path> directories) {
+        List<Path> runs = new ArrayList<>();
+        for (Path directory : directories) {
+            Path first = run(directory);
+            runs.add(first);
+            if (exists(directory)) {
+                in(directory).folders().stream().filter(one -> !one.equals(first)).forEach(runs::add);
+            }
+        }
+        return runs;
+    }
+}

@@ -1,0 +1,78 @@
+package io.natator.run;
+
+import io.natator.checkpoint.Archipelago;
+import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.ExecutionSettings;
+import io.natator.evolution.Departure;
+import io.natator.evolution.Exchange;
+import io.natator.simulator.Evaluator;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.stream.IntStream;
+
+/** Carries out the evolutions of all islands at the same time, from wherever they stand to their end. */
+public final class IslandsRun {
+
+    private final List<PlannedRun> islands;
+
+    /** Of these islands, whose folders need not be there yet. */
+    public IslandsRun(Archipelago archipelago) {
+        this.islands = IntStream.rangeClosed(1, archipelago.plan().islands())
+                .mapToObj(i -> new PlannedRun(archipelago.plan().settings(i), archipelago.folder(i))).toList();
+    }
+
+    /**
+     * Carries out what is missing. The outcome depends on the settings alone, not on which thread is faster.
+     *
+     * @param execution how the evaluator works, for the record
+     * @param evaluator carries out the evaluations of all; closed if an island fails
+     * @return whether all islands are finished; false if the evaluator was closed meanwhile
+     * @throws InterruptedException if the calling thread is interrupted
+     */
+    public boolean run(ExecutionSettings execution, Evaluator evaluator, RunQueue.Watcher watcher) throws InterruptedException {
+        islands.forEach(IslandsRun::takeOverBackend);
+        Ring ring = new Ring(islands.size());
+        List<List<Departure>> departures = islands.stream().map(run -> StoredRun.departures(run.directory())).toList();
+        List<Lanes.Work> all = new ArrayList<>();
+        for (int i = 0; i < islands.size(); i++) {
+            int island = i + 1;
+            PlannedRun run = islands.get(i);
+            departures.get(i).forEach(one -> ring.leave(island, one));
+            List<Departure> before = departures.get((i + islands.size() - 1) % islands.size());
+            all.add(() -> carryOut(run, island, before, ring, execution, evaluator, watcher));
+        }
+        return Lanes.carryOut(all, evaluator, islands.size());
+    }
+
+    /** An island that is not finished computes as all do, also where a change of the backend was interrupted. */
+    private static void takeOverBackend(PlannedRun run) {
+        if (StoredRun.exists(run.directory()) && !run.isFinished()
+                && StoredRun.settings(run.directory()).backend() != run.settings().backend()) {
+            try (RunFolder folder = RunFolder.open(run.directory())) {
+                folder.changeBackend(run.settings().backend());
+            }
+        }
+    }
+
+    private static void carryOut(PlannedRun run, int island, List<Departure> before, Ring ring, ExecutionSettings execution,
+            Evaluator evaluator, RunQueue.Watcher watcher) throws InterruptedException {
+        boolean isFinished = false;
+        try {
+            if (!run.isFinished()) {
+                RunQueue.carryOut(run, execution, evaluator, watcher, folder -> exchange(folder, ring, before));
+            }
+            isFinished = true;
+        } finally {
+            if (isFinished) {
+                ring.end(island);
+            } else {
+                ring.stop();
+            }
+        }
+    }
+
+    private static Exchange exchange(RunFolder folder, Ring ring, List<Departure> before) {
+        return folder.settings().migration() == null ? Exchange.NONE : new Island(folder, ring, before);
+    }
+}
