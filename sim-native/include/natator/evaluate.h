@@ -28,7 +28,7 @@ enum class StopReason { completed, touched_plane, no_progress, unstable, reached
 /// "no-progress", "unstable", "reached".
 const char* to_string(Scheme scheme);
 const char* to_string(Precision precision);
-const char* to_string(StopReason reason);
+const char* to_string(StopReason stopped);
 /// 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 

@@ -14,6 +14,7 @@ std::string build_id() {
     const auto look = [](dl_phdr_info* info, std::size_t, void* found) {
         for (int i = 0; i < info->dlpi_phnum; ++i) {
             if (info->dlpi_phdr[i].p_type != PT_NOTE) continue;
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
             const char* at = reinterpret_cast<const char*>(info->dlpi_addr + info->dlpi_phdr[i].p_vaddr);
             const char* const end = at + info->dlpi_phdr[i].p_memsz;
             const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };

@@ -114,7 +114,7 @@ void check_experiment_cost(const ParticleExperiment& experiment, const json& ask
 
 /// The frames to record: as the input lists them, each number larger than the one before.
 json asked_frames(const json& experiment, const std::string& where) {
-    const json frames = experiment.value("frames", json::array({{{"frame", 1}}}));
+    json frames = experiment.value("frames", json::array({{{"frame", 1}}}));
     long last = 0;
     if (!frames.is_array()) throw InputError(where + ": frames is not an array of objects with a frame number");
     for (const json& frame : frames) {
