@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import {GlBody} from './gl-body.js';
 import {GlMuscles} from './gl-muscles.js';
+import {target} from './gl-pass.js';
 import {GlTank} from './gl-tank.js';
 import {GlTrace} from './gl-trace.js';
 import {GlWater} from './gl-water.js';
@@ -44,7 +45,11 @@ export class GlPicture {
   #tank = new GlTank();
   #trace;
   #background = new THREE.Color();
-  #sky = new THREE.Color();
+  #behind = null;
+  #light = {
+    deep: new THREE.Color(), zenith: new THREE.Color(), horizon: new THREE.Color(),
+    lamp: new THREE.Vector3(-0.45, 0.8, -0.4).normalize(), centre: new THREE.Vector3(),
+  };
   #look = null;
 
   constructor(canvas, trace, field) {
@@ -52,6 +57,7 @@ export class GlPicture {
     this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.#renderer.autoClear = false;
     this.#water = new GlWater(field);
+    this.#body.lamp = this.#light.lamp;
     this.#trace = new GlTrace(trace);
     this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
   }
@@ -74,18 +80,23 @@ export class GlPicture {
 
   setBounds(bounds) {
     this.#tank.setBounds(bounds);
+    this.#water.setBounds(bounds);
+    this.#light.centre.fromArray(bounds.min.map((low, axis) => (low + bounds.max[axis]) / 2));
   }
 
   setLook(look) {
     this.#look = look;
-    this.#muscles.object.visible = look.muscles;
+    this.#muscles.object.visible = look.muscles && look.body !== 'skin';
+    this.#body.setLook(look);
     this.#trace.object.visible = look.trace;
   }
 
   setTheme(colours) {
     this.#background.setStyle(colours.background);
-    this.#sky.setStyle(colours.sky);
-    this.#tank.setColours(colours.floor, colours.marks, colours.edges);
+    for (const name of ['deep', 'zenith', 'horizon']) {
+      this.#light[name].setStyle(colours[name]);
+    }
+    this.#tank.setColours(colours);
     this.#trace.setInk(colours.ink);
   }
 
@@ -105,14 +116,30 @@ export class GlPicture {
     this.#muscles.update(frame);
     this.#trace.update();
     this.#water.update(frame, camera, this.#look, from);
-    this.#renderer.setRenderTarget(null);
+    const isSurface = this.#water.isSurface(this.#look);
+    const behind = isSurface ? this.#behindWater() : null;
+    this.#renderer.setRenderTarget(behind);
     this.#renderer.setClearColor(this.#background, 1);
     this.#renderer.clear();
     this.#renderer.render(this.#world, camera);
-    this.#water.drawSurface(this.#renderer, camera, this.#look, this.#body.points, this.#sky);
+    if (isSurface) {
+      this.#water.drawSurface(this.#renderer, camera, null, behind, this.#look, this.#light);
+    }
+  }
+
+  /** What holds the picture without water. */
+  #behindWater() {
+    const {width, height} = this.#renderer.domElement;
+    this.#behind ??= target(1, 1, {samples: 4, depthBuffer: true, depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType),
+      minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter});
+    this.#behind.setSize(width, height);
+    return this.#behind;
   }
 
   dispose() {
+    this.#behind?.dispose();
+    this.#water.dispose();
+    this.#body.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }

@@ -1,14 +1,14 @@
 /** Draws without WebGL: spheres by the processor into pixels, lines with the 2-d canvas. */
 
 import {Color} from 'three';
-import {SCALES, clusterColours, colourAt, scaleBytes} from './colours.js';
+import {SCALES, colourAt, scaleBytes} from './colours.js';
 import {Discs, LIGHTS} from './discs.js';
 import {addArea, addLine, addLines} from './plain-lines.js';
 import {PlainSkin} from './plain-skin.js';
 import {SphereLayer, shades} from './plain-spheres.js';
 import {SurfaceLayer} from './plain-surface.js';
 import {Projector} from './projector.js';
-import {BODY_RADIUS, MUSCLE_WIDTH, SURFACE_RADIUS, WATER_RADIUS, clusterOfBody, distinctMuscles, jointOfBody, muscleChange,
+import {BODY_RADIUS, MUSCLE_WIDTH, SURFACE_RADIUS, WATER_RADIUS, bodySpacing, distinctMuscles, muscleChange, solidKinds,
   tankLines} from './scene.js';
 import {NearestFirst} from './sort.js';
 import {SPINES} from './trace.js';
@@ -76,16 +76,11 @@ export class PlainPicture {
     this.#scene = scene;
     this.#skin.setScene(scene);
     this.#values = new Float32Array(scene.fluid[1]);
-    this.#kinds = new Int16Array(scene.particles).fill(-1);
-    this.#joints = new Uint8Array(scene.particles);
-    const clusters = clusterOfBody(scene);
-    const joints = jointOfBody(scene);
-    scene.body.forEach((particle, i) => {
-      this.#kinds[particle] = clusters[i];
-      this.#joints[particle] = joints[i] ? 1 : 0;
-    });
+    const kinds = solidKinds(scene);
+    this.#kinds = kinds.of;
+    this.#joints = kinds.joint;
     this.#muscles = distinctMuscles(scene);
-    this.#bodyShades = shades(clusterColours(Math.max(1, scene.clusters.length)), 1);
+    this.#bodyShades = shades(kinds.colours, 1);
   }
 
   setBounds(bounds) {
@@ -210,7 +205,7 @@ export class PlainPicture {
   }
 
   #bodySphere(x, y, depth, cluster, particle, blocks) {
-    const radius = BODY_RADIUS * this.#scene.solidRestDistance / depth * this.#projector.pixels;
+    const radius = BODY_RADIUS * bodySpacing(this.#scene) / depth * this.#projector.pixels;
     if (!isOn(this.#layerCanvas, x, y, radius)) {
       return;
     }
@@ -244,7 +239,7 @@ export class PlainPicture {
 
   #drawMuscles(frame) {
     const context = this.#context;
-    const width = MUSCLE_WIDTH * this.#scene.solidRestDistance * this.#lineProjector.pixels;
+    const width = MUSCLE_WIDTH * bodySpacing(this.#scene) * this.#lineProjector.pixels;
     const place = particle => frame.position.subarray(3 * particle, 3 * particle + 3);
     for (const muscle of this.#muscles) {
       const a = place(muscle.a);

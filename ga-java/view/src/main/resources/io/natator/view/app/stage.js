@@ -9,9 +9,12 @@ import {Quality} from './quality.js';
 import {centreOf, tankBounds} from './scene.js';
 import {SpineTrace} from './trace.js';
 
-/** What can be chosen: water spheres, surface or none; colour speed, density or mass; drawing auto, webgl or plain. */
+/**
+ * What can be chosen: water spheres, surface or none; body skin or particles; colour speed, density, mass or none; drawing
+ * auto, webgl or plain.
+ */
 export const DEFAULT_LOOK = {
-  water: 'spheres', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
+  water: hasGraphicsCard() ? 'surface' : 'spheres', body: 'skin', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
   drawing: 'auto',
 };
 
@@ -100,7 +103,7 @@ export class Stage {
     this.#isNew = true;
   }
 
-  /** Colours as CSS: background, sky, floor, marks, edges, ink. */
+  /** Colours as CSS; see `Theme.colours`. */
   setTheme(colours) {
     this.#colours = colours;
     this.#picture?.setTheme(colours);

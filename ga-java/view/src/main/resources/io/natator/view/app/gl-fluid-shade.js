@@ -1,0 +1,135 @@
+/** What water looks like, from its depth: refraction, absorption, reflection and foam, laid over what is behind it. */
+
+import * as THREE from 'three';
+import {Pass} from './gl-pass.js';
+
+/** The sky that is mirrored: lighter upwards, with a large soft lamp. */
+export const SKY = `
+  uniform vec3 zenith;
+  uniform vec3 horizon;
+  uniform vec3 lamp;
+  vec3 skyOf(vec3 way) {
+    vec3 colour = mix(horizon, zenith, smoothstep(-0.05, 0.75, way.y));
+    float window = smoothstep(0.82, 0.97, dot(way, lamp));
+    return colour + window * 0.55 * vec3(1.0, 0.98, 0.94);
+  }`;
+
+const FRAGMENT = `
+  uniform sampler2D behind;
+  uniform sampler2D behindDepth;
+  uniform sampler2D front;
+  uniform sampler2D volume;
+  uniform sampler2D scale;
+  uniform vec2 step_;
+  uniform vec2 tangent;
+  uniform vec2 planes;
+  uniform mat4 toWorld;
+  uniform float density;
+  uniform float spacing;
+  uniform float tinted;
+  uniform vec3 deep;
+  out vec4 shown;
+  ${SKY}
+  float depthOf(vec2 at) {
+    float device = texture(behindDepth, at).r * 2.0 - 1.0;
+    return 2.0 * planes.x * planes.y / (planes.y + planes.x - device * (planes.y - planes.x));
+  }
+  vec3 linear(vec3 colour) { return pow(max(colour, 0.0), vec3(2.2)); }
+  vec3 screen(vec3 colour) { return pow(max(colour, 0.0), vec3(1.0 / 2.2)); }
+  /** Slope of 1 / depth along a step; across an edge, that of the smoother side. */
+  float slope(vec2 along, float here) {
+    float after = texture(front, place + along).r;
+    float before = texture(front, place - along).r;
+    float up = after > 0.0 ? after - here : 1e3;
+    float down = before > 0.0 ? here - before : 1e3;
+    float best = abs(up) < abs(down) ? up : down;
+    float even = 0.5 * (up + down);
+    // Even where it is smooth, one-sided where an edge is near, and softly from one to the other.
+    float rough = abs(up - down) / (0.25 * spacing * here * here);
+    return abs(best) > 1e2 ? 0.0 : mix(0.5 * (up + down), best, clamp(rough, 0.0, 1.0));
+  }
+  void main() {
+    vec3 plain = texture(behind, place).rgb;
+    float here = texture(front, place).r;
+    float wall = depthOf(place);
+    shown = vec4(plain, 1.0);
+    if (here <= 0.0 || wall * here < 1.0 - 0.004) return;
+    float depth = 1.0 / here;
+    vec2 device = place * 2.0 - 1.0;
+    vec2 grow = vec2(slope(vec2(step_.x, 0.0), here), slope(vec2(0.0, step_.y), here)) / (2.0 * step_);
+    // A plane n p = d has 1 / depth linear in the place on the screen: its slopes are the normal.
+    vec3 normal = normalize(vec3(-grow / tangent, here - dot(device, grow)));
+    vec3 eye = vec3(device * tangent, -1.0) * depth;
+    vec3 view = normalize(eye);
+    if (dot(normal, view) > -0.02) normal = normalize(normal - view * (dot(normal, view) + 0.02));
+    vec4 splat = texture(volume, place);
+    float thickness = splat.r;
+    // Refraction: where the bent ray comes out, or hits what is behind.
+    vec3 bent = refract(view, normal, 1.0 / 1.333);
+    float reach = min(thickness, max(0.0, wall - depth) * length(eye) * here);
+    vec3 hit = eye + bent * reach;
+    vec2 there = clamp((hit.xy / -hit.z / tangent) * 0.5 + 0.5, step_, 1.0 - step_);
+    if (depthOf(there) < depth) there = place;
+    vec3 through = linear(texture(behind, there).rgb);
+    float path = min(thickness, max(0.0, depthOf(there) - depth) * 1.4);
+    // Absorption by Beer and Lambert: red first; and what the water itself sends back.
+    float tint = splat.a > 1e-4 ? splat.g / splat.a : 0.0;
+    vec3 body = mix(linear(deep), linear(texture(scale, vec2(tint * 0.996 + 0.002, 0.5)).rgb), tinted);
+    vec3 clear = exp(-density * path * mix(vec3(2.6, 0.75, 0.5), vec3(1.4), tinted * 0.75));
+    vec3 world = normalize(mat3(toWorld) * normal);
+    float lit = 0.62 + 0.38 * max(0.0, dot(world, lamp));
+    vec3 colour = through * clear + body * lit * (1.0 - exp(-density * path * mix(0.9, 1.5, tinted)));
+    // Fresnel by Schlick, and a mirrored sky.
+    vec3 mirrored = reflect(view, normal);
+    vec3 away = normalize(mat3(toWorld) * mirrored);
+    float fresnel = 0.02 + 0.98 * pow(1.0 - clamp(-dot(view, normal), 0.0, 1.0), 5.0);
+    vec3 sky = linear(skyOf(away));
+    colour = mix(colour, sky, fresnel);
+    colour += vec3(1.0, 0.97, 0.92) * 1.6 * pow(max(0.0, dot(away, lamp)), 420.0);
+    shown = vec4(screen(colour), 1.0);
+  }`;
+
+/** One pass over the picture. */
+export class GlFluidShade {
+  #pass;
+
+  /** `scale` is the texture of the colour scale. */
+  constructor(scale) {
+    this.#pass = new Pass(FRAGMENT, {
+      behind: null, behindDepth: null, front: null, volume: null, scale, step_: new THREE.Vector2(),
+      tangent: new THREE.Vector2(), planes: new THREE.Vector2(), toWorld: null, density: 1, spacing: 1, tinted: 0,
+      deep: new THREE.Color(), zenith: new THREE.Color(), horizon: new THREE.Color(), lamp: new THREE.Vector3(),
+    });
+  }
+
+  /**
+   * Lays the water over the picture.
+   *
+   * @param {THREE.WebGLRenderTarget|null} target where to; null for the canvas
+   * @param {THREE.WebGLRenderTarget} behind the picture without water, with its depth
+   * @param {THREE.Texture} front 1 / depth of the water
+   * @param {THREE.Texture} volume see `GlFluidVolume`
+   * @param {object} water spacing, density (absorption per length), tinted (how much of the scale's colour, 0 to 1)
+   * @param {object} light deep, zenith, horizon (colours), lamp (direction)
+   */
+  draw(renderer, camera, target, behind, front, volume, water, light) {
+    const {uniforms} = this.#pass;
+    uniforms.behind.value = behind.texture;
+    uniforms.behindDepth.value = behind.depthTexture;
+    uniforms.front.value = front;
+    uniforms.volume.value = volume;
+    uniforms.step_.value.set(1 / behind.width, 1 / behind.height);
+    const projection = camera.projectionMatrix.elements;
+    uniforms.tangent.value.set(1 / projection[0], 1 / projection[5]);
+    uniforms.planes.value.set(camera.near, camera.far);
+    uniforms.toWorld.value = camera.matrixWorld;
+    for (const [name, value] of Object.entries({...water, ...light})) {
+      uniforms[name].value = value;
+    }
+    this.#pass.draw(renderer, target);
+  }
+
+  dispose() {
+    this.#pass.dispose();
+  }
+}
