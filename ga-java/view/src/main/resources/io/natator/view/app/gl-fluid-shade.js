@@ -22,6 +22,7 @@ const FRAGMENT = `
   uniform sampler2D scale;
   uniform vec2 step_;
   uniform vec2 tangent;
+  uniform vec2 shift;
   uniform vec2 planes;
   uniform mat4 toWorld;
   uniform float density;
@@ -48,14 +49,22 @@ const FRAGMENT = `
     float rough = abs(up - down) / (0.25 * spacing * here * here);
     return abs(best) > 1e2 ? 0.0 : mix(0.5 * (up + down), best, clamp(rough, 0.0, 1.0));
   }
+  float isBefore(float depth, float here) { return depth * here < 1.003 ? 1.0 : 0.0; }
   void main() {
     vec3 plain = texture(behind, place).rgb;
     float here = texture(front, place).r;
     float wall = depthOf(place);
     shown = vec4(plain, 1.0);
-    if (here <= 0.0 || wall * here < 1.0 - 0.004) return;
+    if (here <= 0.0) return;
+    // How much of the pixel is before the water: edges and thin lines have many depths and only one is known.
+    float before = isBefore(wall, here) * 2.0 + isBefore(depthOf(place + vec2(step_.x, 0.0)), here)
+        + isBefore(depthOf(place - vec2(step_.x, 0.0)), here) + isBefore(depthOf(place + vec2(0.0, step_.y)), here)
+        + isBefore(depthOf(place - vec2(0.0, step_.y)), here);
+    before = min(1.0, before / 5.0);
+    if (before == 1.0) return;
+    if (before > 0.0 && wall * here < 1.0) wall = 1.0 / here + spacing;
     float depth = 1.0 / here;
-    vec2 device = place * 2.0 - 1.0;
+    vec2 device = place * 2.0 - 1.0 + shift;
     vec2 grow = vec2(slope(vec2(step_.x, 0.0), here), slope(vec2(0.0, step_.y), here)) / (2.0 * step_);
     // A plane n p = d has 1 / depth linear in the place on the screen: its slopes are the normal.
     vec3 normal = normalize(vec3(-grow / tangent, here - dot(device, grow)));
@@ -68,7 +77,7 @@ const FRAGMENT = `
     vec3 bent = refract(view, normal, 1.0 / 1.333);
     float reach = min(thickness, max(0.0, wall - depth) * length(eye) * here);
     vec3 hit = eye + bent * reach;
-    vec2 there = clamp((hit.xy / -hit.z / tangent) * 0.5 + 0.5, step_, 1.0 - step_);
+    vec2 there = clamp((hit.xy / -hit.z / tangent - shift) * 0.5 + 0.5, step_, 1.0 - step_);
     if (depthOf(there) < depth) there = place;
     vec3 through = linear(texture(behind, there).rgb);
     float path = min(thickness, max(0.0, depthOf(there) - depth) * 1.4);
@@ -86,7 +95,7 @@ const FRAGMENT = `
     vec3 sky = linear(skyOf(away));
     colour = mix(colour, sky, fresnel);
     colour += vec3(1.0, 0.97, 0.92) * 1.6 * pow(max(0.0, dot(away, lamp)), 420.0);
-    shown = vec4(screen(colour), 1.0);
+    shown = vec4(mix(screen(colour), plain, before), 1.0);
   }`;
 
 /** One pass over the picture. */
@@ -97,7 +106,7 @@ export class GlFluidShade {
   constructor(scale) {
     this.#pass = new Pass(FRAGMENT, {
       behind: null, behindDepth: null, front: null, volume: null, scale, step_: new THREE.Vector2(),
-      tangent: new THREE.Vector2(), planes: new THREE.Vector2(), toWorld: null, density: 1, spacing: 1, tinted: 0,
+      tangent: new THREE.Vector2(), shift: new THREE.Vector2(), planes: new THREE.Vector2(), toWorld: null, density: 1, spacing: 1, tinted: 0,
       deep: new THREE.Color(), zenith: new THREE.Color(), horizon: new THREE.Color(), lamp: new THREE.Vector3(),
     });
   }
@@ -121,6 +130,7 @@ export class GlFluidShade {
     uniforms.step_.value.set(1 / behind.width, 1 / behind.height);
     const projection = camera.projectionMatrix.elements;
     uniforms.tangent.value.set(1 / projection[0], 1 / projection[5]);
+    uniforms.shift.value.set(projection[8], projection[9]);
     uniforms.planes.value.set(camera.near, camera.far);
     uniforms.toWorld.value = camera.matrixWorld;
     for (const [name, value] of Object.entries({...water, ...light})) {

@@ -1,17 +1,22 @@
 /** Draws with WebGL, through three.js. */
 
 import * as THREE from 'three';
+import {Fence} from './gl-fence.js';
 import {GlBody} from './gl-body.js';
 import {GlMuscles} from './gl-muscles.js';
 import {target} from './gl-pass.js';
 import {GlTank} from './gl-tank.js';
 import {GlTrace} from './gl-trace.js';
 import {GlWater} from './gl-water.js';
+import {Refined} from './gl-refined.js';
 
 THREE.ColorManagement.enabled = false;
 
 /** Screens with more pixels per length get no finer picture than this. */
 const MAX_PIXEL_RATIO = 2;
+
+/** Samples of a picture that rests. */
+const SAMPLES = 16;
 
 /** Names of what draws without a graphics card. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
@@ -51,11 +56,15 @@ export class GlPicture {
     lamp: new THREE.Vector3(-0.45, 0.8, -0.4).normalize(), centre: new THREE.Vector3(),
   };
   #look = null;
+  #last = () => {};
+  #refined = null;
+  #fence;
 
   constructor(canvas, trace, field) {
     this.#renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false, powerPreference: 'high-performance'});
     this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.#renderer.autoClear = false;
+    this.#fence = new Fence(this.#renderer.getContext());
     this.#water = new GlWater(field);
     this.#body.lamp = this.#light.lamp;
     this.#trace = new GlTrace(trace);
@@ -89,6 +98,7 @@ export class GlPicture {
     this.#muscles.object.visible = look.muscles && look.body !== 'skin';
     this.#body.setLook(look);
     this.#trace.object.visible = look.trace;
+    this.#trace.isHidden = look.body === 'skin';
   }
 
   setTheme(colours) {
@@ -110,20 +120,54 @@ export class GlPicture {
     this.#body.setPixels(pixels);
   }
 
+  /** How often a picture that rests is drawn again by `refine`. */
+  get samples() {
+    return SAMPLES;
+  }
+
+  /** Whether the card still draws. */
+  get isBusy() {
+    return this.#fence.isBusy;
+  }
+
   /** Draws a frame; water nearer than `from` is left out. */
   draw(frame, camera, from) {
+    this.#last = () => this.#render(frame, camera, from, null);
+    this.#last();
+    this.#fence.set();
+  }
+
+  /** Draws another sample of a picture that rests, moved by less than a pixel, and shows the mean of those so far. */
+  refine(frame, camera, from, sample) {
+    const {width, height} = this.#renderer.domElement;
+    this.#refined ??= new Refined();
+    camera.setViewOffset(width, height, ...this.#refined.shift(sample), width, height);
+    this.#render(frame, camera, from, this.#refined.target(width, height));
+    camera.clearViewOffset();
+    this.#refined.add(this.#renderer, sample);
+    this.#last = () => this.#refined.show(this.#renderer);
+    this.#last();
+    this.#fence.set();
+  }
+
+  /** Makes the canvas hold what was drawn last, until the browser shows it. */
+  show() {
+    this.#last();
+  }
+
+  #render(frame, camera, from, to) {
     this.#body.update(frame);
     this.#muscles.update(frame);
     this.#trace.update();
     this.#water.update(frame, camera, this.#look, from);
     const isSurface = this.#water.isSurface(this.#look);
     const behind = isSurface ? this.#behindWater() : null;
-    this.#renderer.setRenderTarget(behind);
+    this.#renderer.setRenderTarget(isSurface ? behind : to);
     this.#renderer.setClearColor(this.#background, 1);
     this.#renderer.clear();
     this.#renderer.render(this.#world, camera);
     if (isSurface) {
-      this.#water.drawSurface(this.#renderer, camera, null, behind, this.#look, this.#light);
+      this.#water.drawSurface(this.#renderer, camera, to, behind, this.#look, this.#light);
     }
   }
 
@@ -138,6 +182,7 @@ export class GlPicture {
 
   dispose() {
     this.#behind?.dispose();
+    this.#refined?.dispose();
     this.#water.dispose();
     this.#body.dispose();
     this.#renderer.dispose();

@@ -57,6 +57,11 @@ export class GlTrace {
     this.#head.setDrawRange(0, trace.headPlaces);
   }
 
+  /** Whether the body hides lines behind it. */
+  set isHidden(value) {
+    this.#material.depthTest = value;
+  }
+
   /** The colour of the lines. */
   setInk(colour) {
     this.#material.uniforms.ink.value.setStyle(colour);

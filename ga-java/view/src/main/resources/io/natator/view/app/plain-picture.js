@@ -16,7 +16,7 @@ import {SPINES} from './trace.js';
 /** Colours of water. */
 const COLOURS = 256;
 const CHANGES = 33;
-/** Pixels of the surface for each of the spheres' layer, along each side. */
+/** Pixels of the surface for each of the spheres' layer, along each side, while it moves. */
 const SURFACE_SHARE = 0.5;
 
 /** One canvas; the same methods as `GlPicture`. */
@@ -51,6 +51,7 @@ export class PlainPicture {
   #bodyShades = null;
   #changeColours = Array.from({length: CHANGES}, (_, i) => css(colourAt(SCALES.diverging, i / (CHANGES - 1))));
   #lineWidth = 1;
+  #surfaceShare = SURFACE_SHARE;
   #place = [0, 0, 0];
 
   constructor(canvas, trace, field) {
@@ -66,6 +67,28 @@ export class PlainPicture {
   get name() {
     return 'processor';
   }
+
+  /** How often a picture that rests is drawn again by `refine`. */
+  get samples() {
+    return 1;
+  }
+
+  /** Whether it still draws. */
+  get isBusy() {
+    return false;
+  }
+
+  /** Draws a picture that rests, with a finer surface. */
+  refine(frame, camera, from) {
+    this.#surfaceShare = 1;
+    this.#fitSurface();
+    this.draw(frame, camera, from);
+    this.#surfaceShare = SURFACE_SHARE;
+    this.#fitSurface();
+  }
+
+  /** Makes the canvas hold what was drawn last: it does so always. */
+  show() {}
 
   /** Whether the time that `draw` takes is that of drawing. */
   get isDoneAtOnce() {
@@ -107,8 +130,12 @@ export class PlainPicture {
     this.#layerCanvas.height = this.#canvas.height;
     this.#lineWidth = Math.max(0.6, share);
     this.#layer.setSize(this.#layerCanvas.width, this.#layerCanvas.height);
-    this.#surfaceCanvas.width = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.width));
-    this.#surfaceCanvas.height = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.height));
+    this.#fitSurface();
+  }
+
+  #fitSurface() {
+    this.#surfaceCanvas.width = Math.max(4, Math.round(this.#surfaceShare * this.#layerCanvas.width));
+    this.#surfaceCanvas.height = Math.max(4, Math.round(this.#surfaceShare * this.#layerCanvas.height));
     this.#surface.setSize(this.#surfaceCanvas.width, this.#surfaceCanvas.height);
   }
 
@@ -213,16 +240,16 @@ export class PlainPicture {
     this.#layer.body(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#bodyShades, cluster * LIGHTS,
         this.#joints[particle] === 1);
     if (blocks) {
-      const small = this.#discs.of(SURFACE_SHARE * radius, 0.5, 0.5);
-      this.#surface.block(small, Math.floor(SURFACE_SHARE * x) - small.half, Math.floor(SURFACE_SHARE * y) - small.half);
+      const small = this.#discs.of(this.#surfaceShare * radius, 0.5, 0.5);
+      this.#surface.block(small, Math.floor(this.#surfaceShare * x) - small.half, Math.floor(this.#surfaceShare * y) - small.half);
     }
   }
 
   #surfaceSphere(x, y, depth, colour) {
     const size = SURFACE_RADIUS * this.#scene.fluidRestDistance;
     const radius = size / depth * this.#surfaceProjector.pixels;
-    const column = SURFACE_SHARE * x;
-    const row = SURFACE_SHARE * y;
+    const column = this.#surfaceShare * x;
+    const row = this.#surfaceShare * y;
     if (isOn(this.#surfaceCanvas, column, row, radius)) {
       const disc = this.#discs.of(radius, column - Math.floor(column), row - Math.floor(row));
       this.#surface.water(disc, Math.floor(column) - disc.half, Math.floor(row) - disc.half, depth, size, colour);

@@ -105,6 +105,16 @@ export function muscleChange(muscle, frame) {
   return Math.max(-1, Math.min(1, muscle.lateral * frame.activation[muscle.actuator]));
 }
 
+/** What there is to be seen in some scenes: water, muscles, bodies, others (companions and obstacles). */
+export function contents(scenes) {
+  return {
+    water: scenes.some(({fluid}) => fluid[1] > 0),
+    muscles: scenes.some(({muscles}) => muscles.length > 0),
+    bodies: scenes.some(({body}) => body.length > 0),
+    others: scenes.some(({particles, fluid, body}) => particles > fluid[1] + body.length),
+  };
+}
+
 /** Companions and obstacles. */
 const OTHER_COLOUR = [0.56, 0.62, 0.66];
 

@@ -11,10 +11,10 @@ export const SHAPE_NUMBERS = 12;
 const RADIUS = 0.95;
 const SPRAY_RADIUS = 0.36;
 /** Neighbours are nearer than this, in spacings. */
-const SUPPORT = 2.1;
+const SUPPORT = 1.9;
 /** A particle with fewer neighbours is spray; from the second number on it is all ellipsoid. */
-const SPRAY_NEIGHBOURS = 4;
-const ENOUGH_NEIGHBOURS = 11;
+const SPRAY_NEIGHBOURS = 3;
+const ENOUGH_NEIGHBOURS = 9;
 /** How far a centre goes to the mean of its neighbours: lambda of Yu and Turk. */
 const TO_MEAN = 0.9;
 /** Share of the ball that stays in each ellipsoid, so that none gets too flat. */
@@ -22,6 +22,8 @@ const LEAST_ROUND = 0.15;
 /** Width of the cells by which the inside of the water is told, in spacings. */
 const CELL = 1.25;
 const MOST_CELLS = 2e6;
+/** Fewer empty cells than this, of the 26 around one, are chance. */
+const FEW_EMPTY = 5;
 /** Foam begins where water is sheared by this share of sqrt(gravity * spacing), and is full at the second. */
 const FOAM_FROM = 0.55;
 const FOAM_FULL = 1.6;
@@ -38,6 +40,7 @@ export class WaterShapes {
   #end = new Uint32Array(1);
   #sorted = new Uint32Array(0);
   #cellOf = new Int32Array(0);
+  #places = new Float32Array(0);
 
   /** `SHAPE_NUMBERS` for each shape: its surface is where (x - centre)^T S^-1 (x - centre) = 1 with its matrix S. */
   numbers = new Float32Array(0);
@@ -67,6 +70,7 @@ export class WaterShapes {
       this.numbers = new Float32Array(SHAPE_NUMBERS * count);
       this.#sorted = new Uint32Array(count);
       this.#cellOf = new Int32Array(count);
+      this.#places = new Float32Array(3 * count);
     }
     this.count = 0;
     if (count === 0) {
@@ -75,11 +79,11 @@ export class WaterShapes {
     this.#sort(position, first, chosen, count);
     for (let i = 0; i < count; i++) {
       const particle = first + chosen[i];
-      const side = this.#side(position, particle, this.#cellOf[i], walls);
+      const side = this.#side(position, particle, this.#cellOf[i], walls.min, walls.max);
       if (side > 0) {
         const at = SHAPE_NUMBERS * this.count++;
         if (side === 2) {
-          this.#ellipsoid(position, velocity, particle, this.#cellOf[i], at, walls);
+          this.#ellipsoid(position, velocity, particle, this.#cellOf[i], at, walls.min, walls.max);
         } else {
           this.#ball(position, particle, at, RADIUS * this.#spacing);
         }
@@ -118,7 +122,11 @@ export class WaterShapes {
       sum += here;
     }
     for (let i = 0; i < count; i++) {
-      this.#sorted[end[this.#cellOf[i]]++] = first + chosen[i];
+      const to = end[this.#cellOf[i]]++;
+      this.#sorted[to] = first + chosen[i];
+      for (let axis = 0, k = 3 * (first + chosen[i]); axis < 3; axis++, k++) {
+        this.#places[3 * to + axis] = position[k];
+      }
     }
   }
 
@@ -133,30 +141,35 @@ export class WaterShapes {
     return this.#total;
   }
 
-  /** 0 inside the water, 1 at a wall, 2 at the free surface. */
-  #side(position, particle, cell, {min, max}) {
+  /** 0 inside the water, 1 at a wall, 2 at the free surface: by how many of the cells around are empty. */
+  #side(position, particle, cell, min, max) {
     const [across, up] = this.#cells;
     const end = this.#end;
-    let side = 0;
+    const k = 3 * particle;
+    const reach = 0.8 * this.#cell;
+    let open = 0;
+    let closed = 0;
     for (let z = -1; z <= 1; z++) {
       for (let y = -1; y <= 1; y++) {
         for (let x = -1; x <= 1; x++) {
           const other = cell + x + across * (y + up * z);
           if (end[other] === end[other - 1]) {
-            const reach = 0.8 * this.#cell;
-            const k = 3 * particle;
             const isWall = isBeyond(position[k] + x * reach, min[0], max[0])
                 || isBeyond(position[k + 1] + y * reach, min[1], max[1])
                 || isBeyond(position[k + 2] + z * reach, min[2], max[2]);
-            if (!isWall) {
-              return 2;
-            }
-            side = 1;
+            open += isWall ? 0 : 1;
+            closed += isWall ? 1 : 0;
           }
         }
       }
     }
-    return side;
+    if (open + closed < FEW_EMPTY) {
+      return 0;
+    }
+    // A ball just below the surface would show above it.
+    const above = cell + 2 * across;
+    const isBelow = above < this.#total && end[above] === end[above - 1] && position[k + 1] + 2 * reach < max[1];
+    return open >= FEW_EMPTY || isBelow ? 2 : 1;
   }
 
   #ball(position, particle, at, radius) {
@@ -168,7 +181,7 @@ export class WaterShapes {
     }
   }
 
-  #ellipsoid(position, velocity, particle, cell, at, {min, max}) {
+  #ellipsoid(position, velocity, particle, cell, at, min, max) {
     const reach = SUPPORT * this.#spacing;
     const [across, up] = this.#cells;
     const sums = this.#sums.fill(0);
@@ -182,20 +195,60 @@ export class WaterShapes {
     const hasX = Math.abs(wallX) < reach;
     const hasY = Math.abs(wallY) < reach;
     const hasZ = Math.abs(wallZ) < reach;
+    const hasWall = hasX || hasY || hasZ;
+    const places = this.#places;
+    const end = this.#end;
+    const perReach = 1 / reach;
     let shear = 0;
+    let neighbours = 0;
+    let weights = 0;
+    let sx = 0;
+    let sy = 0;
+    let sz = 0;
+    let xx = 0;
+    let yy = 0;
+    let zz = 0;
+    let xy = 0;
+    let xz = 0;
+    let yz = 0;
     for (let z = -2; z <= 2; z++) {
       for (let y = -2; y <= 2; y++) {
-        for (let x = -2; x <= 2; x++) {
-          const other = cell + x + across * (y + up * z);
-          if (other < 1 || other >= this.#total) {
-            continue;
+        // The cells of a row lie behind each other, and so do their particles.
+        const row = cell + across * (y + up * z);
+        const last = row + 2 < this.#total ? row + 2 : this.#total - 1;
+        if (row < 3 || last < row || y * y + z * z === 8) {
+          continue;
+        }
+        for (let i = end[row - 3], until = end[last]; i < until; i++) {
+          const dx = places[3 * i] - px;
+          const dy = places[3 * i + 1] - py;
+          const dz = places[3 * i + 2] - pz;
+          const square = dx * dx + dy * dy + dz * dz;
+          if (square < reach * reach) {
+            const share = Math.sqrt(square) * perReach;
+            const weight = 1 - share * share * share;
+            const wx = weight * dx;
+            const wy = weight * dy;
+            neighbours++;
+            weights += weight;
+            sx += wx;
+            sy += wy;
+            sz += weight * dz;
+            xx += wx * dx;
+            yy += wy * dy;
+            zz += weight * dz * dz;
+            xy += wx * dy;
+            xz += wx * dz;
+            yz += wy * dz;
+            if (velocity !== null) {
+              const k = 3 * this.#sorted[i];
+              const vx = velocity[k] - velocity[3 * particle];
+              const vy = velocity[k + 1] - velocity[3 * particle + 1];
+              const vz = velocity[k + 2] - velocity[3 * particle + 2];
+              shear += weight * Math.sqrt(vx * vx + vy * vy + vz * vz);
+            }
           }
-          for (let i = this.#end[other - 1]; i < this.#end[other]; i++) {
-            const k = 3 * this.#sorted[i];
-            const dx = position[k] - px;
-            const dy = position[k + 1] - py;
-            const dz = position[k + 2] - pz;
-            const weight = add(sums, dx, dy, dz, reach);
+          if (hasWall) {
             if (hasX) {
               add(sums, 2 * wallX - dx, dy, dz, reach);
             }
@@ -208,38 +261,35 @@ export class WaterShapes {
             if (hasX && hasZ) {
               add(sums, 2 * wallX - dx, dy, 2 * wallZ - dz, reach);
             }
-            if (weight > 0 && velocity !== null) {
-              shear += weight * Math.hypot(velocity[k] - velocity[3 * particle], velocity[k + 1] - velocity[3 * particle + 1],
-                  velocity[k + 2] - velocity[3 * particle + 2]);
-            }
           }
         }
       }
     }
-    const [neighbours, weights] = sums;
-    let [, , sx, sy, sz, xx, yy, zz, xy, xz, yz] = sums;
+    shear /= weights;
+    neighbours += sums[0];
+    weights += sums[1];
     // How much of a particle of the water it is, and not of spray.
     const whole = Math.min(1, Math.max(0, (neighbours - SPRAY_NEIGHBOURS) / (ENOUGH_NEIGHBOURS - SPRAY_NEIGHBOURS)));
     const radius = this.#spacing * (SPRAY_RADIUS + (RADIUS - SPRAY_RADIUS) * whole);
     this.#ball(position, particle, at, radius);
     const numbers = this.numbers;
-    const foam = (shear / weights / this.#foamSpeed - FOAM_FROM) / (FOAM_FULL - FOAM_FROM);
+    const foam = (shear / this.#foamSpeed - FOAM_FROM) / (FOAM_FULL - FOAM_FROM);
     numbers[at + 7] = velocity === null ? 0 : Math.min(1, Math.max(0, foam));
     if (whole === 0) {
       return;
     }
-    sx /= weights;
-    sy /= weights;
-    sz /= weights;
+    sx = (sx + sums[2]) / weights;
+    sy = (sy + sums[3]) / weights;
+    sz = (sz + sums[4]) / weights;
     numbers[at] += TO_MEAN * whole * sx;
     numbers[at + 1] += TO_MEAN * whole * sy;
     numbers[at + 2] += TO_MEAN * whole * sz;
-    xx = xx / weights - sx * sx;
-    yy = yy / weights - sy * sy;
-    zz = zz / weights - sz * sz;
-    xy = xy / weights - sx * sy;
-    xz = xz / weights - sx * sz;
-    yz = yz / weights - sy * sz;
+    xx = (xx + sums[5]) / weights - sx * sx;
+    yy = (yy + sums[6]) / weights - sy * sy;
+    zz = (zz + sums[7]) / weights - sz * sz;
+    xy = (xy + sums[8]) / weights - sx * sy;
+    xz = (xz + sums[9]) / weights - sx * sz;
+    yz = (yz + sums[10]) / weights - sy * sz;
     // Half axes go with the eigenvalues of the covariance, as there: the matrix of the surface is its square.
     const scale = whole * (1 - LEAST_ROUND) * 3 * radius / (xx + yy + zz);
     const round = radius * (1 - whole * (1 - LEAST_ROUND));
@@ -258,26 +308,24 @@ export class WaterShapes {
   }
 }
 
-/** Adds a neighbour at this distance to number, weights, and the first and second moments; gives its weight. */
+/** Adds a mirrored neighbour at this distance to number, weights, and the first and second moments. */
 function add(sums, dx, dy, dz, reach) {
   const square = dx * dx + dy * dy + dz * dz;
-  if (square >= reach * reach) {
-    return 0;
+  if (square < reach * reach) {
+    const share = Math.sqrt(square) / reach;
+    const weight = 1 - share * share * share;
+    sums[0]++;
+    sums[1] += weight;
+    sums[2] += weight * dx;
+    sums[3] += weight * dy;
+    sums[4] += weight * dz;
+    sums[5] += weight * dx * dx;
+    sums[6] += weight * dy * dy;
+    sums[7] += weight * dz * dz;
+    sums[8] += weight * dx * dy;
+    sums[9] += weight * dx * dz;
+    sums[10] += weight * dy * dz;
   }
-  const share = Math.sqrt(square) / reach;
-  const weight = 1 - share * share * share;
-  sums[0]++;
-  sums[1] += weight;
-  sums[2] += weight * dx;
-  sums[3] += weight * dy;
-  sums[4] += weight * dz;
-  sums[5] += weight * dx * dx;
-  sums[6] += weight * dy * dy;
-  sums[7] += weight * dz * dz;
-  sums[8] += weight * dx * dy;
-  sums[9] += weight * dx * dz;
-  sums[10] += weight * dy * dz;
-  return weight;
 }
 
 /** The way from a place to the nearer of two. */
