@@ -4,8 +4,6 @@
 export class Fence {
   #context;
   #sync = null;
-  #since = 0;
-  #took = Infinity;
 
   constructor(context) {
     this.#context = context;
@@ -18,7 +16,6 @@ export class Fence {
     }
     this.#sync = this.#context.fenceSync(this.#context.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.#context.flush();
-    this.#since = performance.now();
   }
 
   /** Whether it has not got there yet. */
@@ -27,13 +24,7 @@ export class Fence {
         && this.#context.clientWaitSync(this.#sync, 0, 0) !== this.#context.TIMEOUT_EXPIRED) {
       this.#context.deleteSync(this.#sync);
       this.#sync = null;
-      this.#took = performance.now() - this.#since;
     }
     return this.#sync !== null;
-  }
-
-  /** Milliseconds that what was marked last took at most, as far as it was looked; infinite while it is busy. */
-  get took() {
-    return this.isBusy ? Infinity : this.#took;
   }
 }

@@ -1,4 +1,4 @@
-/** Depth of the nearest water: each shape (water-shape.js) as an ellipsoid that rays are cast at, cut off at the walls. */
+/** Depth of the nearest water, and its foam: each shape (water-shape.js) as an ellipsoid that rays are cast at, cut off at the walls. */
 
 import * as THREE from 'three';
 import {SHAPE_NUMBERS} from './water-shape.js';
@@ -68,6 +68,40 @@ const FRAGMENT = `
     inverseDepth = vec4(1.0 / depth, 0.0, 0.0, 1.0);
   }`;
 
+const FOAM_VERTEX = `
+  in vec4 centre;
+  in vec4 squares;
+  uniform float radius;
+  out vec2 side;
+  out float foam;
+  out float depth;
+  void main() {
+    vec4 eye = viewMatrix * vec4(centre.xyz, 1.0);
+    depth = -eye.z;
+    foam = squares.w;
+    side = position.xy;
+    gl_Position = foam > 0.0 ? projectionMatrix * (eye + vec4(radius * position.xy, 0.0, 0.0)) : vec4(2.0, 2.0, 2.0, 1.0);
+  }`;
+
+const FOAM_FRAGMENT = `
+  precision highp float;
+  uniform sampler2D front;
+  uniform vec2 size;
+  uniform float radius;
+  in vec2 side;
+  in float foam;
+  in float depth;
+  layout(location = 0) out vec4 added;
+  void main() {
+    float share = max(0.0, 1.0 - dot(side, side));
+    float nearest = texture(front, gl_FragCoord.xy / size).r;
+    if (nearest <= 0.0 || depth - 1.0 / nearest > 1.5 * radius) discard;
+    added = vec4(0.0, 0.0, foam * share, 0.0);
+  }`;
+
+/** Radius of foam around a shape, in spacings. */
+const FOAM_RADIUS = 0.9;
+
 /** One quad for each shape. */
 export class GlFluidDepth {
   #world = new THREE.Scene();
@@ -78,6 +112,13 @@ export class GlFluidDepth {
   #material = new THREE.ShaderMaterial({
     vertexShader: VERTEX, fragmentShader: FRAGMENT, glslVersion: THREE.GLSL3, blending: THREE.NoBlending,
     uniforms: {low: {value: new THREE.Vector3()}, high: {value: new THREE.Vector3()}, nearest: {value: 0}},
+  });
+
+  #foam = new THREE.ShaderMaterial({
+    vertexShader: FOAM_VERTEX, fragmentShader: FOAM_FRAGMENT, glslVersion: THREE.GLSL3, transparent: true,
+    blending: THREE.CustomBlending, blendEquation: THREE.AddEquation, blendSrc: THREE.OneFactor, blendDst: THREE.OneFactor,
+    blendSrcAlpha: THREE.OneFactor, blendDstAlpha: THREE.OneFactor, depthTest: false, depthWrite: false,
+    uniforms: {front: {value: null}, size: {value: new THREE.Vector2()}, radius: {value: 1}},
   });
 
   /** Brings shapes (`WaterShapes`) to the GPU. */
@@ -113,6 +154,20 @@ export class GlFluidDepth {
     }
   }
 
+  /** Adds foam to b of a target whose pixels see the water at `front` (1 / depth). */
+  drawFoam(renderer, camera, target, front, spacing) {
+    if (this.#mesh === null) {
+      return;
+    }
+    this.#foam.uniforms.front.value = front;
+    this.#foam.uniforms.size.value.set(target.width, target.height);
+    this.#foam.uniforms.radius.value = FOAM_RADIUS * spacing;
+    this.#mesh.material = this.#foam;
+    renderer.setRenderTarget(target);
+    renderer.render(this.#world, camera);
+    this.#mesh.material = this.#material;
+  }
+
   #build(capacity) {
     this.#capacity = capacity;
     if (this.#mesh !== null) {
@@ -134,5 +189,6 @@ export class GlFluidDepth {
   dispose() {
     this.#mesh?.geometry.dispose();
     this.#material.dispose();
+    this.#foam.dispose();
   }
 }

@@ -49,6 +49,16 @@ const FRAGMENT = `
     float rough = abs(up - down) / (0.25 * spacing * here * here);
     return abs(best) > 1e2 ? 0.0 : mix(0.5 * (up + down), best, clamp(rough, 0.0, 1.0));
   }
+  float random(vec3 at) { return fract(sin(dot(at, vec3(12.9898, 78.233, 37.719))) * 43758.5453); }
+  float noise(vec3 at) {
+    vec3 cell = floor(at);
+    vec3 share = smoothstep(0.0, 1.0, at - cell);
+    vec4 back = vec4(random(cell), random(cell + vec3(1, 0, 0)), random(cell + vec3(0, 1, 0)), random(cell + vec3(1, 1, 0)));
+    cell.z += 1.0;
+    vec4 front_ = vec4(random(cell), random(cell + vec3(1, 0, 0)), random(cell + vec3(0, 1, 0)), random(cell + vec3(1, 1, 0)));
+    vec4 both = mix(back, front_, share.z);
+    return mix(mix(both.x, both.y, share.x), mix(both.z, both.w, share.x), share.y);
+  }
   float isBefore(float depth, float here) { return depth * here < 1.003 ? 1.0 : 0.0; }
   void main() {
     vec3 plain = texture(behind, place).rgb;
@@ -95,6 +105,11 @@ const FRAGMENT = `
     vec3 sky = linear(skyOf(away));
     colour = mix(colour, sky, fresnel);
     colour += vec3(1.0, 0.97, 0.92) * 1.6 * pow(max(0.0, dot(away, lamp)), 420.0);
+    // Foam: bubbles that cover more of the surface where there is more of it.
+    vec3 there3 = (toWorld * vec4(eye, 1.0)).xyz / spacing;
+    float bubbles = 0.55 * noise(there3 * 3.1) + 0.3 * noise(there3 * 7.3) + 0.15 * noise(there3 * 15.0);
+    float foam = smoothstep(0.0, 0.3, clamp(splat.b, 0.0, 1.0) - bubbles * 0.9) * mix(0.9, 0.6, tinted);
+    colour = mix(colour, vec3(0.86, 0.92, 0.95) * (0.55 + 0.45 * max(0.0, world.y)), foam);
     shown = vec4(mix(screen(colour), plain, before), 1.0);
   }`;
 

@@ -3,17 +3,22 @@
 import * as THREE from 'three';
 import {Fence} from './gl-fence.js';
 import {GlBody} from './gl-body.js';
+import {GlLightMap} from './gl-light-map.js';
 import {GlMuscles} from './gl-muscles.js';
 import {target} from './gl-pass.js';
 import {GlTank} from './gl-tank.js';
 import {GlTrace} from './gl-trace.js';
 import {GlWater} from './gl-water.js';
 import {Refined} from './gl-refined.js';
+import {solids} from './scene.js';
 
 THREE.ColorManagement.enabled = false;
 
 /** Screens with more pixels per length get no finer picture than this. */
 const MAX_PIXEL_RATIO = 2;
+
+/** With a smaller share of the pixels than this the surface of the water is simpler, too. */
+const PLAIN_SHARE = 0.65;
 
 /** Samples of a picture that rests. */
 const SAMPLES = 16;
@@ -58,6 +63,9 @@ export class GlPicture {
   #look = null;
   #last = () => {};
   #refined = null;
+  #scene = null;
+  #solids = [];
+  #map;
   #fence;
 
   constructor(canvas, trace, field) {
@@ -66,6 +74,8 @@ export class GlPicture {
     this.#renderer.autoClear = false;
     this.#fence = new Fence(this.#renderer.getContext());
     this.#water = new GlWater(field);
+    this.#map = new GlLightMap(this.#light.lamp);
+    this.#tank.light = this.#map.texture;
     this.#body.lamp = this.#light.lamp;
     this.#trace = new GlTrace(trace);
     this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
@@ -76,12 +86,9 @@ export class GlPicture {
     return 'WebGL';
   }
 
-  /** Whether the time that `draw` takes is that of drawing. */
-  get isDoneAtOnce() {
-    return false;
-  }
-
   setScene(scene) {
+    this.#scene = scene;
+    this.#solids = solids(scene);
     this.#water.setScene(scene);
     this.#body.setScene(scene);
     this.#muscles.setScene(scene);
@@ -90,6 +97,8 @@ export class GlPicture {
   setBounds(bounds) {
     this.#tank.setBounds(bounds);
     this.#water.setBounds(bounds);
+    this.#map.setBounds(bounds, this.#scene.fluidRestDistance);
+    this.#tank.light = this.#map.texture;
     this.#light.centre.fromArray(bounds.min.map((low, axis) => (low + bounds.max[axis]) / 2));
   }
 
@@ -114,6 +123,7 @@ export class GlPicture {
   setSize(width, height, share, angle) {
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, MAX_PIXEL_RATIO) * share);
     this.#renderer.setSize(width, height, false);
+    this.#water.isPlain = share < PLAIN_SHARE;
     const {width: columns, height: rows} = this.#renderer.domElement;
     const pixels = rows / 2 / Math.tan(angle * Math.PI / 360);
     this.#water.setPixels(pixels, columns, rows);
@@ -161,6 +171,7 @@ export class GlPicture {
     this.#trace.update();
     this.#water.update(frame, camera, this.#look, from);
     const isSurface = this.#water.isSurface(this.#look);
+    this.#map.update(isSurface ? this.#water.shapes : null, this.#solids, frame.position);
     const behind = isSurface ? this.#behindWater() : null;
     this.#renderer.setRenderTarget(isSurface ? behind : to);
     this.#renderer.setClearColor(this.#background, 1);
@@ -185,6 +196,7 @@ export class GlPicture {
     this.#refined?.dispose();
     this.#water.dispose();
     this.#body.dispose();
+    this.#map.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }

@@ -13,21 +13,26 @@ import {WaterShapes} from './water-shape.js';
 
 /** Texels of thickness and colour for each of the picture, along each side. */
 const VOLUME_SHARE = 0.25;
+/** Absorption through the height and the depth of a tank together, at full opacity. */
+const ABSORPTION = 3.6;
 const ENDLESS = {min: [-1e9, -1e9, -1e9], max: [1e9, 1e9, 1e9]};
 
 /** Passes at the size of the picture, and some at a quarter of it. */
 export class GlSurface {
   #scene = null;
   #walls = ENDLESS;
-  #shapes = new WaterShapes();
   #depth = new GlFluidDepth();
   #smooth = new GlFluidSmooth();
   #volume = new GlFluidVolume();
   #shade;
   #targets = null;
+  #density = 1;
   #pixelsPerUnit = 1;
   #width = 1;
   #height = 1;
+
+  /** What it is made of. */
+  shapes = new WaterShapes();
 
   /** `scale` is the texture of the colour scale. */
   constructor(scale) {
@@ -37,12 +42,13 @@ export class GlSurface {
   /** Takes over what is known of a scene (SCEN); `geometry` holds places and values of the particles. */
   setScene(scene, geometry) {
     this.#scene = scene;
-    this.#shapes.setScene(scene);
+    this.shapes.setScene(scene);
     this.#volume.setScene(scene, geometry);
   }
 
   /** The tank; see `tankBounds`. Water ends flat at its walls; it has no lid. */
   setBounds({min, max, walls}) {
+    this.#density = ABSORPTION / Math.max(0.1, max[1] - min[1] + max[2] - min[2]);
     this.#walls = walls ? {min, max: [max[0], ENDLESS.max[1], max[2]]} : ENDLESS;
   }
 
@@ -53,10 +59,15 @@ export class GlSurface {
     this.#height = height;
   }
 
+  /** Whether it is made of balls. */
+  set isPlain(value) {
+    this.shapes.isPlain = value;
+  }
+
   /** Takes over the particles of a frame; see `WaterShapes.update`. */
   update(frame, first, chosen, count, values) {
-    this.#shapes.update(frame.position, frame.velocities, first, chosen, count, values, this.#walls);
-    this.#depth.update(this.#shapes);
+    this.shapes.update(frame.position, frame.velocities, first, chosen, count, values, this.#walls);
+    this.#depth.update(this.shapes);
   }
 
   /**
@@ -77,10 +88,11 @@ export class GlSurface {
     this.#smooth.draw(renderer, front, other, spacing, spacing * this.#pixelsPerUnit / middle);
     this.#volume.draw(renderer, camera, volume, blurred, front.texture, range,
         VOLUME_SHARE * this.#pixelsPerUnit);
+    this.#depth.drawFoam(renderer, camera, volume, front.texture, spacing);
     const tinted = look.colour === 'none' ? 0 : 0.85;
     const {deep, zenith, horizon, lamp} = light;
     this.#shade.draw(renderer, camera, to, behind, front.texture, volume.texture,
-        {spacing, density: 2.2 * look.opacity, tinted}, {deep, zenith, horizon, lamp});
+        {spacing, density: this.#density * look.opacity, tinted}, {deep, zenith, horizon, lamp});
   }
 
   /** Targets of the size of the picture. */

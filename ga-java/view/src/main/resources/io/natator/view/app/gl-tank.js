@@ -1,6 +1,7 @@
 /** Floor and edges of the tank. */
 
 import * as THREE from 'three';
+import {GlLightMap} from './gl-light-map.js';
 import {MARK_SPACING, tankLines} from './scene.js';
 
 const FLOOR_VERTEX = `
@@ -18,7 +19,9 @@ const FLOOR_FRAGMENT = `
   uniform vec4 tank;
   uniform float spacing;
   uniform float reach;
+  uniform sampler2D map;
   varying vec3 place;
+  ${GlLightMap.CODE}
   void main() {
     vec2 beyond = max(tank.xy - place.xz, place.xz - tank.zw);
     float off = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0);
@@ -26,6 +29,7 @@ const FLOOR_FRAGMENT = `
     vec2 line = abs(fract(cell - 0.5) - 0.5) / (fwidth(cell) * 1.2);
     float mark = (1.0 - min(min(line.x, line.y), 1.0)) * step(off, 0.0);
     vec3 colour = mix(floor_, marks, mark);
+    colour *= lightAt(map, tank, place);
     colour *= 1.0 - 0.16 * exp(-max(off, 0.0) * 5.0) * step(0.0, off);
     gl_FragColor = vec4(mix(colour, background, smoothstep(0.0, reach, off)), 1.0);
   }`;
@@ -37,7 +41,7 @@ export class GlTank {
     polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4,
     uniforms: {
       floor_: {value: new THREE.Color()}, marks: {value: new THREE.Color()}, background: {value: new THREE.Color()},
-      tank: {value: new THREE.Vector4()}, spacing: {value: MARK_SPACING}, reach: {value: 1},
+      tank: {value: new THREE.Vector4()}, spacing: {value: MARK_SPACING}, reach: {value: 1}, map: {value: null},
     },
   }));
   #edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
@@ -63,6 +67,11 @@ export class GlTank {
     this.#floor.material.uniforms.tank.value.set(x0, z0, x1, z1);
     this.#floor.material.uniforms.reach.value = reach;
     replace(this.#edges, tankLines(bounds).edges);
+  }
+
+  /** Light on the floor (`GlLightMap`). */
+  set light(texture) {
+    this.#floor.material.uniforms.map.value = texture;
   }
 
   /** Colours as CSS: floor, marks, edges, background. */

@@ -92,6 +92,11 @@ export class GlWater {
     return look.water === 'surface' && this.#scene !== null && this.#scene.fluid[1] > 0;
   }
 
+  /** Shapes of the surface (`WaterShapes`). */
+  get shapes() {
+    return this.#surface.shapes;
+  }
+
   /** Lays the surface over a picture; see `GlSurface.draw`. */
   drawSurface(renderer, camera, to, behind, look, light) {
     this.#surface.draw(renderer, camera, to, behind, look, this.#field.range, this.#from, light);
@@ -106,6 +111,11 @@ export class GlWater {
   setPixels(pixelsPerUnit, width, height) {
     this.#material.uniforms.pixelsPerUnit.value = pixelsPerUnit;
     this.#surface.setSize(pixelsPerUnit, width, height);
+  }
+
+  /** Whether the surface is made of balls, which costs less than ellipsoids. */
+  set isPlain(value) {
+    this.#surface.isPlain = value;
   }
 
   dispose() {

@@ -90,11 +90,6 @@ export class PlainPicture {
   /** Makes the canvas hold what was drawn last: it does so always. */
   show() {}
 
-  /** Whether the time that `draw` takes is that of drawing. */
-  get isDoneAtOnce() {
-    return true;
-  }
-
   setScene(scene) {
     this.#scene = scene;
     this.#skin.setScene(scene);

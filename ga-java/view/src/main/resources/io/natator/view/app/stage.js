@@ -21,6 +21,9 @@ export const DEFAULT_LOOK = {
 /** Drawings of the screen after which a picture that rests is refined: drawn again with all its pixels, and more samples. */
 const REST = 10;
 
+/** What counts as the time of drawing where the graphics card is not done when the next drawing begins. */
+const LATE_MS = 100;
+
 /** Draws into an element when there is something new, and else does nothing. */
 export class Stage {
   #host;
@@ -40,6 +43,7 @@ export class Stage {
   #isNew = true;
   #rested = 0;
   #samples = 0;
+  #isTooSlow = false;
   #share = 0;
   #width = 0;
   #height = 0;
@@ -148,10 +152,17 @@ export class Stage {
       return true;
     }
     this.#samples = 0;
+    const isLate = this.#picture.isBusy;
     const began = performance.now();
     this.#picture.draw(this.#frame, camera, from);
-    const milliseconds = this.#picture.isDoneAtOnce ? performance.now() - began : Infinity;
+    const milliseconds = isLate ? LATE_MS : performance.now() - began;
     if (this.#look.quality === 'auto' && this.#quality.drawn(now / 1000, milliseconds)) {
+      this.#isNew = true;
+    }
+    if (this.#quality.isHopeless && this.#look.drawing === 'auto' && this.#drawing === 'webgl') {
+      this.#isTooSlow = true;
+      this.#quality = new Quality();
+      this.#choosePicture();
       this.#isNew = true;
     }
     return true;
@@ -167,7 +178,7 @@ export class Stage {
   }
 
   #choosePicture() {
-    const wanted = this.#look.drawing === 'auto' ? hasGraphicsCard() ? 'webgl' : 'plain' : this.#look.drawing;
+    const wanted = this.#look.drawing === 'auto' ? hasGraphicsCard() && !this.#isTooSlow ? 'webgl' : 'plain' : this.#look.drawing;
     if (this.#picture !== null && wanted === this.#drawing) {
       return;
     }

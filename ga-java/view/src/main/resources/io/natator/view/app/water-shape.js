@@ -44,6 +44,8 @@ export class WaterShapes {
 
   /** `SHAPE_NUMBERS` for each shape: its surface is where (x - centre)^T S^-1 (x - centre) = 1 with its matrix S. */
   numbers = new Float32Array(0);
+  /** Whether the free surface is made of balls too, which takes less time. */
+  isPlain = false;
   /** How many shapes there are. */
   count = 0;
 
@@ -82,7 +84,7 @@ export class WaterShapes {
       const side = this.#side(position, particle, this.#cellOf[i], walls.min, walls.max);
       if (side > 0) {
         const at = SHAPE_NUMBERS * this.count++;
-        if (side === 2) {
+        if (side === 2 && !this.isPlain) {
           this.#ellipsoid(position, velocity, particle, this.#cellOf[i], at, walls.min, walls.max);
         } else {
           this.#ball(position, particle, at, RADIUS * this.#spacing);
