@@ -59,13 +59,14 @@ const FRAGMENT = `
     vec3 after = max(one, other);
     float inside = max(max(before.x, before.y), max(before.z, nearest / -ray.z));
     float outside = min(after.x, min(after.y, after.z));
+    float isCut = enter < inside ? 1.0 : 0.0;
     enter = max(enter, inside);
     if (enter > min(leave, outside)) discard;
     float depth = enter * -ray.z;
     if (depth < 0.02) discard;
     vec2 clip = vec2(projectionMatrix[2][2] * -depth + projectionMatrix[3][2], depth);
     gl_FragDepth = 0.5 + 0.5 * clip.x / clip.y;
-    inverseDepth = vec4(1.0 / depth, 0.0, 0.0, 1.0);
+    inverseDepth = vec4(1.0 / depth, isCut, 0.0, 1.0);
   }`;
 
 const FOAM_VERTEX = `
@@ -136,7 +137,7 @@ export class GlFluidDepth {
   }
 
   /**
-   * Writes 1 / depth of the nearest water into a target, 0 where there is none.
+   * Writes 1 / depth of the nearest water into r of a target, 0 where there is none, and into g whether it is cut off there.
    *
    * @param {{min: number[], max: number[]}} walls beyond which no water is
    * @param {number} from depth before which none is

@@ -29,6 +29,9 @@ const FRAGMENT = `
   uniform float spacing;
   uniform float tinted;
   uniform vec3 deep;
+  uniform vec3 low;
+  uniform vec3 high;
+  const int STEPS = 20;
   out vec4 shown;
   ${SKY}
   float depthOf(vec2 at) {
@@ -37,16 +40,15 @@ const FRAGMENT = `
   }
   vec3 linear(vec3 colour) { return pow(max(colour, 0.0), vec3(2.2)); }
   vec3 screen(vec3 colour) { return pow(max(colour, 0.0), vec3(1.0 / 2.2)); }
-  /** Slope of 1 / depth along a step; across an edge, that of the smoother side. */
-  float slope(vec2 along, float here) {
-    float after = texture(front, place + along).r;
-    float before = texture(front, place - along).r;
-    float up = after > 0.0 ? after - here : 1e3;
-    float down = before > 0.0 ? here - before : 1e3;
+  /** Slope of 1 / depth along a step; at an edge, and where a wall begins, that of one side. */
+  float slope(vec2 along, vec2 here) {
+    vec2 after = texture(front, place + along).rg;
+    vec2 before = texture(front, place - along).rg;
+    float up = after.r > 0.0 && after.g == here.g ? after.r - here.r : 1e3;
+    float down = before.r > 0.0 && before.g == here.g ? here.r - before.r : 1e3;
     float best = abs(up) < abs(down) ? up : down;
-    float even = 0.5 * (up + down);
     // Even where it is smooth, one-sided where an edge is near, and softly from one to the other.
-    float rough = abs(up - down) / (0.25 * spacing * here * here);
+    float rough = abs(up - down) / (0.25 * spacing * here.r * here.r);
     return abs(best) > 1e2 ? 0.0 : mix(0.5 * (up + down), best, clamp(rough, 0.0, 1.0));
   }
   float random(vec3 at) { return fract(sin(dot(at, vec3(12.9898, 78.233, 37.719))) * 43758.5453); }
@@ -59,10 +61,12 @@ const FRAGMENT = `
     vec4 both = mix(back, front_, share.z);
     return mix(mix(both.x, both.y, share.x), mix(both.z, both.w, share.x), share.y);
   }
+  vec2 seenAt(vec3 at) { return (at.xy / -at.z / tangent - shift) * 0.5 + 0.5; }
   float isBefore(float depth, float here) { return depth * here < 1.003 ? 1.0 : 0.0; }
   void main() {
     vec3 plain = texture(behind, place).rgb;
-    float here = texture(front, place).r;
+    vec2 water = texture(front, place).rg;
+    float here = water.r;
     float wall = depthOf(place);
     shown = vec4(plain, 1.0);
     if (here <= 0.0) return;
@@ -75,7 +79,7 @@ const FRAGMENT = `
     if (before > 0.0 && wall * here < 1.0) wall = 1.0 / here + spacing;
     float depth = 1.0 / here;
     vec2 device = place * 2.0 - 1.0 + shift;
-    vec2 grow = vec2(slope(vec2(step_.x, 0.0), here), slope(vec2(0.0, step_.y), here)) / (2.0 * step_);
+    vec2 grow = vec2(slope(vec2(step_.x, 0.0), water), slope(vec2(0.0, step_.y), water)) / (2.0 * step_);
     // A plane n p = d has 1 / depth linear in the place on the screen: its slopes are the normal.
     vec3 normal = normalize(vec3(-grow / tangent, here - dot(device, grow)));
     vec3 eye = vec3(device * tangent, -1.0) * depth;
@@ -83,18 +87,50 @@ const FRAGMENT = `
     if (dot(normal, view) > -0.02) normal = normalize(normal - view * (dot(normal, view) + 0.02));
     vec4 splat = texture(volume, place);
     float thickness = splat.r;
-    // Refraction: where the bent ray comes out, or hits what is behind.
+    // Refraction: along the bent ray to what it hits, or to where it leaves the tank; spray ends with its own thickness.
     vec3 bent = refract(view, normal, 1.0 / 1.333);
-    float reach = min(thickness, max(0.0, wall - depth) * length(eye) * here);
-    vec3 hit = eye + bent * reach;
-    vec2 there = clamp((hit.xy / -hit.z / tangent - shift) * 0.5 + 0.5, step_, 1.0 - step_);
-    if (depthOf(there) < depth) there = place;
+    vec3 from = (toWorld * vec4(eye, 1.0)).xyz;
+    vec3 along = mat3(toWorld) * bent;
+    vec3 exits = max((low - from) / along, (high - from) / along);
+    float leave = max(0.0, min(exits.x, min(exits.y, exits.z)));
+    float reach = leave < 1e3 ? mix(thickness, leave, smoothstep(1.0, 3.0, thickness / spacing)) : thickness;
+    vec2 there = place;
+    float path = reach;
+    float stride = reach / float(STEPS);
+    bool wasBefore = true;
+    for (int i = 1; i <= STEPS; i++) {
+      float far = stride * float(i);
+      vec3 at = eye + bent * far;
+      vec2 next = seenAt(at);
+      if (at.z > -0.02 || next != clamp(next, 0.0, 1.0)) break;
+      bool isBefore_ = -at.z <= depthOf(next);
+      if (!isBefore_ && wasBefore) {
+        // It went through something, or behind it: the first only if it comes close.
+        float back = far - stride;
+        for (int k = 0; k < 6; k++) {
+          float middle = 0.5 * (back + far);
+          vec3 half_ = eye + bent * middle;
+          if (-half_.z > depthOf(seenAt(half_))) far = middle; else back = middle;
+        }
+        vec3 found = eye + bent * far;
+        vec2 hit = seenAt(found);
+        if (-found.z - depthOf(hit) < 0.2 * spacing + stride * 0.04) {
+          there = hit;
+          path = far;
+          break;
+        }
+        // What is hidden cannot be shown: instead what is seen beside what hides it.
+        there = seenAt(eye + bent * max(0.0, back - 0.1 * spacing));
+      }
+      if (isBefore_) there = next;
+      wasBefore = isBefore_;
+    }
+    if (depthOf(there) < depth - 0.5 * spacing) there = place;
     vec3 through = linear(texture(behind, there).rgb);
-    float path = min(thickness, max(0.0, depthOf(there) - depth) * 1.4);
     // Absorption by Beer and Lambert: red first; and what the water itself sends back.
     float tint = splat.a > 1e-4 ? splat.g / splat.a : 0.0;
     vec3 body = mix(linear(deep), linear(texture(scale, vec2(tint * 0.996 + 0.002, 0.5)).rgb), tinted);
-    vec3 clear = exp(-density * path * mix(vec3(2.6, 0.75, 0.5), vec3(1.4), tinted * 0.75));
+    vec3 clear = exp(-density * path * mix(vec3(1.7, 0.6, 0.42), vec3(1.4), tinted * 0.75));
     vec3 world = normalize(mat3(toWorld) * normal);
     float lit = 0.62 + 0.38 * max(0.0, dot(world, lamp));
     vec3 colour = through * clear + body * lit * (1.0 - exp(-density * path * mix(0.9, 1.5, tinted)));
@@ -122,6 +158,7 @@ export class GlFluidShade {
     this.#pass = new Pass(FRAGMENT, {
       behind: null, behindDepth: null, front: null, volume: null, scale, step_: new THREE.Vector2(),
       tangent: new THREE.Vector2(), shift: new THREE.Vector2(), planes: new THREE.Vector2(), toWorld: null, density: 1, spacing: 1, tinted: 0,
+      low: new THREE.Vector3(), high: new THREE.Vector3(),
       deep: new THREE.Color(), zenith: new THREE.Color(), horizon: new THREE.Color(), lamp: new THREE.Vector3(),
     });
   }
@@ -133,10 +170,11 @@ export class GlFluidShade {
    * @param {THREE.WebGLRenderTarget} behind the picture without water, with its depth
    * @param {THREE.Texture} front 1 / depth of the water
    * @param {THREE.Texture} volume see `GlFluidVolume`
+   * @param {{min: number[], max: number[]}} walls where the water ends
    * @param {object} water spacing, density (absorption per length), tinted (how much of the scale's colour, 0 to 1)
    * @param {object} light deep, zenith, horizon (colours), lamp (direction)
    */
-  draw(renderer, camera, target, behind, front, volume, water, light) {
+  draw(renderer, camera, target, behind, front, volume, walls, water, light) {
     const {uniforms} = this.#pass;
     uniforms.behind.value = behind.texture;
     uniforms.behindDepth.value = behind.depthTexture;
@@ -148,6 +186,8 @@ export class GlFluidShade {
     uniforms.shift.value.set(projection[8], projection[9]);
     uniforms.planes.value.set(camera.near, camera.far);
     uniforms.toWorld.value = camera.matrixWorld;
+    uniforms.low.value.fromArray(walls.min);
+    uniforms.high.value.fromArray(walls.max);
     for (const [name, value] of Object.entries({...water, ...light})) {
       uniforms[name].value = value;
     }

@@ -15,9 +15,10 @@ const FRAGMENT = `
   uniform float range;
   out vec4 smoothed;
   void main() {
-    float here = texture(source, place).r;
-    smoothed = vec4(here, 0.0, 0.0, 1.0);
-    if (here <= 0.0) return;
+    smoothed = texture(source, place);
+    float here = smoothed.r;
+    // What is cut off by a wall is flat, and its edge sharp.
+    if (here <= 0.0 || smoothed.g > 0.0) return;
     float width = range * here * here;
     float low = here - width;
     float high = here + width;
@@ -26,9 +27,12 @@ const FRAGMENT = `
     float open_ = 1.0;
     for (int i = 1; i <= 2; i++) {
       vec2 offset = float(i) * along;
-      float one = texture(source, place + offset).r;
-      float other = texture(source, place - offset).r;
+      vec2 first = texture(source, place + offset).rg;
+      vec2 second = texture(source, place - offset).rg;
+      float one = first.r;
+      float other = second.r;
       float farther = min(one, other);
+      open_ *= 1.0 - max(first.g, second.g);
       // Not all at once: a sharp end would be seen as a line.
       open_ *= smoothstep(-1.0, 0.0, (farther - low) / width);
       float weight = open_ * (i == 1 ? 0.25 : 0.0625);
@@ -39,7 +43,7 @@ const FRAGMENT = `
       low = min(low, farther - width);
       high = max(high, max(one, other) + width);
     }
-    smoothed = vec4(sum / weights, 0.0, 0.0, 1.0);
+    smoothed.r = sum / weights;
   }`;
 
 /** Width of the filter, in spacings of particles; and the range of depth that is smoothed over, likewise. */

@@ -7,12 +7,12 @@ import {SHAPE_NUMBERS} from './water-shape.js';
 const CELL = 0.5;
 const MOST_CELLS = 160;
 /** Radius over which heights are evened out, and that of the shadow of a particle of a body, in cells. */
-const REACH = 4;
+const REACH = 6;
 const SHADOW_REACH = 3;
 /** 1 - 1 / the refractive index of water: by how much of its slope a wave bends a ray that comes from above. */
 const BEND = 0.25;
-const LEAST = 0.4;
-const MOST = 2.4;
+const LEAST = 0.85;
+const MOST = 1.7;
 
 /**
  * A texture over the floor of the tank: r is the light there in parts of `MOST`, g the shadow. A ray from above that meets
@@ -115,7 +115,7 @@ export class GlLightMap {
 
   #write() {
     const heights = this.#heights;
-    const [low, depth] = [this.#bounds.min[1], this.#bounds.max[1] - this.#bounds.min[1]];
+    const low = this.#bounds.min[1];
     for (let cell = 0; cell < heights.length; cell++) {
       heights[cell] = this.#weights[cell] > 0 ? heights[cell] / this.#weights[cell] : low;
     }
@@ -127,7 +127,7 @@ export class GlLightMap {
         const back = heights[row > 0 ? cell - this.#width : cell];
         const front = heights[row + 1 < this.#height ? cell + this.#width : cell];
         const curvature = (left + right + back + front - 4 * heights[cell]) / (this.#cell * this.#cell);
-        const light = this.#weights[cell] > 0 ? 1 / Math.max(1 / MOST, 1 + BEND * depth * curvature) : 1;
+        const light = this.#weights[cell] > 0 ? 1 / Math.max(1 / MOST, 1 + BEND * (heights[cell] - low) * curvature) : 1;
         bytes[4 * cell] = 255 * Math.min(MOST, Math.max(LEAST, light)) / MOST;
         bytes[4 * cell + 1] = 255 * Math.min(1, this.#shadow[cell]);
         bytes[4 * cell + 3] = 255;

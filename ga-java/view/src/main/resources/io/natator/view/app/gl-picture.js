@@ -107,7 +107,7 @@ export class GlPicture {
     this.#muscles.object.visible = look.muscles && look.body !== 'skin';
     this.#body.setLook(look);
     this.#trace.object.visible = look.trace;
-    this.#trace.isHidden = look.body === 'skin';
+    this.#trace.isFaint = look.body === 'skin';
   }
 
   setTheme(colours) {

@@ -14,7 +14,7 @@ import {WaterShapes} from './water-shape.js';
 /** Texels of thickness and colour for each of the picture, along each side. */
 const VOLUME_SHARE = 0.25;
 /** Absorption through the height and the depth of a tank together, at full opacity. */
-const ABSORPTION = 3.6;
+const ABSORPTION = 4.2;
 const ENDLESS = {min: [-1e9, -1e9, -1e9], max: [1e9, 1e9, 1e9]};
 
 /** Passes at the size of the picture, and some at a quarter of it. */
@@ -91,7 +91,7 @@ export class GlSurface {
     this.#depth.drawFoam(renderer, camera, volume, front.texture, spacing);
     const tinted = look.colour === 'none' ? 0 : 0.85;
     const {deep, zenith, horizon, lamp} = light;
-    this.#shade.draw(renderer, camera, to, behind, front.texture, volume.texture,
+    this.#shade.draw(renderer, camera, to, behind, front.texture, volume.texture, this.#walls,
         {spacing, density: this.#density * look.opacity, tinted}, {deep, zenith, horizon, lamp});
   }
 
@@ -100,7 +100,7 @@ export class GlSurface {
     const width = Math.max(1, Math.round(VOLUME_SHARE * this.#width));
     const height = Math.max(1, Math.round(VOLUME_SHARE * this.#height));
     if (this.#targets === null) {
-      const depth = {format: THREE.RedFormat, type: THREE.FloatType};
+      const depth = {format: THREE.RGFormat, type: THREE.FloatType};
       const soft = {type: THREE.HalfFloatType, minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter};
       this.#targets = [target(1, 1, {...depth, depthBuffer: true}), target(1, 1, depth), target(1, 1, soft), target(1, 1, soft)];
     }

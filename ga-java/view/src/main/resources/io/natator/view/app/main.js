@@ -523,6 +523,7 @@ function figures(page) {
     dropped: () => page.views[which]?.dropped ?? 0,
     drawing: () => page.views[which]?.stage.drawing ?? '',
     share: () => page.views[which]?.stage.share ?? 0,
+    samples: () => page.views[which]?.stage.samples ?? 0,
     scene: () => page.views[which]?.scene ?? null,
     connected: () => page.views[which]?.isConnected ?? false,
     position: () => Array.from(page.views[which]?.frame?.position ?? []),

@@ -72,6 +72,11 @@ export class Stage {
     return this.#share;
   }
 
+  /** How many samples a picture that rests has been refined by so far. */
+  get samples() {
+    return this.#samples;
+  }
+
   /** What draws: WebGL or processor. */
   get drawing() {
     return this.#picture?.name ?? '';
