@@ -17,6 +17,8 @@ export const SKY = `
 const FRAGMENT = `
   uniform sampler2D behind;
   uniform sampler2D behindDepth;
+  uniform sampler2D bare;
+  uniform sampler2D bareDepth;
   uniform sampler2D front;
   uniform sampler2D volume;
   uniform sampler2D scale;
@@ -34,10 +36,13 @@ const FRAGMENT = `
   const int STEPS = 20;
   out vec4 shown;
   ${SKY}
-  float depthOf(vec2 at) {
-    float device = texture(behindDepth, at).r * 2.0 - 1.0;
+  float depthIn(sampler2D map, vec2 at) {
+    float device = texture(map, at).r * 2.0 - 1.0;
     return 2.0 * planes.x * planes.y / (planes.y + planes.x - device * (planes.y - planes.x));
   }
+  float depthOf(vec2 at) { return depthIn(behindDepth, at); }
+  /** With the edges of the tank, which no ray is to stop at. */
+  float edgeDepth(vec2 at) { return min(depthOf(at), depthIn(bareDepth, at)); }
   vec3 linear(vec3 colour) { return pow(max(colour, 0.0), vec3(2.2)); }
   vec3 screen(vec3 colour) { return pow(max(colour, 0.0), vec3(1.0 / 2.2)); }
   /** Slope of 1 / depth along a step; at an edge, and where a wall begins, that of one side. */
@@ -67,16 +72,14 @@ const FRAGMENT = `
     vec3 plain = texture(behind, place).rgb;
     vec2 water = texture(front, place).rg;
     float here = water.r;
-    float wall = depthOf(place);
     shown = vec4(plain, 1.0);
     if (here <= 0.0) return;
     // How much of the pixel is before the water: edges and thin lines have many depths and only one is known.
-    float before = isBefore(wall, here) * 2.0 + isBefore(depthOf(place + vec2(step_.x, 0.0)), here)
-        + isBefore(depthOf(place - vec2(step_.x, 0.0)), here) + isBefore(depthOf(place + vec2(0.0, step_.y)), here)
-        + isBefore(depthOf(place - vec2(0.0, step_.y)), here);
+    float before = isBefore(edgeDepth(place), here) * 2.0 + isBefore(edgeDepth(place + vec2(step_.x, 0.0)), here)
+        + isBefore(edgeDepth(place - vec2(step_.x, 0.0)), here) + isBefore(edgeDepth(place + vec2(0.0, step_.y)), here)
+        + isBefore(edgeDepth(place - vec2(0.0, step_.y)), here);
     before = min(1.0, before / 5.0);
     if (before == 1.0) return;
-    if (before > 0.0 && wall * here < 1.0) wall = 1.0 / here + spacing;
     float depth = 1.0 / here;
     vec2 device = place * 2.0 - 1.0 + shift;
     vec2 grow = vec2(slope(vec2(step_.x, 0.0), water), slope(vec2(0.0, step_.y), water)) / (2.0 * step_);
@@ -98,6 +101,7 @@ const FRAGMENT = `
     float path = reach;
     float stride = reach / float(STEPS);
     bool wasBefore = true;
+    bool isHit = false;
     for (int i = 1; i <= STEPS; i++) {
       float far = stride * float(i);
       vec3 at = eye + bent * far;
@@ -117,16 +121,15 @@ const FRAGMENT = `
         if (-found.z - depthOf(hit) < 0.2 * spacing + stride * 0.04) {
           there = hit;
           path = far;
+          isHit = true;
           break;
         }
-        // What is hidden cannot be shown: instead what is seen beside what hides it.
-        there = seenAt(eye + bent * max(0.0, back - 0.1 * spacing));
       }
-      if (isBefore_) there = next;
       wasBefore = isBefore_;
     }
-    if (depthOf(there) < depth - 0.5 * spacing) there = place;
-    vec3 through = linear(texture(behind, there).rgb);
+    // Else it sees the tank alone: what a body hides from here it may not hide from the bent ray.
+    vec2 last = clamp(seenAt(eye + bent * reach), step_, 1.0 - step_);
+    vec3 through = linear(isHit ? texture(behind, there).rgb : texture(bare, last).rgb);
     // Absorption by Beer and Lambert: red first; and what the water itself sends back.
     float tint = splat.a > 1e-4 ? splat.g / splat.a : 0.0;
     vec3 body = mix(linear(deep), linear(texture(scale, vec2(tint * 0.996 + 0.002, 0.5)).rgb), tinted);
@@ -156,7 +159,7 @@ export class GlFluidShade {
   /** `scale` is the texture of the colour scale. */
   constructor(scale) {
     this.#pass = new Pass(FRAGMENT, {
-      behind: null, behindDepth: null, front: null, volume: null, scale, step_: new THREE.Vector2(),
+      behind: null, behindDepth: null, bare: null, bareDepth: null, front: null, volume: null, scale, step_: new THREE.Vector2(),
       tangent: new THREE.Vector2(), shift: new THREE.Vector2(), planes: new THREE.Vector2(), toWorld: null, density: 1, spacing: 1, tinted: 0,
       low: new THREE.Vector3(), high: new THREE.Vector3(),
       deep: new THREE.Color(), zenith: new THREE.Color(), horizon: new THREE.Color(), lamp: new THREE.Vector3(),
@@ -168,16 +171,19 @@ export class GlFluidShade {
    *
    * @param {THREE.WebGLRenderTarget|null} target where to; null for the canvas
    * @param {THREE.WebGLRenderTarget} behind the picture without water, with its depth
+   * @param {THREE.WebGLRenderTarget} bare the same without bodies, with the edges of the tank in its depth
    * @param {THREE.Texture} front 1 / depth of the water
    * @param {THREE.Texture} volume see `GlFluidVolume`
    * @param {{min: number[], max: number[]}} walls where the water ends
    * @param {object} water spacing, density (absorption per length), tinted (how much of the scale's colour, 0 to 1)
    * @param {object} light deep, zenith, horizon (colours), lamp (direction)
    */
-  draw(renderer, camera, target, behind, front, volume, walls, water, light) {
+  draw(renderer, camera, target, behind, bare, front, volume, walls, water, light) {
     const {uniforms} = this.#pass;
     uniforms.behind.value = behind.texture;
     uniforms.behindDepth.value = behind.depthTexture;
+    uniforms.bare.value = bare.texture;
+    uniforms.bareDepth.value = bare.depthTexture;
     uniforms.front.value = front;
     uniforms.volume.value = volume;
     uniforms.step_.value.set(1 / behind.width, 1 / behind.height);

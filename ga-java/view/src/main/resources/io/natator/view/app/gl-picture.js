@@ -5,7 +5,7 @@ import {Fence} from './gl-fence.js';
 import {GlBody} from './gl-body.js';
 import {GlLightMap} from './gl-light-map.js';
 import {GlMuscles} from './gl-muscles.js';
-import {target} from './gl-pass.js';
+import {Layer} from './gl-layer.js';
 import {GlTank} from './gl-tank.js';
 import {GlTrace} from './gl-trace.js';
 import {GlWater} from './gl-water.js';
@@ -55,7 +55,8 @@ export class GlPicture {
   #tank = new GlTank();
   #trace;
   #background = new THREE.Color();
-  #behind = null;
+  #behind = new Layer();
+  #bare = new Layer();
   #light = {
     deep: new THREE.Color(), zenith: new THREE.Color(), horizon: new THREE.Color(),
     lamp: new THREE.Vector3(-0.45, 0.8, -0.4).normalize(), centre: new THREE.Vector3(),
@@ -172,27 +173,30 @@ export class GlPicture {
     this.#water.update(frame, camera, this.#look, from);
     const isSurface = this.#water.isSurface(this.#look);
     this.#map.update(isSurface ? this.#water.shapes : null, this.#solids, frame.position);
-    const behind = isSurface ? this.#behindWater() : null;
-    this.#renderer.setRenderTarget(isSurface ? behind : to);
-    this.#renderer.setClearColor(this.#background, 1);
-    this.#renderer.clear();
-    this.#renderer.render(this.#world, camera);
     if (isSurface) {
-      this.#water.drawSurface(this.#renderer, camera, to, behind, this.#look, this.#light);
+      const {width, height} = this.#renderer.domElement;
+      this.#body.object.visible = false;
+      this.#draw(camera, this.#bare.of(width, height));
+      this.#body.object.visible = true;
+      this.#tank.areEdgesDeep = false;
+      this.#draw(camera, this.#behind.of(width, height));
+      this.#tank.areEdgesDeep = true;
+      this.#water.drawSurface(this.#renderer, camera, to, this.#behind.target, this.#bare.target, this.#look, this.#light);
+    } else {
+      this.#draw(camera, to);
     }
   }
 
-  /** What holds the picture without water. */
-  #behindWater() {
-    const {width, height} = this.#renderer.domElement;
-    this.#behind ??= target(1, 1, {samples: 4, depthBuffer: true, depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType),
-      minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter});
-    this.#behind.setSize(width, height);
-    return this.#behind;
+  #draw(camera, to) {
+    this.#renderer.setRenderTarget(to);
+    this.#renderer.setClearColor(this.#background, 1);
+    this.#renderer.clear();
+    this.#renderer.render(this.#world, camera);
   }
 
   dispose() {
-    this.#behind?.dispose();
+    this.#behind.dispose();
+    this.#bare.dispose();
     this.#refined?.dispose();
     this.#water.dispose();
     this.#body.dispose();

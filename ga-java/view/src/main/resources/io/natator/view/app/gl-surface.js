@@ -75,12 +75,13 @@ export class GlSurface {
    *
    * @param {THREE.WebGLRenderTarget|null} to where to; null for the canvas
    * @param {THREE.WebGLRenderTarget} behind the picture without water, with its depth
+   * @param {THREE.WebGLRenderTarget} bare see `GlFluidShade.draw`
    * @param {object} look opacity, colour
    * @param {number[]} range ends of the colour scale
    * @param {number} from depth before which no water is
    * @param {object} light see `GlFluidShade.draw`
    */
-  draw(renderer, camera, to, behind, look, range, from, light) {
+  draw(renderer, camera, to, behind, bare, look, range, from, light) {
     const [front, other, volume, blurred] = this.#fit();
     const spacing = this.#scene.fluidRestDistance;
     this.#depth.draw(renderer, camera, front, this.#walls, from);
@@ -91,7 +92,7 @@ export class GlSurface {
     this.#depth.drawFoam(renderer, camera, volume, front.texture, spacing);
     const tinted = look.colour === 'none' ? 0 : 0.85;
     const {deep, zenith, horizon, lamp} = light;
-    this.#shade.draw(renderer, camera, to, behind, front.texture, volume.texture, this.#walls,
+    this.#shade.draw(renderer, camera, to, behind, bare, front.texture, volume.texture, this.#walls,
         {spacing, density: this.#density * look.opacity, tinted}, {deep, zenith, horizon, lamp});
   }
 

@@ -69,6 +69,11 @@ export class GlTank {
     replace(this.#edges, tankLines(bounds).edges);
   }
 
+  /** Whether edges are in the depth that is drawn. */
+  set areEdgesDeep(value) {
+    this.#edges.material.depthWrite = value;
+  }
+
   /** Light on the floor (`GlLightMap`). */
   set light(texture) {
     this.#floor.material.uniforms.map.value = texture;

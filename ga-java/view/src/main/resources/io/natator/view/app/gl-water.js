@@ -98,8 +98,8 @@ export class GlWater {
   }
 
   /** Lays the surface over a picture; see `GlSurface.draw`. */
-  drawSurface(renderer, camera, to, behind, look, light) {
-    this.#surface.draw(renderer, camera, to, behind, look, this.#field.range, this.#from, light);
+  drawSurface(renderer, camera, to, behind, bare, look, light) {
+    this.#surface.draw(renderer, camera, to, behind, bare, look, this.#field.range, this.#from, light);
   }
 
   /** The tank; see `tankBounds`. */
