@@ -45,6 +45,9 @@ function findGraphicsCard() {
   return !SOFTWARE.test(name);
 }
 
+/** The direction to the lamp of bodies; what water mirrors lies opposite, where glints are seen. */
+const LAMP = new THREE.Vector3(-0.3, 0.85, 0.5).normalize();
+
 /** One canvas; throws where there is no WebGL. The same methods as `PlainPicture`. */
 export class GlPicture {
   #renderer;
@@ -59,7 +62,8 @@ export class GlPicture {
   #bare = new Layer();
   #light = {
     deep: new THREE.Color(), zenith: new THREE.Color(), horizon: new THREE.Color(),
-    lamp: new THREE.Vector3(-0.45, 0.8, -0.4).normalize(), centre: new THREE.Vector3(),
+    lamp: new THREE.Vector3(-0.45, 0.8, -0.4).normalize(),
+    centre: new THREE.Vector3(),
   };
   #look = null;
   #last = () => {};
@@ -75,9 +79,9 @@ export class GlPicture {
     this.#renderer.autoClear = false;
     this.#fence = new Fence(this.#renderer.getContext());
     this.#water = new GlWater(field);
-    this.#map = new GlLightMap(this.#light.lamp);
+    this.#map = new GlLightMap(LAMP);
     this.#tank.light = this.#map.texture;
-    this.#body.lamp = this.#light.lamp;
+    this.#body.lamp = LAMP;
     this.#trace = new GlTrace(trace);
     this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
   }
