@@ -95,11 +95,6 @@ abstract class BrowserTest {
         return page.getByTestId(testId);
     }
 
-    /** Presses one of several buttons in a row; the radio button itself is hidden. */
-    void choose(String testId) {
-        get(testId).check(new Locator.CheckOptions().setForce(true));
-    }
-
     /** Waits until a JavaScript expression is true. */
     void await(String expression) {
         page.waitForFunction("() => " + expression);

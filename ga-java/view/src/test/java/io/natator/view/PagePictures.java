@@ -53,9 +53,7 @@ class PagePictures extends BrowserTest {
         page.navigate(server.address().toString());
         await("window.natator && natator.frame() >= " + FRAMES);
         get("run").click();
-        get("drawing").selectOption("webgl");
-        choose("water-surface");
-        await("natator.samples() === 16");
+        awaitDrawings(30);
         String file = "page-" + name.substring(0, name.indexOf('/'));
         keepPicture(file);
         Files.move(Path.of("target", "screenshots", file + ".png"), RESULTS.resolve("pictures").resolve(file + ".png"),

@@ -3,6 +3,7 @@ package io.natator.view;
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.microsoft.playwright.Locator;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.net.URI;
@@ -63,6 +64,11 @@ abstract class ViewBrowserTest extends BrowserTest {
         get("run").click();
         get("reset").click();
         await("natator.frame() === 0");
+    }
+
+    /** Presses one of several buttons in a row; the radio button itself is hidden. */
+    void choose(String testId) {
+        get(testId).check(new Locator.CheckOptions().setForce(true));
     }
 
     JsonNode gait() throws IOException {
