@@ -11,6 +11,7 @@ import {LookControls} from './look.js';
 import {Meter} from './meter.js';
 import {Recording} from './recording.js';
 import {fixed} from './scaling.js';
+import {contents} from './scene.js';
 import {DEFAULT_LOOK, Stage} from './stage.js';
 import {Theme} from './theme.js';
 
@@ -94,7 +95,7 @@ class Player {
     }
     byId('scrub').max = duration;
     this.#stage.setScene(scene);
-    this.#look.hasWater = scene.fluid[1] > 0;
+    this.#look.has = contents([scene]);
     this.#figures.name(this.#recording.title, `${scene.scheme}, ${scene.particles} particles`);
     this.#showFacts();
     this.seek(0);
@@ -209,7 +210,8 @@ class Player {
       ['r', 'back to the start', () => this.seek(0)],
       [['1', '2', '3', '4'], 'camera: follow, side, top, free', key => this.#setCamera(CAMERAS[Number(key) - 1])],
       ['w', 'water: spheres, surface, none', () => this.#look.next('water')],
-      ['c', 'colour: speed, density, mass', () => this.#look.next('colour')],
+      ['c', 'colour: speed, density, mass, nothing', () => this.#look.next('colour')],
+      ['k', 'body: skin, particles', () => this.#look.next('body')],
       ['x', 'cut the water open at the body', () => this.#look.toggle('cut')],
       ['m', 'muscles', () => this.#look.toggle('muscles')],
       ['t', 'trace of the spine', () => this.#look.toggle('trace')],

@@ -112,7 +112,7 @@ class ModulesTest extends BrowserTest {
                 ({SkinMotion}) => {
                   const rest = [[1, 0, 0], [2, 0, 0], [1, 1, 0], [1, 0, 1], [-1, 0, 0], [-2, 0, 0], [-1, 1, 0], [-1, 0, 1]];
                   const motion = new SkinMotion({body: [8, 1, 2, 3, 4, 5, 6, 7], clusters: [[8, 1, 2, 3], [4, 5, 6, 7]], skin: {
-                    vertices: [[2, 0, 0], [0, 0.5, 0], [-2, 0, 1]], cluster: [0, 0, 1], share: [1, 0.25, 1], rest}});
+                    triangles: [[0, 1, 2]], vertices: [[2, 0, 0], [0, 0.5, 0], [-2, 0, 1]], cluster: [0, 0, 1], share: [1, 0.25, 1], rest}});
                   const position = new Float32Array(27);
                   rest.forEach(([x, y, z], i) => position.set(i < 4 ? [x, y + 3, z] : [5 - y, x, z], 3 * (i || 8)));
                   motion.update({position});
@@ -120,6 +120,92 @@ class ModulesTest extends BrowserTest {
                 }"""));
 
         assertThat(places.stream().map(Number::doubleValue)).containsExactly(2.0, 3.0, 0.0, 3.375, 0.875, 0.0, 5.0, -2.0, 1.0);
+    }
+
+    /** A block of 6 × 6 × 6 particles, 1 apart: closed, as seen from outside, and about a block of 6³. */
+    @Test
+    void aSurfaceIsClosedAroundItsParticles() {
+        List<Number> surface = numbers(with("body-surface.js", """
+                ({surfaceAround}) => {
+                  const places = Array.from({length: 216}, (_, i) => [i % 6, Math.floor(i / 6) % 6, Math.floor(i / 36)]);
+                  const {vertices, triangles} = surfaceAround(places, 1);
+                  const edges = new Map();
+                  let volume = 0;
+                  for (let i = 0; i < triangles.length; i += 3) {
+                    const [a, b, c] = [0, 1, 2].map(k => vertices.subarray(3 * triangles[i + k], 3 * triangles[i + k] + 3));
+                    volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+                        + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+                    for (let k = 0; k < 3; k++) {
+                      const [from, to] = [triangles[i + k], triangles[i + (k + 1) % 3]];
+                      edges.set(`${from} ${to}`, (edges.get(`${from} ${to}`) ?? 0) + 1);
+                      edges.set(`${to} ${from}`, (edges.get(`${to} ${from}`) ?? 0) - 1);
+                    }
+                  }
+                  return [volume, [...edges.values()].filter(count => count !== 0).length, triangles.length];
+                }"""));
+
+        assertThat(surface.get(0).doubleValue()).as("volume").isBetween(180.0, 240.0);
+        assertThat(surface.get(1).intValue()).as("edges without a second triangle").isZero();
+        assertThat(surface.get(2).intValue()).isGreaterThan(1000);
+    }
+
+    /** The body of the test turns by a right angle about z and moves: so does each vertex of its skin. */
+    @Test
+    void aSkinWithoutAMeshFollowsItsParticles() {
+        Object off = with("body-skin.js", """
+                ({BodySkin}) => {
+                  const at = (i, turned) => {
+                    const [x, y, z] = [0.1 * (i % 9), 0.1 * (Math.floor(i / 9) % 3), 0.1 * Math.floor(i / 27)];
+                    return turned ? [5 - y, x, z] : [x, y, z];
+                  };
+                  const frame = turned => ({position: Float32Array.from(Array.from({length: 81}, (_, i) => at(i, turned)).flat())});
+                  const all = Array.from({length: 81}, (_, i) => i);
+                  const scene = {particles: 81, fluid: [81, 0], body: all, slices: Array.from({length: 9}, (_, s) =>
+                      all.filter(i => i % 9 === s)), bodyLength: 0.8, solidRestDistance: 0.2,
+                      clusters: [all.filter(i => i % 9 < 5), all.filter(i => i % 9 >= 4)]};
+                  const skin = new BodySkin(scene, frame(false).position);
+                  const before = Float32Array.from(skin.places);
+                  skin.update(frame(true));
+                  let off = 0;
+                  for (let i = 0; i < before.length; i += 3) {
+                    off = Math.max(off, Math.hypot(skin.places[i] - (5 - before[i + 1]), skin.places[i + 1] - before[i],
+                        skin.places[i + 2] - before[i + 2]));
+                  }
+                  return [before.length, off];
+                }""");
+
+        assertThat(numbers(off).get(0).intValue()).isGreaterThan(300);
+        assertThat(numbers(off).get(1).doubleValue()).as("farthest off, length").isLessThan(1e-4);
+    }
+
+    /** A block of water 12 wide and 6 high between walls: what is inside has no shape, what is above is flat. */
+    @Test
+    void waterIsFlatAtItsSurfaceAndRoundAtItsWalls() {
+        Object shapes = with("water-shape.js", """
+                ({WaterShapes, SHAPE_NUMBERS}) => {
+                  const count = 12 * 6 * 12 + 1;
+                  const position = new Float32Array(3 * count);
+                  for (let i = 0; i + 1 < count; i++) {
+                    position.set([0.05 + 0.1 * (i % 12), 0.05 + 0.1 * (Math.floor(i / 12) % 6), 0.05 + 0.1 * Math.floor(i / 72)], 3 * i);
+                  }
+                  position.set([0.6, 2, 0.6], 3 * (count - 1));
+                  const shapes = new WaterShapes();
+                  shapes.setScene({fluidRestDistance: 0.1, definition: {solver: {gravity: [0, -10, 0]}}});
+                  shapes.update(position, null, 0, Uint32Array.from({length: count}, (_, i) => i), count, new Float32Array(count),
+                      {min: [0, 0, 0], max: [1.2, 1e9, 1.2]});
+                  const found = [];
+                  for (let i = 0; i < shapes.count; i++) {
+                    found.push(Array.from(shapes.numbers.subarray(SHAPE_NUMBERS * i, SHAPE_NUMBERS * (i + 1))));
+                  }
+                  const near = (x, y, z) => found.find(one => Math.hypot(one[0] - x, one[1] - y, one[2] - z) < 0.06);
+                  const [top, inside, side, alone] = [near(0.55, 0.53, 0.55), near(0.55, 0.25, 0.55), near(0.05, 0.25, 0.55),
+                      near(0.6, 2, 0.6)];
+                  return JSON.stringify([top[5] < 0.5 * top[4], Math.abs(top[4] / top[6] - 1) < 0.05, inside === undefined,
+                    side[4] === side[5], alone[4] < 0.25 * side[4]]);
+                }""");
+
+        assertThat(shapes).as("flat on top, alike along both walls, nothing inside, a ball at the wall, small alone")
+                .isEqualTo("[true,true,true,true,true]");
     }
 
     @Test

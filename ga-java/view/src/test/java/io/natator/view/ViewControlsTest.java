@@ -103,8 +103,11 @@ class ViewControlsTest extends ViewBrowserTest {
         open(vacuum);
         get("vacuum").uncheck();
         await("natator.scene().fluid[1] > 1000 && natator.frame() > 5");
+        assertThat(get("solidIterations")).isDisabled();
         get("scheme").selectOption("conserving");
         await("natator.scene().scheme === 'conserving' && natator.frame() > 5");
+        get("solidIterations").fill("2");
+        await("natator.scene().definition.solver.solidIterations === 2");
 
         get("vacuum").check();
         await("natator.scene().fluid[1] === 0");

@@ -2,11 +2,16 @@ package io.natator.view;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
 
 import com.microsoft.playwright.Browser.NewContextOptions;
+import com.microsoft.playwright.Download;
 import java.awt.image.BufferedImage;
+import java.io.IOException;
+import java.nio.file.Files;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
+import javax.imageio.ImageIO;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -99,6 +104,44 @@ class ViewPageTest extends ViewBrowserTest {
         assertThat((List<?>) cut).isEmpty();
         assertThat(get("picture-a").boundingBox().height).isGreaterThan(250);
         assertThat(cutMenus()).isEmpty();
+    }
+
+    @Test
+    void aPresentationIsThePictureAlone() {
+        open(vacuum);
+        assertThat(get("chart-density")).isHidden();
+        assertThat(get("legend-water")).isHidden();
+        assertThat(get("legend-muscles")).containsText("−50 %");
+
+        page.keyboard().press("p");
+
+        assertThat(get("run")).isHidden();
+        assertThat(get("gait")).isHidden();
+        assertThat(get("legend")).isVisible();
+        assertThat(get("picture-a").boundingBox().height).isGreaterThan(HEIGHT - 20);
+        assertThat(get("present-end")).isFocused();
+        page.keyboard().press("Escape");
+        assertThat(get("run")).isVisible();
+        get("about-open").click();
+        assertThat(get("about")).containsText("What still moves forwards does so by an error");
+    }
+
+    @Test
+    void picturesAndFilmsAreSaved() throws IOException {
+        open(vacuum);
+
+        Download picture = page.waitForDownload(() -> get("picture-save").click());
+
+        assertThat(picture.suggestedFilename()).isEqualTo("creature-1-vacuum-picture.png");
+        BufferedImage saved = ImageIO.read(picture.path().toFile());
+        assertThat(saved.getWidth()).isCloseTo((int) get("stages").boundingBox().width, within(2));
+        assertThat(colours(saved)).isGreaterThan(100);
+        get("film").click();
+        assertThat(get("film")).hasAttribute("aria-pressed", "true");
+        awaitDrawings(20);
+        Download film = page.waitForDownload(() -> get("film").click());
+        assertThat(film.suggestedFilename()).isEqualTo("creature-1-vacuum-film.webm");
+        assertThat(Files.readAllBytes(film.path())).startsWith(0x1a, 0x45, 0xdf, 0xa3).hasSizeGreaterThan(1000);
     }
 
     @Test

@@ -94,6 +94,7 @@ class ViewPictureTest extends ViewBrowserTest {
 
         await("natator.share() === 1");
         page.evaluate("() => { window.isQuick = true; }");
+        await("natator.samples() >= 4");
         BufferedImage still = stillPicture(get("picture-a"));
         assertThat(number("natator.share()")).isOne();
         assertThat(colours(still)).isGreaterThan(LEAST_COLOURS);

@@ -17,6 +17,9 @@ const EASE = 0.02;
 /** Closer to where it is to be than this, in length units, the camera goes there at once. */
 const NEAR = 2e-3;
 const ZOOM_LIMITS = [0.3, 4];
+/** How fast the camera goes round in a presentation, rad/s. */
+const ORBIT = 0.12;
+const UP = new THREE.Vector3(0, 1, 0);
 
 /** One perspective camera. A drag on the canvas frees it from where it is; the wheel zooms in every mode. */
 export class CameraRig {
@@ -31,6 +34,8 @@ export class CameraRig {
   #wantedEye = new THREE.Vector3();
   #jump = true;
   #zoom = 1;
+  #isOrbiting = false;
+  #angle = 0;
   #still = matchMedia('(prefers-reduced-motion: reduce)');
 
   camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
@@ -66,6 +71,13 @@ export class CameraRig {
     this.hasMoved = true;
   }
 
+  /** Whether the camera goes slowly round what it looks at; not where the system asks for less motion. */
+  set isOrbiting(value) {
+    this.#isOrbiting = value;
+    this.#angle = 0;
+    this.hasMoved = true;
+  }
+
   /** The tank; see `tankBounds`. */
   setBounds(bounds) {
     this.#bounds = bounds;
@@ -95,7 +107,13 @@ export class CameraRig {
     if (this.#bounds === null) {
       return;
     }
+    const turn = this.#isOrbiting && !this.#still.matches ? ORBIT * seconds : 0;
+    this.#angle += turn;
     if (this.#mode === 'free' && !this.#jump) {
+      if (turn > 0) {
+        this.camera.position.sub(this.#controls.target).applyAxisAngle(UP, turn).add(this.#controls.target);
+        this.hasMoved = true;
+      }
       this.#controls.update();
       this.#target.copy(this.#controls.target);
       this.#eye.copy(this.camera.position);
@@ -137,7 +155,8 @@ export class CameraRig {
         this.#wantedTarget.x = this.#body.x;
       }
     }
-    this.#wantedEye.copy(this.#wantedTarget).addScaledVector(DIRECTIONS[mode], distance * this.#zoom);
+    this.#wantedEye.copy(DIRECTIONS[mode]).applyAxisAngle(UP, this.#angle).multiplyScalar(distance * this.#zoom)
+        .add(this.#wantedTarget);
   }
 
   #freeByDrag(event) {

@@ -5,12 +5,15 @@ import {niceStep} from './scaling.js';
 /** How often the ends of a scale are looked at again, in frames. */
 const PERIOD = 12;
 const SAMPLES = 400;
+/** The share of the scale that gives water its colour where it is coloured by nothing. */
+const PLAIN = 0.3;
 
 /** Name, title, unit, and least width of the scale of each. */
 export const FIELDS = {
   speed: {title: 'Speed', unit: 'length/s', least: 0.05},
   density: {title: 'Density', unit: 'rest densities', least: 0.02},
-  mass: {title: 'Mass', unit: '', least: 0.01},
+  mass: {title: 'Mass', unit: 'mass of a particle', least: 0.01},
+  none: {title: 'nothing', unit: '', least: 1},
 };
 
 /** Values of one field for the particles of a scene, and the ends of their scale, which follow slowly. */
@@ -50,7 +53,7 @@ export class FieldValues {
         out[i] = scene.mass[first + i] ?? 0;
       }
     } else {
-      out.fill(0, 0, count);
+      out.fill(field === 'none' ? PLAIN : 0, 0, count);
     }
     this.#follow(field, scene, out, count);
   }
@@ -80,6 +83,9 @@ export class FieldValues {
 
   /** Round numbers around most of a sorted sample. */
   #ends(field, sample) {
+    if (field === 'none') {
+      return [0, 1];
+    }
     const low = field === 'speed' ? 0 : sample[Math.floor(0.01 * (sample.length - 1))];
     const high = Math.max(sample[Math.ceil(0.99 * (sample.length - 1))], low + FIELDS[field].least);
     const step = niceStep((high - low) / 4);

@@ -1,9 +1,8 @@
-/** The body: spheres coloured by cluster, joints marked, and the mesh that it was made of. */
+/** Bodies: a skin, or spheres coloured by cluster with joints marked. */
 
 import * as THREE from 'three';
-import {clusterColours} from './colours.js';
 import {GlSkin} from './gl-skin.js';
-import {BODY_RADIUS, clusterOfBody, jointOfBody} from './scene.js';
+import {BODY_RADIUS, bodySpacing, solidKinds, solids} from './scene.js';
 
 const VERTEX = `
   attribute vec3 tint;
@@ -32,9 +31,10 @@ const FRAGMENT = `
     gl_FragColor = vec4(shown * light, 1.0);
   }`;
 
-/** One point per body particle. */
+/** One mesh, or one point per particle. */
 export class GlBody {
-  #scene = null;
+  #particles = [];
+  #isSkin = true;
   #position = null;
   #skin = new GlSkin();
   #material = new THREE.ShaderMaterial({
@@ -55,36 +55,55 @@ export class GlBody {
 
   /** Takes over what is known of a scene (SCEN). */
   setScene(scene) {
-    this.#scene = scene;
     this.#skin.setScene(scene);
-    const colours = clusterColours(scene.clusters.length);
-    const tint = clusterOfBody(scene).flatMap(cluster => colours[cluster] ?? [0.8, 0.6, 0.4]);
-    const joint = jointOfBody(scene).map(Number);
-    this.#position = new THREE.BufferAttribute(new Float32Array(3 * scene.body.length), 3)
+    this.#particles = solids(scene);
+    const kinds = solidKinds(scene);
+    const tint = this.#particles.flatMap(particle => kinds.colours[kinds.of[particle]]);
+    this.#position = new THREE.BufferAttribute(new Float32Array(3 * this.#particles.length), 3)
         .setUsage(THREE.DynamicDrawUsage);
     this.points.geometry.dispose();
     this.points.geometry = new THREE.BufferGeometry()
         .setAttribute('position', this.#position)
         .setAttribute('tint', new THREE.Float32BufferAttribute(tint, 3))
-        .setAttribute('joint', new THREE.Float32BufferAttribute(joint, 1));
-    this.points.visible = scene.body.length > 0;
-    this.#material.uniforms.radius.value = BODY_RADIUS * scene.solidRestDistance;
+        .setAttribute('joint', new THREE.Float32BufferAttribute(this.#particles.map(particle => kinds.joint[particle]), 1));
+    this.#material.uniforms.radius.value = BODY_RADIUS * bodySpacing(scene);
   }
 
-  /** Moves the particles to where they are in a frame. */
+  /** Moves it to where it is in a frame. */
   update(frame) {
-    const places = this.#position.array;
-    this.#scene.body.forEach((particle, i) => {
-      places[3 * i] = frame.position[3 * particle];
-      places[3 * i + 1] = frame.position[3 * particle + 1];
-      places[3 * i + 2] = frame.position[3 * particle + 2];
-    });
-    this.#position.needsUpdate = true;
-    this.#skin.update(frame);
+    this.points.visible = !this.#isSkin && this.#particles.length > 0;
+    this.#skin.object.visible = this.#isSkin && this.#particles.length > 0;
+    if (this.#skin.object.visible) {
+      this.#skin.update(frame);
+    } else if (this.points.visible) {
+      this.#particles.forEach((particle, i) => {
+        for (let axis = 0; axis < 3; axis++) {
+          this.#position.array[3 * i + axis] = frame.position[3 * particle + axis];
+        }
+      });
+      this.#position.needsUpdate = true;
+    }
+  }
+
+  /** Whether a skin is shown, and else particles; and whether muscles are told by its colour. */
+  setLook({body, muscles}) {
+    this.#isSkin = body === 'skin';
+    this.#skin.showsMuscles = muscles;
+  }
+
+  /** The direction to the lamp. */
+  set lamp(direction) {
+    this.#skin.lamp = direction;
   }
 
   /** See `GlWater.setPixels`. */
   setPixels(pixelsPerUnit) {
     this.#material.uniforms.pixelsPerUnit.value = pixelsPerUnit;
+  }
+
+  dispose() {
+    this.points.geometry.dispose();
+    this.#material.dispose();
+    this.#skin.dispose();
   }
 }

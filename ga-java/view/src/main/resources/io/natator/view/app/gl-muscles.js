@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import {SCALES, scaleBytes} from './colours.js';
-import {MUSCLE_WIDTH, distinctMuscles, muscleChange} from './scene.js';
+import {MUSCLE_WIDTH, bodySpacing, distinctMuscles, muscleChange} from './scene.js';
 import {scaleTexture} from './gl-spheres.js';
 
 const VERTEX = `
@@ -63,7 +63,7 @@ export class GlMuscles {
     this.#mesh.frustumCulled = false;
     this.#mesh.renderOrder = 5;
     this.object.add(this.#mesh);
-    this.#material.uniforms.width.value = 0.5 * MUSCLE_WIDTH * scene.solidRestDistance;
+    this.#material.uniforms.width.value = 0.5 * MUSCLE_WIDTH * bodySpacing(scene);
   }
 
   /** Moves and colours the ribbons; a muscle at rest is grey. */

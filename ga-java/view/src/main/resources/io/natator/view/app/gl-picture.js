@@ -1,16 +1,27 @@
 /** Draws with WebGL, through three.js. */
 
 import * as THREE from 'three';
+import {Fence} from './gl-fence.js';
 import {GlBody} from './gl-body.js';
+import {GlLightMap} from './gl-light-map.js';
 import {GlMuscles} from './gl-muscles.js';
+import {Layer} from './gl-layer.js';
 import {GlTank} from './gl-tank.js';
 import {GlTrace} from './gl-trace.js';
 import {GlWater} from './gl-water.js';
+import {Refined} from './gl-refined.js';
+import {solids} from './scene.js';
 
 THREE.ColorManagement.enabled = false;
 
 /** Screens with more pixels per length get no finer picture than this. */
 const MAX_PIXEL_RATIO = 2;
+
+/** With a smaller share of the pixels than this the surface of the water is simpler, too. */
+const PLAIN_SHARE = 0.65;
+
+/** Samples of a picture that rests. */
+const SAMPLES = 16;
 
 /** Names of what draws without a graphics card. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
@@ -34,6 +45,9 @@ function findGraphicsCard() {
   return !SOFTWARE.test(name);
 }
 
+/** The direction to the lamp of bodies; what water mirrors lies opposite, where glints are seen. */
+const LAMP = new THREE.Vector3(-0.3, 0.85, 0.5).normalize();
+
 /** One canvas; throws where there is no WebGL. The same methods as `PlainPicture`. */
 export class GlPicture {
   #renderer;
@@ -44,14 +58,30 @@ export class GlPicture {
   #tank = new GlTank();
   #trace;
   #background = new THREE.Color();
-  #sky = new THREE.Color();
+  #behind = new Layer();
+  #bare = new Layer();
+  #light = {
+    deep: new THREE.Color(), zenith: new THREE.Color(), horizon: new THREE.Color(),
+    lamp: new THREE.Vector3(-0.45, 0.8, -0.4).normalize(),
+    centre: new THREE.Vector3(),
+  };
   #look = null;
+  #last = () => {};
+  #refined = null;
+  #scene = null;
+  #solids = [];
+  #map;
+  #fence;
 
   constructor(canvas, trace, field) {
     this.#renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false, powerPreference: 'high-performance'});
     this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.#renderer.autoClear = false;
+    this.#fence = new Fence(this.#renderer.getContext());
     this.#water = new GlWater(field);
+    this.#map = new GlLightMap(LAMP);
+    this.#tank.light = this.#map.texture;
+    this.#body.lamp = LAMP;
     this.#trace = new GlTrace(trace);
     this.#world.add(this.#tank.object, this.#body.object, this.#muscles.object, this.#trace.object, this.#water.object);
   }
@@ -61,12 +91,9 @@ export class GlPicture {
     return 'WebGL';
   }
 
-  /** Whether the time that `draw` takes is that of drawing. */
-  get isDoneAtOnce() {
-    return false;
-  }
-
   setScene(scene) {
+    this.#scene = scene;
+    this.#solids = solids(scene);
     this.#water.setScene(scene);
     this.#body.setScene(scene);
     this.#muscles.setScene(scene);
@@ -74,18 +101,26 @@ export class GlPicture {
 
   setBounds(bounds) {
     this.#tank.setBounds(bounds);
+    this.#water.setBounds(bounds);
+    this.#map.setBounds(bounds, this.#scene.fluidRestDistance);
+    this.#tank.light = this.#map.texture;
+    this.#light.centre.fromArray(bounds.min.map((low, axis) => (low + bounds.max[axis]) / 2));
   }
 
   setLook(look) {
     this.#look = look;
-    this.#muscles.object.visible = look.muscles;
+    this.#muscles.object.visible = look.muscles && look.body !== 'skin';
+    this.#body.setLook(look);
     this.#trace.object.visible = look.trace;
+    this.#trace.isFaint = look.body === 'skin';
   }
 
   setTheme(colours) {
     this.#background.setStyle(colours.background);
-    this.#sky.setStyle(colours.sky);
-    this.#tank.setColours(colours.floor, colours.marks, colours.edges);
+    for (const name of ['deep', 'zenith', 'horizon']) {
+      this.#light[name].setStyle(colours[name]);
+    }
+    this.#tank.setColours(colours);
     this.#trace.setInk(colours.ink);
   }
 
@@ -93,26 +128,83 @@ export class GlPicture {
   setSize(width, height, share, angle) {
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, MAX_PIXEL_RATIO) * share);
     this.#renderer.setSize(width, height, false);
+    this.#water.isPlain = share < PLAIN_SHARE;
     const {width: columns, height: rows} = this.#renderer.domElement;
     const pixels = rows / 2 / Math.tan(angle * Math.PI / 360);
     this.#water.setPixels(pixels, columns, rows);
     this.#body.setPixels(pixels);
   }
 
+  /** How often a picture that rests is drawn again by `refine`. */
+  get samples() {
+    return SAMPLES;
+  }
+
+  /** Whether the card still draws. */
+  get isBusy() {
+    return this.#fence.isBusy;
+  }
+
   /** Draws a frame; water nearer than `from` is left out. */
   draw(frame, camera, from) {
+    this.#last = () => this.#render(frame, camera, from, null);
+    this.#last();
+    this.#fence.set();
+  }
+
+  /** Draws another sample of a picture that rests, moved by less than a pixel, and shows the mean of those so far. */
+  refine(frame, camera, from, sample) {
+    const {width, height} = this.#renderer.domElement;
+    this.#refined ??= new Refined();
+    camera.setViewOffset(width, height, ...this.#refined.shift(sample), width, height);
+    this.#render(frame, camera, from, this.#refined.target(width, height));
+    camera.clearViewOffset();
+    this.#refined.add(this.#renderer, sample);
+    this.#last = () => this.#refined.show(this.#renderer);
+    this.#last();
+    this.#fence.set();
+  }
+
+  /** Makes the canvas hold what was drawn last, until the browser shows it. */
+  show() {
+    this.#last();
+  }
+
+  #render(frame, camera, from, to) {
     this.#body.update(frame);
     this.#muscles.update(frame);
     this.#trace.update();
     this.#water.update(frame, camera, this.#look, from);
-    this.#renderer.setRenderTarget(null);
+    const isSurface = this.#water.isSurface(this.#look);
+    this.#map.update(isSurface ? this.#water.shapes : null, this.#solids, frame.position);
+    if (isSurface) {
+      const {width, height} = this.#renderer.domElement;
+      this.#body.object.visible = false;
+      this.#draw(camera, this.#bare.of(width, height));
+      this.#body.object.visible = true;
+      this.#tank.areEdgesDeep = false;
+      this.#draw(camera, this.#behind.of(width, height));
+      this.#tank.areEdgesDeep = true;
+      this.#water.drawSurface(this.#renderer, camera, to, this.#behind.target, this.#bare.target, this.#look, this.#light);
+    } else {
+      this.#draw(camera, to);
+    }
+  }
+
+  #draw(camera, to) {
+    this.#renderer.setRenderTarget(to);
     this.#renderer.setClearColor(this.#background, 1);
     this.#renderer.clear();
     this.#renderer.render(this.#world, camera);
-    this.#water.drawSurface(this.#renderer, camera, this.#look, this.#body.points, this.#sky);
   }
 
   dispose() {
+    this.#behind.dispose();
+    this.#bare.dispose();
+    this.#refined?.dispose();
+    this.#water.dispose();
+    this.#body.dispose();
+    this.#map.dispose();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }

@@ -1,64 +1,119 @@
-/** The mesh that a body was made of, translucent around its particles. */
+/** The body as it is seen from outside: the mesh that it was made of, or a smooth surface around its particles. */
 
 import * as THREE from 'three';
-import {clusterColours} from './colours.js';
+import {BodySkin} from './body-skin.js';
+import {SCALES, scaleBytes} from './colours.js';
+import {scaleTexture} from './gl-spheres.js';
+import {MuscleColours} from './muscle-colours.js';
+import {bodySpacing, solidKinds} from './scene.js';
 import {SkinMotion} from './skin.js';
 
 const VERTEX = `
   attribute vec3 tint;
+  attribute float change;
   varying vec3 colour;
+  varying float muscle;
+  varying vec3 facing;
   varying vec3 place;
   void main() {
     vec4 eye = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * eye;
     colour = tint;
+    muscle = change;
+    facing = normalMatrix * normal;
     place = eye.xyz;
   }`;
 
 const FRAGMENT = `
+  uniform sampler2D scale;
+  uniform float muscles;
+  uniform vec3 lamp;
   varying vec3 colour;
+  varying float muscle;
+  varying vec3 facing;
   varying vec3 place;
   void main() {
-    vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
-    gl_FragColor = vec4(colour * (0.5 + 0.5 * abs(normal.z)), 0.6);
+    vec3 normal = normalize(facing);
+    vec3 view = normalize(-place);
+    vec3 light = normalize((viewMatrix * vec4(lamp, 0.0)).xyz);
+    vec3 up = (viewMatrix * vec4(0.0, 1.0, 0.0, 0.0)).xyz;
+    vec3 base = mix(colour, texture2D(scale, vec2(0.5 + 0.498 * muscle, 0.5)).rgb, muscles);
+    float round_ = 0.5 + 0.5 * dot(normal, light);
+    float sky = 0.5 + 0.5 * dot(normal, up);
+    vec3 lit = base * (0.4 + 0.2 * sky + 0.48 * round_ * round_);
+    float gloss = pow(max(0.0, dot(normal, normalize(light + view))), 38.0);
+    float rim = pow(1.0 - max(0.0, dot(normal, view)), 3.0);
+    gl_FragColor = vec4(lit + 0.2 * gloss + 0.14 * rim * mix(base, vec3(1.0), 0.5), 1.0);
   }`;
 
-/** Nothing for bodies without a mesh. */
+/** One mesh; it is built with the first frame of a scene. */
 export class GlSkin {
+  #scene = null;
   #motion = null;
-  #position = null;
+  #muscles = null;
+  #material = new THREE.ShaderMaterial({
+    vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide,
+    uniforms: {
+      scale: {value: scaleTexture(scaleBytes(SCALES.diverging))}, muscles: {value: 1},
+      lamp: {value: new THREE.Vector3(0, 1, 0)},
+    },
+  });
 
   /** What to add to a scene of three.js. */
-  object = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false,
-  }));
+  object = new THREE.Mesh(new THREE.BufferGeometry(), this.#material);
 
   constructor() {
     this.object.frustumCulled = false;
-    this.object.visible = false;
   }
 
   /** Takes over what is known of a scene (SCEN). */
   setScene(scene) {
-    this.object.visible = Boolean(scene.skin);
-    this.#motion = scene.skin ? new SkinMotion(scene) : null;
-    if (this.#motion === null) {
-      return;
-    }
-    const colours = clusterColours(scene.clusters.length);
-    this.#position = new THREE.BufferAttribute(this.#motion.places, 3).setUsage(THREE.DynamicDrawUsage);
-    this.object.geometry.dispose();
-    this.object.geometry = new THREE.BufferGeometry()
-        .setAttribute('position', this.#position)
-        .setAttribute('tint', new THREE.Float32BufferAttribute(scene.skin.cluster.flatMap(one => colours[one]), 3))
-        .setIndex(scene.skin.triangles.flat());
+    this.#motion = this.#scene === null || scene.restarted ? null : this.#motion;
+    this.#scene = scene;
+  }
+
+  /** Whether muscles are told by colour, and else clusters. */
+  set showsMuscles(value) {
+    this.#material.uniforms.muscles.value = value ? 1 : 0;
+  }
+
+  /** The direction to the lamp. */
+  set lamp(direction) {
+    this.#material.uniforms.lamp.value.copy(direction);
   }
 
   /** Moves it to where the body is in a frame. */
   update(frame) {
-    if (this.#motion !== null) {
-      this.#motion.update(frame);
-      this.#position.needsUpdate = true;
+    if (this.#motion === null) {
+      this.#build(frame);
     }
+    this.#motion.update(frame);
+    this.#muscles.update(frame);
+    const {geometry} = this.object;
+    geometry.computeVertexNormals();
+    for (const name of ['position', 'normal', 'change']) {
+      geometry.getAttribute(name).needsUpdate = true;
+    }
+  }
+
+  #build(frame) {
+    const scene = this.#scene;
+    this.#motion = scene.skin ? new SkinMotion(scene) : new BodySkin(scene, frame.position);
+    this.#motion.update(frame);
+    this.#muscles = new MuscleColours(scene, frame.position, this.#motion.places, bodySpacing(scene));
+    const kinds = solidKinds(scene);
+    const colourOf = scene.clusters.map(particles => kinds.colours[kinds.of[particles.at(-1)]]);
+    const tint = Array.from(this.#motion.cluster).flatMap(one => colourOf[one] ?? kinds.colours.at(-1));
+    this.object.geometry.dispose();
+    this.object.geometry = new THREE.BufferGeometry()
+        .setAttribute('position', new THREE.BufferAttribute(this.#motion.places, 3).setUsage(THREE.DynamicDrawUsage))
+        .setAttribute('tint', new THREE.Float32BufferAttribute(tint, 3))
+        .setAttribute('change', new THREE.BufferAttribute(this.#muscles.change, 1).setUsage(THREE.DynamicDrawUsage))
+        .setIndex(new THREE.BufferAttribute(this.#motion.triangles, 1));
+  }
+
+  dispose() {
+    this.object.geometry.dispose();
+    this.#material.dispose();
   }
 }

@@ -1,12 +1,49 @@
 /** Floor and edges of the tank. */
 
 import * as THREE from 'three';
-import {tankLines} from './scene.js';
+import {GlLightMap} from './gl-light-map.js';
+import {MARK_SPACING, tankLines} from './scene.js';
+
+const FLOOR_VERTEX = `
+  varying vec3 place;
+  void main() {
+    place = position;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  }`;
+
+/** Tiles within the tank, and a table around it that fades away, darker under the tank. */
+const FLOOR_FRAGMENT = `
+  uniform vec3 floor_;
+  uniform vec3 marks;
+  uniform vec3 background;
+  uniform vec4 tank;
+  uniform float spacing;
+  uniform float reach;
+  uniform sampler2D map;
+  varying vec3 place;
+  ${GlLightMap.CODE}
+  void main() {
+    vec2 beyond = max(tank.xy - place.xz, place.xz - tank.zw);
+    float off = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0);
+    vec2 cell = place.xz / spacing;
+    vec2 line = abs(fract(cell - 0.5) - 0.5) / (fwidth(cell) * 1.2);
+    float mark = (1.0 - min(min(line.x, line.y), 1.0)) * step(off, 0.0);
+    vec3 colour = mix(floor_, marks, mark);
+    colour *= lightAt(map, tank, place);
+    colour *= 1.0 - 0.16 * exp(-max(off, 0.0) * 5.0) * step(0.0, off);
+    gl_FragColor = vec4(mix(colour, background, smoothstep(0.0, reach, off)), 1.0);
+  }`;
 
 /** A box without a lid, drawn as lines over a floor. */
 export class GlTank {
-  #floor = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial());
-  #marks = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
+  #floor = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
+    vertexShader: FLOOR_VERTEX, fragmentShader: FLOOR_FRAGMENT, side: THREE.DoubleSide,
+    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4,
+    uniforms: {
+      floor_: {value: new THREE.Color()}, marks: {value: new THREE.Color()}, background: {value: new THREE.Color()},
+      tank: {value: new THREE.Vector4()}, spacing: {value: MARK_SPACING}, reach: {value: 1}, map: {value: null},
+    },
+  }));
   #edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
 
   /** What to add to a scene of three.js. */
@@ -14,31 +51,40 @@ export class GlTank {
 
   constructor() {
     this.#floor.renderOrder = -3;
-    this.#marks.renderOrder = -2;
     this.#edges.renderOrder = -1;
-    for (const part of [this.#floor, this.#marks, this.#edges]) {
+    for (const part of [this.#floor, this.#edges]) {
       part.frustumCulled = false;
       this.object.add(part);
     }
-    this.#floor.material.polygonOffset = true;
-    this.#floor.material.polygonOffsetFactor = 1;
-    this.#floor.material.polygonOffsetUnits = 4;
-    this.#floor.material.side = THREE.DoubleSide;
   }
 
   /** Shows these bounds; see `tankBounds`. */
   setBounds(bounds) {
-    const {floor, marks, edges} = tankLines(bounds);
-    const [a, b, c, d] = floor;
-    replace(this.#floor, [...a, ...b, ...c, ...a, ...c, ...d]);
-    replace(this.#marks, marks);
-    replace(this.#edges, edges);
+    const {min: [x0, y0, z0], max: [x1, , z1]} = bounds;
+    const reach = 0.5 * Math.max(x1 - x0, z1 - z0);
+    const [left, right, back, front] = [x0 - reach, x1 + reach, z0 - reach, z1 + reach];
+    replace(this.#floor, [left, y0, back, left, y0, front, right, y0, front, left, y0, back, right, y0, front, right, y0, back]);
+    this.#floor.material.uniforms.tank.value.set(x0, z0, x1, z1);
+    this.#floor.material.uniforms.reach.value = reach;
+    replace(this.#edges, tankLines(bounds).edges);
   }
 
-  /** Colours as CSS: floor, marks, edges. */
-  setColours(floor, marks, edges) {
-    this.#floor.material.color.set(floor);
-    this.#marks.material.color.set(marks);
+  /** Whether edges are in the depth that is drawn. */
+  set areEdgesDeep(value) {
+    this.#edges.material.depthWrite = value;
+  }
+
+  /** Light on the floor (`GlLightMap`). */
+  set light(texture) {
+    this.#floor.material.uniforms.map.value = texture;
+  }
+
+  /** Colours as CSS: floor, marks, edges, background. */
+  setColours({floor, marks, edges, background}) {
+    const {uniforms} = this.#floor.material;
+    uniforms.floor_.value.set(floor);
+    uniforms.marks.value.set(marks);
+    uniforms.background.value.set(background);
     this.#edges.material.color.set(edges);
   }
 }

@@ -3,6 +3,9 @@
 import * as THREE from 'three';
 import {HEAD_PLACES, SPINES} from './trace.js';
 
+/** Strength of faint lines. */
+const FAINT = 0.4;
+
 /** Draws a `SpineTrace`. */
 export class GlTrace {
   #trace;
@@ -20,9 +23,10 @@ export class GlTrace {
       }`,
     fragmentShader: `
       uniform vec3 ink;
+      uniform float share;
       varying float alpha;
-      void main() { gl_FragColor = vec4(ink, alpha); }`,
-    uniforms: {ink: {value: new THREE.Color()}},
+      void main() { gl_FragColor = vec4(ink, share * alpha); }`,
+    uniforms: {ink: {value: new THREE.Color()}, share: {value: 1}},
     transparent: true, depthTest: false, depthWrite: false,
   });
 
@@ -55,6 +59,12 @@ export class GlTrace {
       attribute.needsUpdate = true;
     }
     this.#head.setDrawRange(0, trace.headPlaces);
+  }
+
+  /** Whether lines are faint and the body hides those behind it. */
+  set isFaint(value) {
+    this.#material.depthTest = value;
+    this.#material.uniforms.share.value = value ? FAINT : 1;
   }
 
   /** The colour of the lines. */

@@ -22,6 +22,7 @@ export class GlWater {
   #material = sphereMaterial(this.#scale, 1, 0.5);
   #surface = new GlSurface(this.#scale);
   #forward = new THREE.Vector3();
+  #from = -Infinity;
 
   /** What to add to a scene of three.js. */
   object = new THREE.Group();
@@ -65,6 +66,10 @@ export class GlWater {
     camera.getWorldDirection(this.#forward);
     const seen = this.#order.sort(frame.position, first, count, camera.position, this.#forward, from);
     this.#write(frame.position, first, seen);
+    if (look.water === 'surface') {
+      this.#surface.update(frame, first, this.#order.order, seen, this.#values);
+    }
+    this.#from = from;
     this.#material.uniforms.opacity.value = look.opacity;
     this.#material.transparent = look.opacity < 1;
   }
@@ -82,16 +87,39 @@ export class GlWater {
     this.#places.written(seen);
   }
 
-  /** Draws the surface over what the renderer has drawn, if that is how water is shown. */
-  drawSurface(renderer, camera, look, bodyPoints, theme) {
-    if (look.water === 'surface' && this.#scene !== null && this.#scene.fluid[1] > 0) {
-      this.#surface.draw(renderer, camera, this.#field.range, look.opacity, bodyPoints, theme);
-    }
+  /** Whether water is shown as a surface, by `drawSurface`. */
+  isSurface(look) {
+    return look.water === 'surface' && this.#scene !== null && this.#scene.fluid[1] > 0;
+  }
+
+  /** Shapes of the surface (`WaterShapes`). */
+  get shapes() {
+    return this.#surface.shapes;
+  }
+
+  /** Lays the surface over a picture; see `GlSurface.draw`. */
+  drawSurface(renderer, camera, to, behind, bare, look, light) {
+    this.#surface.draw(renderer, camera, to, behind, bare, look, this.#field.range, this.#from, light);
+  }
+
+  /** The tank; see `tankBounds`. */
+  setBounds(bounds) {
+    this.#surface.setBounds(bounds);
   }
 
   /** The size of the picture: height in pixels over twice the tangent of half the view angle. */
   setPixels(pixelsPerUnit, width, height) {
     this.#material.uniforms.pixelsPerUnit.value = pixelsPerUnit;
     this.#surface.setSize(pixelsPerUnit, width, height);
+  }
+
+  /** Whether the surface is made of balls, which costs less than ellipsoids. */
+  set isPlain(value) {
+    this.#surface.isPlain = value;
+  }
+
+  dispose() {
+    this.#places?.dispose();
+    this.#surface.dispose();
   }
 }

@@ -11,7 +11,8 @@ export function listen(shortcuts) {
   const actions = new Map(shortcuts.flatMap(([keys, , action]) => [keys].flat().map(key => [key, action])));
   addEventListener('keydown', event => {
     const action = actions.get(event.key);
-    if (action === undefined || event.ctrlKey || event.metaKey || event.altKey || byId('help').open) {
+    if (action === undefined || event.ctrlKey || event.metaKey || event.altKey
+        || document.querySelector('dialog[open]') !== null) {
       return;
     }
     const target = event.target;

@@ -13,6 +13,7 @@ export class LiveCharts {
   #turn = 0;
   #charts;
   #outputs;
+  #shown = [];
 
   /** `modes` are the envelopes of real fish. */
   constructor(modes) {
@@ -30,6 +31,16 @@ export class LiveCharts {
     this.#outputs = new Map([...document.querySelectorAll('[data-chart]')].map(one => [one.dataset.chart, one]));
   }
 
+  /** Shows those that have something to tell; `has` as in `Legend.show`. */
+  show(has) {
+    const needed = {distance: has.bodies, speed: has.bodies, envelope: has.muscles, momentum: has.bodies, density: has.water};
+    this.#shown = this.#charts.filter(([name]) => needed[name]);
+    for (const [name] of this.#charts) {
+      byId(`chart-${name}`).closest('figure').hidden = !needed[name];
+    }
+    this.#outputs.get('distance').closest('.charts').hidden = this.#shown.length === 0;
+  }
+
   /** Takes over new colours. */
   recolour() {
     for (const [, chart] of this.#charts) {
@@ -40,12 +51,14 @@ export class LiveCharts {
   /** To be called for each frame of the screen; draws one chart every few. */
   tick(views) {
     if (this.#turn++ % TURN === 0) {
-      this.#draw(Math.floor(this.#turn / TURN) % this.#charts.length, views);
+      const turn = Math.floor(this.#turn / TURN);
+      if (this.#shown.length > 0) {
+        this.#draw(this.#shown[turn % this.#shown.length], views);
+      }
     }
   }
 
-  #draw(which, views) {
-    const [name, chart] = this.#charts[which];
+  #draw([name, chart], views) {
     const text = views.map(view => this.#text(name, view)).filter(one => one !== '').join(' | ');
     if (this.#outputs.get(name).textContent !== text) {
       this.#outputs.get(name).textContent = text;

@@ -1,12 +1,12 @@
-/** What of the scene is shown, and how: water, colours, muscles, trace, and the legend. */
+/** What of the scene is shown, and how: water, body, colours, muscles, trace. */
 
-import {SCALES, cssGradient} from './colours.js';
 import {byId, choose, fillSegments, fillSelect, make} from './element.js';
 import {FIELDS} from './fields.js';
+import {Legend} from './legend.js';
 import {LEVELS} from './quality.js';
-import {axisText, niceStep} from './scaling.js';
 
 const WATERS = [['spheres', 'Spheres'], ['surface', 'Surface'], ['none', 'None']];
+const BODIES = [['skin', 'Skin'], ['particles', 'Particles']];
 const SWITCHES = [
   ['muscles', 'Muscles', 'm'], ['trace', 'Trace', 't'], ['cut', 'Cut open', 'x'],
 ];
@@ -16,12 +16,14 @@ export class LookControls {
   #look;
   #onChange;
   #water;
+  #body;
+  #legend = new Legend();
   #colour;
   #opacity;
   #quality;
   #drawing;
   #switches = new Map();
-  #hasWater = true;
+  #has = {water: true, muscles: true, bodies: true, others: false};
 
   /** `onChange(look)` is called with each change; see `DEFAULT_LOOK` in stage.js. */
   constructor(look, onChange) {
@@ -29,6 +31,9 @@ export class LookControls {
     this.#onChange = onChange;
     this.#water = make('div', {className: 'segments wide', role: 'radiogroup', 'aria-label': 'Water'});
     fillSegments(this.#water, 'water', WATERS, value => this.set({water: value}));
+    this.#body = make('div', {className: 'segments wide', role: 'radiogroup', 'aria-label': 'Body',
+      title: 'Without a graphics card it is drawn as particles'});
+    fillSegments(this.#body, 'body', BODIES, value => this.set({body: value}));
     this.#colour = make('select', {id: 'colour', 'data-testid': 'colour'});
     fillSelect(this.#colour, Object.entries(FIELDS).map(([name, {title}]) => [name, title]));
     this.#colour.addEventListener('change', () => this.set({colour: this.#colour.value}));
@@ -49,12 +54,10 @@ export class LookControls {
       this.#switches.set(name, input);
       return make('label', {className: 'switch', title: `key ${key}`}, input, text);
     });
-    byId('look').replaceChildren(row('Water', this.#water, null), row('Coloured by', this.#colour, 'colour'),
+    byId('look').replaceChildren(row('Water', this.#water, null), row('Body', this.#body, null), row('Coloured by', this.#colour, 'colour'),
         row('Opacity', this.#opacity, 'opacity'), row('Detail', this.#quality, 'quality'),
         row('Drawn by', this.#drawing, 'drawing'),
         make('div', {className: 'switches'}, ...switches));
-    byId('legend-bar').style.background = cssGradient(SCALES.sequential);
-    byId('legend-change').style.background = cssGradient(SCALES.diverging);
     this.#show();
   }
 
@@ -69,9 +72,9 @@ export class LookControls {
     this.#onChange(this.look);
   }
 
-  /** The next way to show water, or to colour it. */
+  /** The next way to show water or the body, or to colour water. */
   next(name) {
-    const choices = name === 'water' ? WATERS.map(([value]) => value) : Object.keys(FIELDS);
+    const choices = {water: WATERS, body: BODIES}[name]?.map(([value]) => value) ?? Object.keys(FIELDS);
     this.set({[name]: choices[(choices.indexOf(this.#look[name]) + 1) % choices.length]});
   }
 
@@ -79,22 +82,22 @@ export class LookControls {
     this.set({[name]: !this.#look[name]});
   }
 
-  /** Whether there is water that the legend is about. */
-  set hasWater(value) {
-    this.#hasWater = value;
+  /** What there is that the legend is about; see `Legend.show`. */
+  set has(value) {
+    this.#has = value;
     this.#show();
   }
 
   /** Ends of the colour scale. */
-  showRange([low, high]) {
-    const step = niceStep((high - low) / 100);
-    byId('legend-low').textContent = axisText(low, step * 10);
-    byId('legend-high').textContent = axisText(high, step * 10);
+  showRange(range) {
+    this.#legend.range = range;
+    this.#show();
   }
 
   #show() {
-    const {water, colour, opacity, quality, drawing, muscles} = this.#look;
+    const {water, body, colour, opacity, quality, drawing} = this.#look;
     choose(this.#water, water);
+    choose(this.#body, body);
     this.#colour.value = colour;
     this.#opacity.value = opacity;
     this.#quality.value = quality;
@@ -102,13 +105,7 @@ export class LookControls {
     for (const [name, input] of this.#switches) {
       input.checked = this.#look[name];
     }
-    const {title, unit} = FIELDS[colour];
-    byId('legend-title').textContent = unit === '' ? title : `${title}, ${unit}`;
-    const isWater = this.#hasWater && water !== 'none';
-    byId('legend-title').hidden = !isWater;
-    byId('legend-bar').parentElement.hidden = !isWater;
-    byId('legend-muscles').hidden = !muscles;
-    byId('legend').hidden = !isWater && !muscles;
+    this.#legend.show(this.#look, this.#has);
   }
 }
 

@@ -1,6 +1,8 @@
 /** The page of `natator view`: puts its parts together. */
 
+import {about} from './about.js';
 import {CAMERAS} from './cameras.js';
+import {Capture} from './capture.js';
 import {byId, choose, fillSegments, fillSelect} from './element.js';
 import {Figures} from './figures.js';
 import {GaitControls, isAtRest, isSameGait, parseGait, randomGait, waveGait} from './gait.js';
@@ -9,8 +11,10 @@ import {LiveCharts} from './livecharts.js';
 import {Lockstep} from './lockstep.js';
 import {LookControls} from './look.js';
 import {remembered, rememberSoon} from './memory.js';
+import {Presentation} from './present.js';
 import {RunBrowser} from './runs.js';
 import {download, fileName, gaitText, sceneText} from './save.js';
+import {contents} from './scene.js';
 import {SolverControls, withoutSettings} from './solver.js';
 import {DEFAULT_LOOK} from './stage.js';
 import {isSamePatch} from './swimmer.js';
@@ -38,6 +42,11 @@ class Page {
   #vacuumBusy = false;
   #lockstep;
   #browsed = null;
+  #openAbout = about();
+  #presentation = new Presentation(isOn => this.#views.forEach(view => {
+    view.stage.rig.isOrbiting = isOn;
+  }));
+  #capture = new Capture(() => this.#views.map(view => view.stage));
 
   constructor(setup, memory) {
     this.#setup = setup;
@@ -82,6 +91,7 @@ class Page {
       this.#lockstep.tick(now, this.#views);
     }
     this.#views.forEach(view => view.draw(now));
+    this.#capture.tick();
     this.#charts.tick(this.#views);
     if (now - this.#lastFigures > FIGURES_MS) {
       this.#lastFigures = now;
@@ -162,7 +172,9 @@ class Page {
       this.#markRun();
       this.#name(which);
     }
-    this.#look.hasWater = this.#views.some(view => view.scene === null || view.scene.fluid[1] > 0);
+    const has = contents(this.#views.map(view => view.scene).filter(one => one !== null));
+    this.#look.has = has;
+    this.#charts.show(has);
     if (which === this.#chosen) {
       this.#showControls();
     }
@@ -421,6 +433,14 @@ class Page {
     }
   }
 
+  #savePicture() {
+    return this.#capture.savePicture(fileName(this.#view.scene, 'picture', 'png'));
+  }
+
+  #toggleFilm() {
+    byId('transport-error').textContent = this.#capture.toggleRecording(fileName(this.#view.scene, 'film', 'webm')) ?? '';
+  }
+
   // --- inputs
 
   #listen() {
@@ -439,6 +459,9 @@ class Page {
     click('gait-random', async () => {
       byId('gait-error').textContent = await this.#view.setGait(randomGait(this.#view.scene.actuators)) ?? '';
     });
+    click('picture-save', () => this.#savePicture());
+    click('film', () => this.#toggleFilm());
+    this.#capture.onRecording = isOn => byId('film').setAttribute('aria-pressed', isOn);
     click('solver-default', async () => {
       const {scene, overrides, gait} = this.#view.scene;
       byId('solver-error').textContent = await this.#view.setScene(scene, withoutSettings(overrides), gait) ?? '';
@@ -466,13 +489,18 @@ class Page {
       [['1', '2', '3', '4'], 'camera: follow, side, top, free', key => this.setCamera(CAMERAS[Number(key) - 1])],
       ['v', 'vacuum, water', () => this.#changeVacuum(!this.#view.isVacuum)],
       ['w', 'water: spheres, surface, none', () => this.#look.next('water')],
-      ['c', 'colour: speed, density, mass', () => this.#look.next('colour')],
+      ['c', 'colour: speed, density, mass, nothing', () => this.#look.next('colour')],
+      ['k', 'body: skin, particles', () => this.#look.next('body')],
       ['x', 'cut the water open at the body', () => this.#look.toggle('cut')],
       ['m', 'muscles', () => this.#look.toggle('muscles')],
       ['t', 'trace of the spine', () => this.#look.toggle('trace')],
       ['b', 'two swimmers side by side', () => this.toggleCompare()],
       [['[', ']'], 'generation before, after', key => this.#runs.move(key === ']' ? 1 : -1)],
       ['d', 'light, dark', () => this.#theme.toggle()],
+      ['p', 'presentation: the picture alone', () => this.#presentation.toggle()],
+      ['i', 'save the picture', () => this.#savePicture()],
+      ['f', 'film: record, save', () => this.#toggleFilm()],
+      ['a', 'about this', () => this.#openAbout()],
       ['?', 'this list', () => byId('help').showModal()],
     ]);
   }
@@ -495,6 +523,7 @@ function figures(page) {
     dropped: () => page.views[which]?.dropped ?? 0,
     drawing: () => page.views[which]?.stage.drawing ?? '',
     share: () => page.views[which]?.stage.share ?? 0,
+    samples: () => page.views[which]?.stage.samples ?? 0,
     scene: () => page.views[which]?.scene ?? null,
     connected: () => page.views[which]?.isConnected ?? false,
     position: () => Array.from(page.views[which]?.frame?.position ?? []),

@@ -1,14 +1,14 @@
 /** Draws without WebGL: spheres by the processor into pixels, lines with the 2-d canvas. */
 
 import {Color} from 'three';
-import {SCALES, clusterColours, colourAt, scaleBytes} from './colours.js';
+import {SCALES, colourAt, scaleBytes} from './colours.js';
 import {Discs, LIGHTS} from './discs.js';
 import {addArea, addLine, addLines} from './plain-lines.js';
 import {PlainSkin} from './plain-skin.js';
 import {SphereLayer, shades} from './plain-spheres.js';
 import {SurfaceLayer} from './plain-surface.js';
 import {Projector} from './projector.js';
-import {BODY_RADIUS, MUSCLE_WIDTH, SURFACE_RADIUS, WATER_RADIUS, clusterOfBody, distinctMuscles, jointOfBody, muscleChange,
+import {BODY_RADIUS, MUSCLE_WIDTH, SURFACE_RADIUS, WATER_RADIUS, bodySpacing, distinctMuscles, muscleChange, solidKinds,
   tankLines} from './scene.js';
 import {NearestFirst} from './sort.js';
 import {SPINES} from './trace.js';
@@ -16,7 +16,7 @@ import {SPINES} from './trace.js';
 /** Colours of water. */
 const COLOURS = 256;
 const CHANGES = 33;
-/** Pixels of the surface for each of the spheres' layer, along each side. */
+/** Pixels of the surface for each of the spheres' layer, along each side, while it moves. */
 const SURFACE_SHARE = 0.5;
 
 /** One canvas; the same methods as `GlPicture`. */
@@ -51,6 +51,7 @@ export class PlainPicture {
   #bodyShades = null;
   #changeColours = Array.from({length: CHANGES}, (_, i) => css(colourAt(SCALES.diverging, i / (CHANGES - 1))));
   #lineWidth = 1;
+  #surfaceShare = SURFACE_SHARE;
   #place = [0, 0, 0];
 
   constructor(canvas, trace, field) {
@@ -67,25 +68,37 @@ export class PlainPicture {
     return 'processor';
   }
 
-  /** Whether the time that `draw` takes is that of drawing. */
-  get isDoneAtOnce() {
-    return true;
+  /** How often a picture that rests is drawn again by `refine`. */
+  get samples() {
+    return 1;
   }
+
+  /** Whether it still draws. */
+  get isBusy() {
+    return false;
+  }
+
+  /** Draws a picture that rests, with a finer surface. */
+  refine(frame, camera, from) {
+    this.#surfaceShare = 1;
+    this.#fitSurface();
+    this.draw(frame, camera, from);
+    this.#surfaceShare = SURFACE_SHARE;
+    this.#fitSurface();
+  }
+
+  /** Makes the canvas hold what was drawn last: it does so always. */
+  show() {}
 
   setScene(scene) {
     this.#scene = scene;
     this.#skin.setScene(scene);
     this.#values = new Float32Array(scene.fluid[1]);
-    this.#kinds = new Int16Array(scene.particles).fill(-1);
-    this.#joints = new Uint8Array(scene.particles);
-    const clusters = clusterOfBody(scene);
-    const joints = jointOfBody(scene);
-    scene.body.forEach((particle, i) => {
-      this.#kinds[particle] = clusters[i];
-      this.#joints[particle] = joints[i] ? 1 : 0;
-    });
+    const kinds = solidKinds(scene);
+    this.#kinds = kinds.of;
+    this.#joints = kinds.joint;
     this.#muscles = distinctMuscles(scene);
-    this.#bodyShades = shades(clusterColours(Math.max(1, scene.clusters.length)), 1);
+    this.#bodyShades = shades(kinds.colours, 1);
   }
 
   setBounds(bounds) {
@@ -112,8 +125,12 @@ export class PlainPicture {
     this.#layerCanvas.height = this.#canvas.height;
     this.#lineWidth = Math.max(0.6, share);
     this.#layer.setSize(this.#layerCanvas.width, this.#layerCanvas.height);
-    this.#surfaceCanvas.width = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.width));
-    this.#surfaceCanvas.height = Math.max(4, Math.round(SURFACE_SHARE * this.#layerCanvas.height));
+    this.#fitSurface();
+  }
+
+  #fitSurface() {
+    this.#surfaceCanvas.width = Math.max(4, Math.round(this.#surfaceShare * this.#layerCanvas.width));
+    this.#surfaceCanvas.height = Math.max(4, Math.round(this.#surfaceShare * this.#layerCanvas.height));
     this.#surface.setSize(this.#surfaceCanvas.width, this.#surfaceCanvas.height);
   }
 
@@ -210,7 +227,7 @@ export class PlainPicture {
   }
 
   #bodySphere(x, y, depth, cluster, particle, blocks) {
-    const radius = BODY_RADIUS * this.#scene.solidRestDistance / depth * this.#projector.pixels;
+    const radius = BODY_RADIUS * bodySpacing(this.#scene) / depth * this.#projector.pixels;
     if (!isOn(this.#layerCanvas, x, y, radius)) {
       return;
     }
@@ -218,16 +235,16 @@ export class PlainPicture {
     this.#layer.body(disc, Math.floor(x) - disc.half, Math.floor(y) - disc.half, this.#bodyShades, cluster * LIGHTS,
         this.#joints[particle] === 1);
     if (blocks) {
-      const small = this.#discs.of(SURFACE_SHARE * radius, 0.5, 0.5);
-      this.#surface.block(small, Math.floor(SURFACE_SHARE * x) - small.half, Math.floor(SURFACE_SHARE * y) - small.half);
+      const small = this.#discs.of(this.#surfaceShare * radius, 0.5, 0.5);
+      this.#surface.block(small, Math.floor(this.#surfaceShare * x) - small.half, Math.floor(this.#surfaceShare * y) - small.half);
     }
   }
 
   #surfaceSphere(x, y, depth, colour) {
     const size = SURFACE_RADIUS * this.#scene.fluidRestDistance;
     const radius = size / depth * this.#surfaceProjector.pixels;
-    const column = SURFACE_SHARE * x;
-    const row = SURFACE_SHARE * y;
+    const column = this.#surfaceShare * x;
+    const row = this.#surfaceShare * y;
     if (isOn(this.#surfaceCanvas, column, row, radius)) {
       const disc = this.#discs.of(radius, column - Math.floor(column), row - Math.floor(row));
       this.#surface.water(disc, Math.floor(column) - disc.half, Math.floor(row) - disc.half, depth, size, colour);
@@ -244,7 +261,7 @@ export class PlainPicture {
 
   #drawMuscles(frame) {
     const context = this.#context;
-    const width = MUSCLE_WIDTH * this.#scene.solidRestDistance * this.#lineProjector.pixels;
+    const width = MUSCLE_WIDTH * bodySpacing(this.#scene) * this.#lineProjector.pixels;
     const place = particle => frame.position.subarray(3 * particle, 3 * particle + 3);
     for (const muscle of this.#muscles) {
       const a = place(muscle.a);

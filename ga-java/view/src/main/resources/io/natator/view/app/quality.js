@@ -11,6 +11,10 @@ const QUICK_MS = 4;
 const FIRST_PATIENCE_S = 4;
 const LAST_PATIENCE_S = 120;
 
+/** With less than so many frames per second over so many windows at the last level, drawing in this way is given up. */
+const HOPELESS = 20;
+const HOPELESS_WINDOWS = 4;
+
 /** Steps down after a slow second, and up again after some good ones. */
 export class Quality {
   #level;
@@ -20,6 +24,7 @@ export class Quality {
   #goodSince = null;
   #patience = FIRST_PATIENCE_S;
   #raisedAt = null;
+  #hopeless = 0;
 
   constructor(level = 0) {
     this.#level = level;
@@ -34,7 +39,7 @@ export class Quality {
    * Counts a drawn frame.
    *
    * @param {number} now seconds
-   * @param {number} milliseconds that drawing it took; infinite if that is not known
+   * @param {number} milliseconds that drawing it took
    * @returns {boolean} whether the share changed
    */
   drawn(now, milliseconds) {
@@ -50,9 +55,16 @@ export class Quality {
       return false;
     }
     const rate = this.#frames / seconds;
+    const isLast = this.#level + 1 === LEVELS.length;
+    this.#hopeless = isLast && rate < HOPELESS && this.#milliseconds / this.#frames >= QUICK_MS ? this.#hopeless + 1 : 0;
     const isQuick = this.#milliseconds / this.#frames < QUICK_MS;
     this.#begin(now);
     return rate >= TOO_SLOW ? this.#fast(now) : isQuick ? false : this.#slow(now);
+  }
+
+  /** Whether it has been far too slow for long, although nothing is left to give up. */
+  get isHopeless() {
+    return this.#hopeless >= HOPELESS_WINDOWS;
   }
 
   /** Forgets what was measured, as after a pause. */

@@ -13,7 +13,12 @@ export function sceneText(scene) {
 
 /** Lets the browser save a text. */
 export function download(name, content) {
-  const url = URL.createObjectURL(new Blob([content], {type: 'application/json'}));
+  saveBlob(name, new Blob([content], {type: 'application/json'}));
+}
+
+/** Lets the browser save a file. */
+export function saveBlob(name, blob) {
+  const url = URL.createObjectURL(blob);
   const link = document.createElement('a');
   link.href = url;
   link.download = name;
@@ -22,8 +27,8 @@ export function download(name, content) {
 }
 
 /** A name for a file of this scene. */
-export function fileName(scene, kind) {
-  return `${scene.scene.split('/').at(-1).replace(/\.json$/, '')}-${kind}.json`;
+export function fileName(scene, kind, ending = 'json') {
+  return `${scene.scene.split('/').at(-1).replace(/\.json$/, '')}-${kind}.${ending}`;
 }
 
 function text(value) {

@@ -1,16 +1,18 @@
 /** What follows from a SCEN message and is needed in more than one place. */
 
+import {clusterColours} from './colours.js';
+
 /** Radius of drawn water in rest distances of the fluid. */
 export const WATER_RADIUS = 0.58;
 /** The same for the surface: larger, to close gaps. */
 export const SURFACE_RADIUS = 0.85;
-/** Radius of drawn body particles in rest distances of solids; neighbours in a body are half of one apart. */
-export const BODY_RADIUS = 0.3;
-/** Width of a drawn muscle in rest distances of solids. */
-export const MUSCLE_WIDTH = 0.17;
+/** Radius of drawn body particles in spacings of the body. */
+export const BODY_RADIUS = 0.6;
+/** Width of a drawn muscle, likewise. */
+export const MUSCLE_WIDTH = 0.34;
 
 /** Distance between marks on the floor, in length units. */
-const MARK_SPACING = 0.5;
+export const MARK_SPACING = 0.5;
 /** Margin around what has no walls, in length units. */
 const MARGIN = 0.6;
 
@@ -82,6 +84,17 @@ export function tankLines({min, max, walls}) {
   return {floor: corners.map(([x, z]) => [x, y0, z]), marks, edges};
 }
 
+/** Distance of neighbouring particles in a body, length. */
+export function bodySpacing(scene) {
+  return scene.slices.length > 1 ? scene.bodyLength / (scene.slices.length - 1) : scene.solidRestDistance / 2;
+}
+
+/** All particles that are no water: of the body, of companions, of obstacles. */
+export function solids(scene) {
+  const [first, count] = scene.fluid;
+  return Array.from({length: scene.particles}, (_, i) => i).filter(i => i < first || i >= first + count);
+}
+
 /** Muscles of a scene, of several between the same particles only one. */
 export function distinctMuscles(scene) {
   return [...new Map(scene.muscles.map(muscle => [`${muscle.a} ${muscle.b}`, muscle])).values()];
@@ -92,21 +105,41 @@ export function muscleChange(muscle, frame) {
   return Math.max(-1, Math.min(1, muscle.lateral * frame.activation[muscle.actuator]));
 }
 
-/** The cluster of each body particle, in the order of `scene.body`; a joint's particles count to the one in front. */
-export function clusterOfBody(scene) {
-  const clusterOf = new Map();
-  scene.clusters.forEach((particles, cluster) => particles.forEach(particle => {
-    if (!clusterOf.has(particle)) {
-      clusterOf.set(particle, cluster);
-    }
-  }));
-  return scene.body.map(particle => clusterOf.get(particle) ?? 0);
+/** What there is to be seen in some scenes: water, muscles, bodies, others (companions and obstacles). */
+export function contents(scenes) {
+  return {
+    water: scenes.some(({fluid}) => fluid[1] > 0),
+    muscles: scenes.some(({muscles}) => muscles.length > 0),
+    bodies: scenes.some(({body}) => body.length > 0),
+    others: scenes.some(({particles, fluid, body}) => particles > fluid[1] + body.length),
+  };
 }
 
-/** Whether each body particle, in the order of `scene.body`, belongs to a joint. */
-export function jointOfBody(scene) {
-  const joint = new Set(scene.joints.flatMap(slice => scene.slices[slice]));
-  return scene.body.map(particle => joint.has(particle));
+/** Companions and obstacles. */
+const OTHER_COLOUR = [0.56, 0.62, 0.66];
+
+/**
+ * What is drawn of the particles that are no water.
+ *
+ * @returns {{colours: number[][], of: Int16Array, joint: Uint8Array}} colours of the body's clusters, from the head on, and
+ *     after them one for companions and obstacles; for each particle which colour it has, −1 for water (a joint's particles
+ *     count to the cluster in front); and whether it belongs to a joint of the body
+ */
+export function solidKinds(scene) {
+  const own = new Set(scene.body);
+  const clusters = scene.clusters.filter(particles => own.has(particles[0]));
+  const of = new Int16Array(scene.particles).fill(-1);
+  solids(scene).forEach(particle => {
+    of[particle] = own.has(particle) && clusters.length === 0 ? 0 : clusters.length;
+  });
+  clusters.toReversed().forEach((particles, behind) => particles.forEach(particle => {
+    of[particle] = clusters.length - 1 - behind;
+  }));
+  const joint = new Uint8Array(scene.particles);
+  scene.joints.forEach(slice => scene.slices[slice].forEach(particle => {
+    joint[particle] = 1;
+  }));
+  return {colours: [...clusterColours(clusters.length), OTHER_COLOUR], of, joint};
 }
 
 /** Mean place of some particles, written into `out`, which is returned. */

@@ -8,7 +8,7 @@ const NEGLIGIBLE = 1e-12;
  * The rigid motion of one cluster: the rotation that fits its particles best (Müller, Bender, Chentanez, Macklin: A Robust
  * Method to Extract the Rotational Part of Deformations, 2016), from the one before.
  */
-class ClusterMotion {
+export class ClusterMotion {
   #particles;
   #rest;
   #from = [0, 0, 0];
@@ -72,6 +72,17 @@ class ClusterMotion {
     return true;
   }
 
+  /** Adds `share` of a direction at rest (three numbers of `offsets` from `from` on), turned, to `out`, from `at` on. */
+  addTurned(offsets, from, share, out, at) {
+    const turn = this.#turn;
+    const x = share * offsets[from];
+    const y = share * offsets[from + 1];
+    const z = share * offsets[from + 2];
+    for (let axis = 0; axis < 3; axis++) {
+      out[at + axis] += turn[axis] * x + turn[3 + axis] * y + turn[6 + axis] * z;
+    }
+  }
+
   /** Adds `share` of where a place at rest is now to `out`, from `at` on. */
   add(place, share, out, at) {
     const turn = this.#turn;
@@ -91,6 +102,10 @@ export class SkinMotion {
 
   /** x, y, z of each vertex, from `update` on. */
   places;
+  /** Three vertices for each triangle, counter-clockwise as seen from outside. */
+  triangles;
+  /** For each vertex, the cluster that it goes with. */
+  cluster;
 
   /** @param {object} scene a SCEN with a skin */
   constructor(scene) {
@@ -98,6 +113,8 @@ export class SkinMotion {
     const rest = new Map(scene.body.map((particle, i) => [particle, scene.skin.rest[i]]));
     this.#clusters = scene.clusters.map(particles => new ClusterMotion(particles, particles.map(one => rest.get(one))));
     this.places = new Float32Array(3 * scene.skin.vertices.length);
+    this.triangles = Uint32Array.from(scene.skin.triangles.flat());
+    this.cluster = Int32Array.from(scene.skin.cluster);
   }
 
   update(frame) {

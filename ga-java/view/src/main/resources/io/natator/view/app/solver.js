@@ -5,12 +5,14 @@ import {sliderRow} from './sliders.js';
 
 /** What is in force where a scene does not say. */
 const DEFAULTS = {
-  substeps: 4, numIterations: 4, viscosity: 0, particleFriction: 0, dynamicFriction: 0, damping: 0, gravity: [0, -10, 0],
+  substeps: 4, numIterations: 4, solidIterations: 1, viscosity: 0, particleFriction: 0, dynamicFriction: 0, damping: 0, gravity: [0, -10, 0],
 };
 
 const SETTINGS = [
   {id: 'substeps', label: 'Substeps', title: 'per frame of 1/60 s', min: 1, max: 16, step: 1, accepts: [1, 1000]},
   {id: 'numIterations', label: 'Iterations', title: 'per substep', min: 1, max: 16, step: 1, accepts: [1, 1000]},
+  {id: 'solidIterations', label: 'Of solids', title: 'solidIterations: of springs, clusters and contacts in each iteration; scheme conserving',
+    min: 1, max: 32, step: 1, accepts: [1, 1000], scheme: 'conserving'},
   {id: 'viscosity', label: 'Viscosity', title: 'of the fluid', min: 0, max: 60, step: 0.5, accepts: [0, 10000]},
   {id: 'particleFriction', label: 'Friction', title: 'between particles: particleFriction', min: 0, max: 1, step: 0.01,
     accepts: [0, 100]},
@@ -47,7 +49,9 @@ export class SolverControls {
   show(scene) {
     const solver = {...DEFAULTS, ...scene.definition.solver};
     this.#gravity = solver.gravity;
-    for (const [id, slider] of this.#sliders) {
+    for (const {id, scheme} of SETTINGS) {
+      const slider = this.#sliders.get(id);
+      slider.disabled = scheme !== undefined && scheme !== scene.scheme;
       slider.show(id === 'gravity' ? -solver.gravity[1] : solver[id]);
     }
   }

@@ -9,14 +9,20 @@ import {Quality} from './quality.js';
 import {centreOf, tankBounds} from './scene.js';
 import {SpineTrace} from './trace.js';
 
-/** What can be chosen: water spheres, surface or none; colour speed, density or mass; drawing auto, webgl or plain. */
+/**
+ * What can be chosen: water spheres, surface or none; body skin or particles; colour speed, density, mass or none; drawing
+ * auto, webgl or plain.
+ */
 export const DEFAULT_LOOK = {
-  water: 'spheres', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
+  water: hasGraphicsCard() ? 'surface' : 'spheres', body: 'skin', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
   drawing: 'auto',
 };
 
-/** Drawings of the screen after which a picture that rests is drawn again with all its pixels. */
+/** Drawings of the screen after which a picture that rests is refined: drawn again with all its pixels, and more samples. */
 const REST = 10;
+
+/** What counts as the time of drawing where the graphics card is not done when the next drawing begins. */
+const LATE_MS = 100;
 
 /** Draws into an element when there is something new, and else does nothing. */
 export class Stage {
@@ -36,7 +42,8 @@ export class Stage {
   #last = 0;
   #isNew = true;
   #rested = 0;
-  #isRefined = false;
+  #samples = 0;
+  #isTooSlow = false;
   #share = 0;
   #width = 0;
   #height = 0;
@@ -63,6 +70,11 @@ export class Stage {
   /** The share of the screen's pixels that are drawn, along each side. */
   get share() {
     return this.#share;
+  }
+
+  /** How many samples a picture that rests has been refined by so far. */
+  get samples() {
+    return this.#samples;
   }
 
   /** What draws: WebGL or processor. */
@@ -100,7 +112,7 @@ export class Stage {
     this.#isNew = true;
   }
 
-  /** Colours as CSS: background, sky, floor, marks, edges, ink. */
+  /** Colours as CSS; see `Theme.colours`. */
   setTheme(colours) {
     this.#colours = colours;
     this.#picture?.setTheme(colours);
@@ -108,7 +120,7 @@ export class Stage {
   }
 
   /**
-   * Draws if the frame, the camera or the look changed. What rests is drawn once more with all its pixels.
+   * Draws if the frame, the camera or the look changed. What rests is refined, a sample at a time.
    *
    * @param {number} now milliseconds
    * @param {boolean} isPaused whether no frame is to come
@@ -125,32 +137,53 @@ export class Stage {
     this.rig.update(seconds, this.#host.clientWidth / this.#host.clientHeight);
     const isChanged = this.#isNew || this.rig.hasMoved;
     this.#rested = isChanged ? 0 : this.#rested + 1;
-    const isRefining = isPaused && this.#rested >= REST && this.#look.quality === 'auto' && this.#share < 1;
+    const isRefining = !isChanged && isPaused && this.#rested >= REST && this.#samples < this.#picture.samples
+        && !this.#picture.isBusy;
     if (!isChanged) {
       this.#quality.rest();
     }
     if (!isChanged && !isRefining) {
       return false;
     }
-    this.#isRefined = isRefining;
     this.#isNew = false;
     this.rig.hasMoved = false;
     const {camera} = this.rig;
     camera.updateMatrixWorld();
     const from = this.#look.cut ? this.rig.depthOfBody(camera.getWorldDirection(this.#forward)) : -Infinity;
     // A new size empties the canvas: only here, where it is drawn at once.
-    this.#fit();
+    this.#fit(isRefining);
+    if (isRefining) {
+      this.#picture.refine(this.#frame, camera, from, this.#samples++);
+      return true;
+    }
+    this.#samples = 0;
+    const isLate = this.#picture.isBusy;
     const began = performance.now();
     this.#picture.draw(this.#frame, camera, from);
-    const milliseconds = this.#picture.isDoneAtOnce ? performance.now() - began : Infinity;
-    if (this.#look.quality === 'auto' && isChanged && this.#quality.drawn(now / 1000, milliseconds)) {
+    const milliseconds = isLate ? LATE_MS : performance.now() - began;
+    if (this.#look.quality === 'auto' && this.#quality.drawn(now / 1000, milliseconds)) {
+      this.#isNew = true;
+    }
+    if (this.#quality.isHopeless && this.#look.drawing === 'auto' && this.#drawing === 'webgl') {
+      this.#isTooSlow = true;
+      this.#quality = new Quality();
+      this.#choosePicture();
       this.#isNew = true;
     }
     return true;
   }
 
+  /** Paints what is seen onto a canvas whose context counts in pixels of the page from the corner of `box` on. */
+  paintOn(context, box) {
+    if (this.#frame !== null) {
+      this.#picture.show();
+      const place = this.#host.getBoundingClientRect();
+      context.drawImage(this.#host.firstChild, place.x - box.x, place.y - box.y, place.width, place.height);
+    }
+  }
+
   #choosePicture() {
-    const wanted = this.#look.drawing === 'auto' ? hasGraphicsCard() ? 'webgl' : 'plain' : this.#look.drawing;
+    const wanted = this.#look.drawing === 'auto' ? hasGraphicsCard() && !this.#isTooSlow ? 'webgl' : 'plain' : this.#look.drawing;
     if (this.#picture !== null && wanted === this.#drawing) {
       return;
     }
@@ -179,10 +212,10 @@ export class Stage {
   }
 
   /** Gives the canvas the size and detail that hold now. */
-  #fit() {
+  #fit(isRefining) {
     const width = this.#host.clientWidth;
     const height = this.#host.clientHeight;
-    const share = this.#look.quality !== 'auto' ? Number(this.#look.quality) : this.#isRefined ? 1 : this.#quality.share;
+    const share = this.#look.quality !== 'auto' ? Number(this.#look.quality) : isRefining ? 1 : this.#quality.share;
     if (width !== this.#width || height !== this.#height || share !== this.#share) {
       this.#width = width;
       this.#height = height;

@@ -7,7 +7,7 @@ export const SPINES = 28;
 /** Places of the head kept. */
 export const HEAD_PLACES = 240;
 /** Simulated time between two of them, s. */
-const SPINE_INTERVAL = 0.1;
+export const SPINE_INTERVAL = 0.1;
 const HEAD_INTERVAL = 1 / 30;
 
 /** Rings of places that a drawing can read as they are. */

@@ -1,0 +1,34 @@
+/** What is seen on the page, in a few words, for who sees it first. */
+
+import {byId, make} from './element.js';
+
+const PARTS = [
+  ['What you see', 'A soft creature and the water around it, both made of particles and computed while you watch. Nothing is '
+    + 'animated by hand: muscles in the body get shorter and longer to a rhythm, its gait, and all else follows. The gait was '
+    + 'evolved, or is set with the sliders.'],
+  ['The water', 'Each particle stands for a small cube of water. “Surface” lays a smooth surface around them, with light that '
+    + 'is bent, taken up and mirrored: a picture, not a measurement; it is bluer than so little water would be. “Spheres” '
+    + 'shows the particles themselves. Colours and their units are in the legend.'],
+  ['The body', 'Its skin is the mesh that it was made of, or a smooth surface around its particles. Blue is where muscles '
+    + 'shorten, orange where they lengthen; with muscles off the colours are its clusters, from the head to the tail. '
+    + 'Lines show where the spine and the head have been.'],
+  ['Vacuum', 'The same body and gait without water, gravity and walls. Nothing pushes back there, so a real swimmer cannot '
+    + 'get anywhere. What still moves forwards does so by an error of the method, not by swimming.'],
+  ['Schemes', '“conserving” keeps momentum to rounding and is meant for swimming as physics. “flex” moves particles as NVIDIA '
+    + 'Flex does, to repeat work made with it; momentum is not kept there, and bodies move even in vacuum.'],
+  ['The charts', 'Only those that the scene has something for. Speed is given in body lengths per second, over a beat; the '
+    + 'envelope is how far the spine moves sideways, beside those of real fish.'],
+];
+
+/** A panel that a button (id `about-open`) opens; gives the function that opens it. */
+export function about() {
+  const close = make('button', {className: 'primary', textContent: 'Close'});
+  const title = make('h2', {id: 'about-title', textContent: 'About this'});
+  const dialog = make('dialog', {id: 'about', 'aria-labelledby': 'about-title', 'data-testid': 'about'}, title,
+      ...PARTS.flatMap(([name, text]) => [make('h3', {textContent: name}), make('p', {textContent: text})]),
+      make('form', {method: 'dialog'}, close));
+  document.body.append(dialog);
+  const open = () => dialog.showModal();
+  byId('about-open').addEventListener('click', open);
+  return open;
+}

@@ -1,0 +1,52 @@
+/** Passes over the whole screen: a fragment shader that reads textures and writes a target. */
+
+import * as THREE from 'three';
+
+const VERTEX = `
+  out vec2 place;
+  void main() {
+    place = uv;
+    gl_Position = vec4(position.xy, 0.0, 1.0);
+  }`;
+
+const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
+const world = new THREE.Scene();
+const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2));
+quad.frustumCulled = false;
+world.add(quad);
+
+/** One fragment shader (GLSL ES 3) with `in vec2 place`, 0 to 1 over the target; `uniforms` are its own, by name. */
+export class Pass {
+  #material;
+
+  /** `blending` is one of three.js; none unless given. */
+  constructor(fragmentShader, values, blending = THREE.NoBlending) {
+    this.#material = new THREE.ShaderMaterial({
+      vertexShader: VERTEX, fragmentShader: `precision highp float;\nin vec2 place;\n${fragmentShader}`,
+      uniforms: Object.fromEntries(Object.entries(values).map(([name, value]) => [name, {value}])),
+      glslVersion: THREE.GLSL3, blending, transparent: blending !== THREE.NoBlending, depthTest: false, depthWrite: false,
+    });
+  }
+
+  get uniforms() {
+    return this.#material.uniforms;
+  }
+
+  /** Writes all of `target`, or of the canvas if that is null. */
+  draw(renderer, target) {
+    quad.material = this.#material;
+    renderer.setRenderTarget(target);
+    renderer.render(world, camera);
+  }
+
+  dispose() {
+    this.#material.dispose();
+  }
+}
+
+/** A target without a depth buffer unless `options` say so; nearest texels. */
+export function target(width, height, options) {
+  return new THREE.WebGLRenderTarget(Math.max(1, width), Math.max(1, height), {
+    minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter, depthBuffer: false, generateMipmaps: false, ...options,
+  });
+}
