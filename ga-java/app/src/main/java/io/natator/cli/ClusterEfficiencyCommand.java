@@ -119,8 +119,8 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
             if (!Files.exists(times)) {
                 measure(times);
             }
-            Assumptions cluster = new Assumptions(MILLISECOND * perPart, MILLISECOND * perEvaluation, MILLISECOND * latency, MILLISECOND * perGeneration,
-                    failures, restart, slowShare, slowFactor, true);
+            Assumptions cluster = new Assumptions(MILLISECOND * perPart, MILLISECOND * perEvaluation, MILLISECOND * latency,
+                    MILLISECOND * perGeneration, failures, restart, slowShare, slowFactor, true);
             spec.commandLine().getOut().println(new ClusterStudy(cluster, EvaluationTimes.read(times), seed)
                     .writeTo(directory, CommandText.of(spec, List.of("--simulator-path"))));
         } catch (IOException e) {

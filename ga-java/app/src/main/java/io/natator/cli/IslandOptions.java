@@ -37,8 +37,16 @@ final class IslandOptions {
             }
             return null;
         }
+        checkLeast("--migrate-every", every, 1);
+        checkLeast("--migrants", migrants, 0);
         int usual = settings.generations() < 2 * EVERY ? Math.max(1, settings.generations() / 2) : EVERY;
         return new Archipelago.Plan(settings, islands, every != null ? every : usual,
                 migrants != null ? migrants : Math.max(1, settings.population() / SHARE));
+    }
+
+    private static void checkLeast(String name, Integer value, int least) {
+        if (value != null && value < least) {
+            throw new InvalidInputException(name + " is " + value + "; expected a whole number from " + least);
+        }
     }
 }

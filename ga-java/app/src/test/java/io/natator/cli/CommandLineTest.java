@@ -159,10 +159,10 @@ class CommandLineTest {
         "--islands 2000 | --islands is 2000; expected a whole number from 1 to 1024",
         "--migrants 2 | --migrants is for several islands; expected --islands with it, from 2",
         "--islands 1 --migrate-every 2 | --migrate-every is for several islands; expected --islands with it, from 2",
-        "--islands 3 --migrate-every 0 | generations between exchanges is 0; expected a whole number from 1 to 2147483647",
+        "--islands 3 --migrate-every 0 | --migrate-every is 0; expected a whole number from 1",
         "--islands 3 --migrate-every 3 | generations between exchanges are 3; expected fewer than the run's 3, or no migrants",
         "--islands 3 --migrants 8 | migrants are 8; expected fewer than the population, 8",
-        "--islands 3 --migrants -1 | migrants are -1; expected a whole number from 0",
+        "--islands 3 --migrants -1 | --migrants is -1; expected a whole number from 0",
         "--islands 3 --optimizer cma-es | optimizer cma-es takes no migrants; expected jgap, or islands without migrants",
         "--islands 3 --optimizer random | optimizer random takes no migrants; expected jgap, or islands without migrants"})
     void islandsThatCannotBeAreRefusedInOneLine(String options, String message) {

@@ -46,7 +46,6 @@ public record Archipelago(Path directory, Plan plan) {
             if (islands < 2 || islands > Limits.AT_ONCE) {
                 throw new InvalidInputException("islands are " + islands + "; expected a whole number from 2 to " + Limits.AT_ONCE);
             }
-            Limits.checkCount("generations between exchanges", every, Integer.MAX_VALUE);
             if (migrants < 0) {
                 throw new InvalidInputException("migrants are " + migrants + "; expected a whole number from 0");
             }

@@ -23,7 +23,9 @@ public record Migration(int islands, int island, int every, int migrants) {
         if (island < 1 || island > islands) {
             throw new InvalidInputException("island is " + island + "; expected a whole number from 1 to " + islands);
         }
-        Limits.checkCount("generations between exchanges", every, Integer.MAX_VALUE);
+        if (every < 1) {
+            throw new InvalidInputException("generations between exchanges are " + every + "; expected a whole number from 1");
+        }
         Limits.checkCount("migrants", migrants, Limits.POPULATION);
     }
 
