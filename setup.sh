@@ -9,13 +9,9 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
   --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there
   --readers also what the tests read exports back and try the Python client with: pyvista, plyfile, USD, numpy,
-<<<<<<< HEAD
             gymnasium and pycma, from PyPI into .readers (1 GB); and valgrind, in which they run the program on a
             processor without AVX-512
-=======
-            gymnasium and pycma, from PyPI into .readers (1 GB)
   --tidy    also what .ci/tidy looks for mistakes with: clang-tidy
->>>>>>> b9bfb1e (clang-tidy looks over the library in CI, in three pieces that share their headers; what it found is mended)
 TEXT
 }
 
@@ -133,11 +129,8 @@ find_missing() {
         installed "$library" || missing+=("$library")
     done
     $with_browser && ! browser_works && missing+=(chromium)
-<<<<<<< HEAD
     $with_readers && ! command -v valgrind >/dev/null && missing+=(valgrind)
-=======
     $with_tidy && ! command -v clang-tidy >/dev/null && missing+=(clang-tidy)
->>>>>>> b9bfb1e (clang-tidy looks over the library in CI, in three pieces that share their headers; what it found is mended)
     nvcc_missing=false
     if $with_cuda && ! nvcc_works; then
         nvcc_missing=true
