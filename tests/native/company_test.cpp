@@ -108,7 +108,7 @@ TEST(Company, AMeshIsAnObstacleOfItsForm) {
     const auto hoop = [](const json& keys) {
         json obstacle{{"shape", "mesh"}, {"file", "hoop.obj"}, {"unit", 0.5}, {"centre", {3, 1, 0.8}}};
         obstacle.update(keys);
-        return load_scene("open-water/water", {{"obstacles", {obstacle}}}).obstacles.at(0);
+        return load_scene("open-water/water", json{{"obstacles", json::array({obstacle})}}).obstacles.at(0);
     };
     const Obstacle along_x = hoop(json::object());
     const double tube = 0.28 * 0.5, volume = 2 * std::pow(std::numbers::pi, 2) * 0.5 * tube * tube;
@@ -134,7 +134,7 @@ TEST(Company, AnObstacleFromAMeshIsInTheModelAndInTheDefinition) {
     EXPECT_EQ(fixed, scene.obstacles.at(0).points.size());
     const json definition = scene_definition("company/hoop", json::object());
     EXPECT_EQ(definition["obstacles"][0]["digest"].get<std::string>().size(), 16u);
-    const json changed{{"obstacles", {{{"shape", "mesh"}, {"file", "hoop.obj"}, {"digest", "0"}, {"centre", {3, 1, 1}}}}}};
+    const json changed{{"obstacles", json::array({{{"shape", "mesh"}, {"file", "hoop.obj"}, {"digest", "0"}, {"centre", {3, 1, 1}}}})}};
     EXPECT_THROW(load_scene("company/hoop", changed), InputError);
 }
 
