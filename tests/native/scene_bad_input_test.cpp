@@ -111,7 +111,7 @@ const BadInput bad_scenes[] = {
     {R"({"obstacles":[{"shape":"mesh","file":"none.obj","centre":[1,1,1]}]})", "obstacles[0].file: \"none.obj\"", "no such file"},
     {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[1,1,1],"unit":0.01}]})", "obstacles[0].file: \"hoop.obj\"", "spacings"},
     {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[1,1,1],"joints":[0.5]}]})", "obstacles[0].joints", "unknown"},
-    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[0.6,0.6,0.6],"unit":0.3}]})", "creature overlaps obstacles[0]", "must be apart"},
+    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[0.6,0.3,0.6],"unit":0.3}]})", "creature overlaps obstacles[0]", "must be apart"},
     {R"({"obstacles":[{"shape":"box","centre":[1,1,1],"radius":1}]})", "obstacles[0].radius", "unknown"},
     {R"({"obstacles":[{"shape":"sphere","centre":[1,1,1]}]})", "obstacles[0].radius", "missing"},
     {R"({"obstacles":[{"shape":"sphere","centre":[0.6,0.6,0.6],"radius":0.2}]})", "creature overlaps obstacles[0]", "must be apart"},

@@ -18,6 +18,7 @@ from schemas import FILES, ROOT, validator
 NAMES = ["scene.schema.json", "creature.schema.json", "gait.schema.json"]
 LIMITS = ["minimum", "maximum", "exclusiveMinimum", "minItems", "maxItems", "enum", "const", "pattern", "type"]
 
+HOOP = str(ROOT / "sim-native/creatures/hoop.obj")
 GAIT = {"$schema": "gait.schema.json", "frequency": 1, "amplitude": [0.5, 0.5], "phase": [0, 0.5], "offset": [0.1, 0],
         "power": 1}
 BODY = {"name": "short", "description": "Short.", "slices": [{"height": 3, "width": 3, "count": 9}], "joints": [2, 4, 6],
@@ -43,7 +44,10 @@ SCENES = {
                   {"measure": "reach", "target": [1, 0, 0], "weight": 1}],
         "companions": [{"creature": {"name": "eel"}, "gait": {"frequency": 1, "amplitude": [1], "phase": [0]}}],
         "obstacles": [{"shape": "sphere", "centre": [2, 1, 1], "radius": 0.1, "spacing": 0.05},
-                      {"shape": "box", "centre": [3, 1, 1], "size": [0.1, 0.1, 0.2], "spacing": 0.05}]},
+                      {"shape": "box", "centre": [3, 1, 1], "size": [0.1, 0.1, 0.2], "spacing": 0.05},
+                      {"shape": "mesh", "centre": [4, 1, 1], "file": HOOP, "unit": 0.5, "forward": "x", "up": "y",
+                       "digest": "DIGEST"},
+                      {"shape": "mesh", "centre": [5, 1, 1], "file": HOOP, "length": 0.3}]},
     "a profile of numbers in a moving tank": {
         "base": "pool/water", "movingTank": {"along": "xz", "step": 0.4, "current": [0.1, 0, -0.1]},
         "creature": {"profile": {"length": 1.2, "height": 0.3, "width": 0.2, "joints": [0.3, 0.5]}, "bend": ["sideways"]}},
@@ -65,6 +69,11 @@ SCENES = {
 def simulate(arguments, text=""):
     done = subprocess.run([simulator_path(), *arguments], input=text, capture_output=True, text=True)
     return None if done.returncode == 0 else done.stderr.strip().removeprefix("natator-sim: ")
+
+
+def definition(scene):
+    """A bundled scene with all that it is built on."""
+    return json.loads(subprocess.run([simulator_path(), "info", scene, "--definition"], capture_output=True, check=True).stdout)
 
 
 def read_scene(document):
@@ -165,10 +174,9 @@ def complaint(message):
 class FileSchemaTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        definition = subprocess.run([simulator_path(), "info", "pool/ray", "--definition"], capture_output=True, check=True)
         cls.scenes = copy.deepcopy(SCENES)
-        digest = json.loads(definition.stdout)["creature"]["mesh"]["digest"]
-        cls.scenes["a mesh by its unit"]["creature"]["mesh"]["digest"] = digest
+        cls.scenes["a mesh by its unit"]["creature"]["mesh"]["digest"] = definition("pool/ray")["creature"]["mesh"]["digest"]
+        cls.scenes["all of slices, goals and company"]["obstacles"][2]["digest"] = definition("company/hoop")["obstacles"][0]["digest"]
         cls.specimens = [(NAMES[0], document, read_scene, "") for document in cls.scenes.values()]
         cls.specimens.append((NAMES[1], {"$schema": "creature.schema.json", "slices": BODY["slices"], "joints": [4]},
                               read_creature, "creature."))

@@ -1,7 +1,9 @@
 package io.natator.view;
 
-import io.natator.checkpoint.StoredRun;
-import io.natator.config.EvolutionSettings;
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.Json;
+import io.natator.encoding.Gait;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -10,7 +12,7 @@ import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.params.ParameterizedTest;
-import org.junit.jupiter.params.provider.ValueSource;
+import org.junit.jupiter.params.provider.CsvSource;
 
 /**
  * Makes the pictures of the page in {@code results/pictures}; see the README there. No test of the suite: it runs only
@@ -19,7 +21,8 @@ import org.junit.jupiter.params.provider.ValueSource;
 class PagePictures extends BrowserTest {
 
     private static final Path RESULTS = Path.of("..", "..", "results");
-    private static final int FRAMES = 180;
+    private static final Path GAITS = Path.of("..", "..", "sim-native", "examples", "gaits");
+    private static final int FRAMES = 90;
 
     private static final List<ViewServer> SERVERS = new ArrayList<>();
     private String authority;
@@ -35,26 +38,27 @@ class PagePictures extends BrowserTest {
         return address.getScheme().matches("blob|data") || authority.equals(address.getAuthority());
     }
 
-    /** The gaits that results/thesis/README.md names as best evolved in scheme conserving. */
+    /** What is drawn: the name of the picture, a scene, and a gait of sim-native/examples/gaits. */
     @ParameterizedTest
-    @ValueSource(strings = {"creature-1/conserving/seed-1", "creature-2/conserving/seed-3", "creature-3/conserving/seed-2",
-        "creature-4/conserving/seed-1"})
-    void aCreatureSwims(String name) throws Exception {
-        Path run = RESULTS.resolve("thesis").resolve("runs").resolve(name);
-        EvolutionSettings settings = StoredRun.settings(run);
-        InitialScene start = new InitialScene(settings.scene(),
-                InitialScene.patch(settings.overrides(), settings.scheme()),
-                StoredRun.best(run).gait());
-        ViewSettings view = new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0, start, scene -> null,
-                List.of(run));
-        ViewServer server = new ViewServer(view);
+    @CsvSource({"creature-2, open-water/creature-2, fish-like", "evolved-eel, endless/evolved-eel, evolved-eel",
+        "hoop, company/hoop, fish-like", "school, company/school, fish-like"})
+    void aCreatureSwims(String name, String scene, String gait) throws Exception {
+        ObjectNode keys = (ObjectNode) Json.read(GAITS.resolve(gait + ".json"), JsonNode.class, "gait");
+        keys.remove("$schema");
+        InitialScene start = new InitialScene(scene, null, Json.tree(keys, Gait.class));
+        ViewServer server = new ViewServer(new ViewSettings(ViewFixture.SIMULATOR, ViewSettings.LOOPBACK, 0, start, one -> null,
+                List.of()));
         SERVERS.add(server);
         authority = server.address().getAuthority();
+        page.setViewportSize(1400, 900);
         page.navigate(server.address().toString());
         await("window.natator && natator.frame() >= " + FRAMES);
         get("run").click();
-        awaitDrawings(30);
-        String file = "page-" + name.substring(0, name.indexOf('/'));
+        get("trace").uncheck();
+        get("water-surface").click();
+        get("drawing").selectOption("webgl");
+        await("natator.samples() === 16");
+        String file = "page-" + name;
         keepPicture(file);
         Files.move(Path.of("target", "screenshots", file + ".png"), RESULTS.resolve("pictures").resolve(file + ".png"),
                 StandardCopyOption.REPLACE_EXISTING);
