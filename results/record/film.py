@@ -12,6 +12,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 UNIT, WIDTH, HEIGHT = 96, 900, 300  # pixels a length; pixels
+STEP = 0.4  # of the moving tank, length
 VIEWS = ((2, 80, "from above"), (1, 220, "from the side"))  # axis that is drawn downwards, its middle, its name
 PAPER, INK, BODY = "#fbfcfd", "#5b6770", "#1f6f8b"
 
@@ -29,9 +30,16 @@ def draw(frame, time, across):
     return picture
 
 
+def over_ground(centres):
+    """What to add to places in the moving tank, [frames, 3]: all steps that it took back so far."""
+    taken_back = np.round(np.diff(centres, axis=0) / STEP) * STEP
+    return -np.vstack([np.zeros(3), np.cumsum(taken_back, axis=0)])
+
+
 def main(folder, picture):
     swim = np.load(pathlib.Path(folder) / "swim.npz")
     positions, times = swim["position"].astype(float), swim["time"]
+    positions += over_ground(positions.mean(axis=1))[:, None, :]
     positions[:, :, 0] -= positions[0, :, 0].min() - 0.1
     across = positions[0].mean(axis=0)
     frames = [draw(frame, time, across).quantize(16) for frame, time in zip(positions, times)]
