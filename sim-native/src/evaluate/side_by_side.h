@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <thread>
@@ -11,7 +12,7 @@ namespace natator {
 
 /// Calls work(0) .. work(count - 1) on as many threads as there are processors, at most `most`. Throws what one of the calls
 /// threw, after all threads have ended.
-inline void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work, std::size_t most = 1 << 10) {
+inline void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work, std::size_t most = SIZE_MAX) {
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     std::atomic<std::size_t> next = 0;
     std::vector<std::future<void>> workers;
@@ -19,8 +20,7 @@ inline void side_by_side(std::size_t count, const std::function<void(std::size_t
         workers.push_back(std::async(std::launch::async, [&] {
             for (std::size_t one = next++; one < count; one = next++) work(one);
         }));
-    for (std::future<void>& worker : workers) worker.wait();
-    for (std::future<void>& worker : workers) worker.get();
+    for (std::future<void>& worker : workers) worker.get();  // if this throws, the futures left wait for their threads
 }
 
 }  // namespace natator

@@ -12,19 +12,6 @@ const json& checked_array(const json& value, const Place& place, std::size_t mos
     return value;
 }
 
-/// Keys of an obstacle's extent, by its shape; the first is given for spheres and boxes, and all belong to a mesh.
-std::vector<std::string_view> extent_keys(Obstacle::Shape shape) {
-    switch (shape) {
-        case Obstacle::Shape::sphere:
-            return {"radius"};
-        case Obstacle::Shape::box:
-            return {"size"};
-        case Obstacle::Shape::mesh:
-            break;
-    }
-    return {"file", "digest", "unit", "length", "forward", "up"};
-}
-
 Obstacle read_obstacle(const json& value, const Place& place, const std::filesystem::path& data) {
     static const std::vector<Field<Obstacle>> table = {
         {"centre", &Obstacle::centre, {-10000, 10000, false, "length"}},
@@ -35,19 +22,20 @@ Obstacle read_obstacle(const json& value, const Place& place, const std::filesys
     obstacle.shape = read_choice<Obstacle::Shape>(
         required(value, place, "shape"), place.key("shape"),
         {{"sphere", Obstacle::Shape::sphere}, {"box", Obstacle::Shape::box}, {"mesh", Obstacle::Shape::mesh}});
-    const std::vector<std::string_view> extent = extent_keys(obstacle.shape);
-    std::vector<std::string_view> others = extent;
-    others.push_back("shape");
+    const bool is_mesh = obstacle.shape == Obstacle::Shape::mesh;
+    const char* extent = is_mesh ? "file" : obstacle.shape == Obstacle::Shape::sphere ? "radius" : "size";
+    std::vector<std::string_view> others = is_mesh ? mesh_keys : std::vector<std::string_view>{extent};
+    others.emplace_back("shape");
     read_object(value, place, table, others, obstacle);
     required(value, place, "centre");
-    const json& size = required(value, place, extent.front().data());
+    const json& size = required(value, place, extent);
     const Range length{0, 10000, true, "length"};
-    if (obstacle.shape == Obstacle::Shape::sphere)
-        read(size, place.key(extent.front().data()), length, obstacle.radius);
-    else if (obstacle.shape == Obstacle::Shape::box)
-        read(size, place.key(extent.front().data()), length, obstacle.size);
-    else
+    if (is_mesh)
         obstacle.points = read_mesh_points(value, place, data, obstacle.spacing);
+    else if (obstacle.shape == Obstacle::Shape::sphere)
+        read(size, place.key(extent), length, obstacle.radius);
+    else
+        read(size, place.key(extent), length, obstacle.size);
     return obstacle;
 }
 

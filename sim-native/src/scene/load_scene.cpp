@@ -20,14 +20,19 @@ void place_mesh(json& mesh, const std::string& name) {
     if (file.is_relative()) mesh["file"] = ((folder.empty() ? "." : folder) / file).string();
 }
 
+/// The array under a key of a document; null if there is none. The readers refuse what is something else.
+json* array_in(json& document, const char* key) {
+    return document.contains(key) && document.at(key).is_array() ? &document.at(key) : nullptr;
+}
+
 /// A scene file merged onto the scene that its `base` names, and so on.
 json with_bases(const std::string& name, const std::filesystem::path& data, int level) {
     const Place place{"scene " + quoted(name), ""};
     json document = read_data_file("scenes", name, data);
     if (!document.is_object()) fields::refuse(place, document, "an object");
     fields::drop_schema_key(document, place);
-    if (document.contains("obstacles") && document.at("obstacles").is_array())
-        for (json& obstacle : document.at("obstacles")) place_mesh(obstacle, name);
+    if (json* const obstacles = array_in(document, "obstacles"))
+        for (json& obstacle : *obstacles) place_mesh(obstacle, name);
     if (!document.contains("base")) return document;
 
     const json base = document.at("base");
@@ -97,20 +102,17 @@ json scene_definition(const std::string& name, const json& overrides, const std:
     document.merge_patch(overrides);
     resolve_creature(document, place.key("creature"), data);
     add_mesh_digest(document, place.key("creature"), data);
-    if (document.contains("companions") && document.at("companions").is_array()) {
-        json& companions = document.at("companions");
-        for (std::size_t k = 0; k < companions.size(); ++k) {
-            if (!companions[k].is_object()) continue;
+    if (json* const companions = array_in(document, "companions"))
+        for (std::size_t k = 0; k < companions->size(); ++k) {
+            json& companion = companions->at(k);
+            if (!companion.is_object()) continue;
             const Place at = place.key("companions").item(k).key("creature");
-            resolve_creature(companions[k], at, data);
-            add_mesh_digest(companions[k], at, data);
+            resolve_creature(companion, at, data);
+            add_mesh_digest(companion, at, data);
         }
-    }
-    if (document.contains("obstacles") && document.at("obstacles").is_array()) {
-        json& obstacles = document.at("obstacles");
-        for (std::size_t k = 0; k < obstacles.size(); ++k)
-            add_digest(obstacles[k], place.key("obstacles").item(k), data);
-    }
+    if (json* const obstacles = array_in(document, "obstacles"))
+        for (std::size_t k = 0; k < obstacles->size(); ++k)
+            add_digest(obstacles->at(k), place.key("obstacles").item(k), data);
     return document;
 }
 

@@ -91,9 +91,6 @@ auto of_file(const Place& place, const std::string& file, const F& function) {
     }
 }
 
-/// Keys of a mesh's file, its scale and its axes.
-const std::vector<std::string_view> mesh_keys{"file", "digest", "unit", "length", "forward", "up"};
-
 /// A mesh as its file has it but for its axes, and what a Skin says of the file.
 struct TurnedMesh {
     TriangleMesh mesh;  ///< x forward, y up, z right, in units of the file

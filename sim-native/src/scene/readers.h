@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
+#include <vector>
 
 #include "field.h"
 #include "natator/scene.h"
@@ -20,6 +22,9 @@ std::vector<Goal> read_goals(const json& value, const Place& place);
 
 /// Gives a creature whose spacing is known the slices and joints of a profile.
 void read_profile(const json& value, const Place& place, Creature& creature);
+
+/// Keys of a mesh's file, its scale and its axes.
+inline const std::vector<std::string_view> mesh_keys{"file", "digest", "unit", "length", "forward", "up"};
 
 /// Gives a creature whose spacing is known the slices, the joints and the skin of a mesh.
 void read_mesh_body(const json& value, const Place& place, const std::filesystem::path& data, Creature& creature);

@@ -62,20 +62,14 @@ export class GlFluidSmooth {
    * @param {number} pixels that a spacing has at a middle depth
    */
   draw(renderer, first, second, spacing, pixels) {
-    const {source, along, range} = this.#pass.uniforms;
     const wanted = Math.max(1, WIDTH * pixels);
     // Variances add up: after n rounds the width is sqrt((4^n - 1) / 3).
     const rounds = Math.min(MOST_ROUNDS, Math.max(1, Math.round(Math.log2(3 * wanted * wanted + 1) / 2)));
-    range.value = RANGE * spacing;
+    this.#pass.uniforms.range.value = RANGE * spacing;
     for (let round = -1; round < rounds; round++) {
       // Wide ones first; the narrow one is done again at the end, against what the gaps of the wide ones leave.
       const stride = round < 0 ? 1 : 2 ** (rounds - 1 - round);
-      source.value = first.texture;
-      along.value.set(stride / first.width, 0);
-      this.#pass.draw(renderer, second);
-      source.value = second.texture;
-      along.value.set(0, stride / first.height);
-      this.#pass.draw(renderer, first);
+      this.#pass.filter(renderer, first, second, stride);
     }
   }
 

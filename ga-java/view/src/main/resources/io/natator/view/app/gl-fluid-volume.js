@@ -103,14 +103,8 @@ export class GlFluidVolume {
     renderer.setClearColor(this.#clear, 0);
     renderer.clear();
     renderer.render(this.#world, camera);
-    const {source, along} = this.#blur.uniforms;
     for (const stride of [1, 2]) {
-      source.value = first.texture;
-      along.value.set(stride / first.width, 0);
-      this.#blur.draw(renderer, second);
-      source.value = second.texture;
-      along.value.set(0, stride / first.height);
-      this.#blur.draw(renderer, first);
+      this.#blur.filter(renderer, first, second, stride);
     }
   }
 

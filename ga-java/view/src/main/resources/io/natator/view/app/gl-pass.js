@@ -39,6 +39,17 @@ export class Pass {
     renderer.render(world, camera);
   }
 
+  /** Filters `first` across and then down, by way of `second`; a step is so many texels. For uniforms `source` and `along`. */
+  filter(renderer, first, second, stride) {
+    const {source, along} = this.uniforms;
+    source.value = first.texture;
+    along.value.set(stride / first.width, 0);
+    this.draw(renderer, second);
+    source.value = second.texture;
+    along.value.set(0, stride / first.height);
+    this.draw(renderer, first);
+  }
+
   dispose() {
     this.#material.dispose();
   }
