@@ -101,6 +101,7 @@ TEST_F(GpuTasks, GoalsAndOffsetsAreTheCpus) {
 TEST_F(GpuTasks, CompanionsAndObstaclesAreTheCpus) {
     compare("company/school", nlohmann::json::object());
     compare("company/pillars", nlohmann::json::object());
+    compare("company/hoop", nlohmann::json::object());
 }
 
 }  // namespace

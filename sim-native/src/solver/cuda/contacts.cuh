@@ -50,6 +50,7 @@ __device__ Quad<Real> far_away() {
 }
 
 constexpr int pair_lanes = 8;  ///< threads that share the pairs of a slot
+constexpr int slots_of_warp = 32 / pair_lanes;
 
 /// The sum over the threads that share a slot, the same in all of them.
 template <class Real>

@@ -116,9 +116,20 @@ namespace {
 template <class Real>
 Reflection<Real> reflected(const Reflection<Real>& first, const physics::PlaneSurface<Real>& mirror) {
     const Vec3<Real>& n = mirror.normal;
-    const Vec3<Real> along = n.x * first.turn[0] + n.y * first.turn[1] + n.z * first.turn[2];
-    return {{first.turn[0] - 2 * n.x * along, first.turn[1] - 2 * n.y * along, first.turn[2] - 2 * n.z * along},
-            first.shift - 2 * (dot(n, first.shift) + mirror.offset) * n};
+    const Real component[3] = {n.x, n.y, n.z};
+    Quad<Real> along{0, 0, 0, mirror.offset};
+    for (int k = 0; k < 3; ++k) {
+        const Quad<Real>& row = first.row[k];
+        const Real part = component[k];
+        along = {along.x + part * row.x, along.y + part * row.y, along.z + part * row.z, along.w + part * row.w};
+    }
+    Reflection<Real> both = first;
+    for (int k = 0; k < 3; ++k) {
+        Quad<Real>& row = both.row[k];
+        const Real twice = 2 * component[k];
+        row = {row.x - twice * along.x, row.y - twice * along.y, row.z - twice * along.z, row.w - twice * along.w};
+    }
+    return both;
 }
 
 }  // namespace
@@ -147,7 +158,7 @@ void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
     water.volume = keep(volume_, volume);
 
     std::vector<Reflection<Real>> reflections(std::size_t(1) << view_.planes);
-    reflections[0] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+    reflections[0] = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     for (int planes = 1; planes < 1 << view_.planes; ++planes) {
         const int last = std::bit_width(static_cast<unsigned>(planes)) - 1;
         reflections[planes] = reflected(reflections[planes ^ 1 << last], view_.plane[last].surface);

@@ -81,8 +81,7 @@ inline constexpr int most_planes = 16;
 /// x -> turn x + shift: one or more mirrors, one behind the other.
 template <class Real>
 struct Reflection {
-    Vec3<Real> turn[3];  ///< rows
-    Vec3<Real> shift;
+    Quad<Real> row[3];  ///< of the turn; w: of the shift
 };
 
 /// The water of scheme `conserving`. Mirrors are planes without friction: what is beyond is the ghost of what is before them.
@@ -99,7 +98,7 @@ struct WaterModel {
     const Reflection<Real>* reflection;  ///< by set of planes
     int most_copies;                     ///< of a particle: itself and its ghosts
 };
-inline constexpr int most_mirrors = 6;      ///< of a set, three at once
+inline constexpr int most_mirrors = 6, most_mirrors_at_once = 3;
 inline constexpr int most_slot_bits = 26;   ///< the rest of 32 bits is a set of planes
 
 /// A Model in device memory. Particles are numbered anew: first the fluid, then the solids, each in the Model's order.

@@ -18,7 +18,7 @@ __device__ bool left_out(const Slots<Real>& slots) {
     return states == Of::running && slots.failed();
 }
 
-// The kernels of a large State are these two: what they do is a device function. The y of the grid is the State's number.
+// The kernels of a large State are these three: what they do is a device function. The y of the grid is the State's number.
 // Of 0 least blocks nothing is asked: of 1, the compiler would take as many registers as one block may have.
 
 /// Calls work(model, slots, s, more...) for the slots s below `count`, by `lanes` threads each.
@@ -29,6 +29,17 @@ __global__ void __launch_bounds__(block, least_blocks)
     const Slots<Real> slots = states.state(blockIdx.y);
     const int s = own_index() / lanes;
     if (s < count && !left_out<which>(slots)) work(model, slots, s, more...);
+}
+
+/// The same by a grid of any size.
+template <auto work, Of which, int lanes, int block, class Real>
+__global__ void __launch_bounds__(block)
+    for_each_slot_in_turn(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
+                          int count) {
+    const Slots<Real> slots = states.state(blockIdx.y);
+    if (left_out<which>(slots)) return;
+    const int step = static_cast<int>(gridDim.x * blockDim.x) / lanes;
+    for (int s = own_index() / lanes; s < count; s += step) work(model, slots, s);
 }
 
 /// Calls work(model, slots, more...) by every thread.

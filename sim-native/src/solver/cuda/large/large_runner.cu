@@ -96,8 +96,7 @@ void LargeRunner<Real>::allocate() {
     slots.at.shared = shared_.data();
     device_idle_ = DeviceBuffer<int>(idle_);
     slots.at.idle = device_idle_.data();
-    base_.scan_bytes = scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells));
-    scan_room_ = DeviceBuffer<char>(base_.scan_bytes);
+    scan_room_ = DeviceBuffer<char>(scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells), base_.states));
     base_.scan_room = scan_room_.data();
     // A lattice has 4/3 pi (R/s)^3; solids and crowds have more, and then there is made more room.
     if (plan.water) make_room(static_cast<int>(5 * std::pow(host_model_.parameters.kernelSupport, 3)));
@@ -108,7 +107,8 @@ template <class Real>
 void LargeRunner<Real>::make_room(int neighbours) {
     neighbours = (neighbours + pair_lanes - 1) / pair_lanes * pair_lanes;
     WaterArrays<Real>& water = base_.slots.water;
-    const std::size_t of_state = static_cast<std::size_t>(base_.model.particles) * neighbours;
+    const std::size_t slots = static_cast<std::size_t>(blocks_for(base_.model.particles, slots_of_warp)) * slots_of_warp;
+    const std::size_t of_state = slots * neighbours;
     const std::size_t entries = of_state * base_.states;
     graphs_.clear();  // they know the old place
     neighbour_room_ = {};
@@ -117,7 +117,7 @@ void LargeRunner<Real>::make_room(int neighbours) {
     neighbour_room_ = DeviceBuffer<unsigned>(entries);
     water.neighbour = neighbour_room_.data();
     pair_room_ = {};
-    pair_room_ = DeviceBuffer<Quad<Real>>(entries);
+    pair_room_ = DeviceBuffer<PairGradient<Real>>(entries);
     water.pair = pair_room_.data();
 }
 

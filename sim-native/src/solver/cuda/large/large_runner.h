@@ -98,7 +98,7 @@ private:
     DeviceBuffer<char> memory_, scan_room_;
     DeviceBuffer<LargeShared<Real>> shared_;
     DeviceBuffer<unsigned> neighbour_room_;
-    DeviceBuffer<Quad<Real>> pair_room_;
+    DeviceBuffer<PairGradient<Real>> pair_room_;
     struct {
         DeviceBuffer<Quad<Real>> position, velocity;
         DeviceBuffer<ClusterFit<Real>> fit;

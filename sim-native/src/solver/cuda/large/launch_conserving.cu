@@ -19,9 +19,13 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void each_particle() const {
         launch.template each_particle<work>();
     }
-    template <auto work>
-    void each_pair() const {
-        launch.template each_slot<work, pair_lanes>(model.particles);
+    /// So many blocks of floats shall fit on a multiprocessor: kernels that wait for memory want to be many.
+    template <int at_once>
+    static constexpr int least_blocks = std::is_same_v<Real, float> ? at_once : 0;
+
+    template <auto work, int at_once = 0, class... More>
+    void each_pair(More... more) const {
+        launch.template each_slot<work, pair_lanes, large_threads, least_blocks<at_once>>(model.particles, more...);
     }
     template <auto work>
     void each_pair_of_fluid() const {
@@ -33,8 +37,14 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     template <Pass which>
     void pass() const {
-        each_pair<water_impulses<which, Real>>();
-        each_pair<push_water_apart<which, Real>>();
+        each_pair<water_impulses<which, Real>, 6>();
+        each_pair<push_water_apart<which, Real>, 8>();
+    }
+    /// Of the passes that most substeps need not: few blocks, as those that find nothing to do cost time, too.
+    template <Pass which>
+    void seldom_pass() const {
+        launch.template each_slot_in_turn<water_impulses<which, Real>, pair_lanes>(model.particles);
+        launch.template each_slot_in_turn<push_water_apart<which, Real>, pair_lanes>(model.particles);
     }
 
     void find_water_neighbours() const {
@@ -45,16 +55,17 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         launch.add_up(water.table, cells);
         each_particle<scatter_water<Real>>();
         launch.template each_state<order_water<Real>>(blocks);
-        launch.template each_slot<find_water_neighbours_large<Real>, pair_lanes, search_threads>(model.particles);
+        launch.template each_state<find_water_neighbours_large<Real>, search_threads>(
+            blocks_for(pair_lanes * model.particles, search_threads));
     }
     void compute_water_gradients() const {
-        each_pair<water_moments<Real>>();
-        each_pair<water_gradients<Real>>();
+        each_pair<water_moments<Real>, 4>();
+        each_pair<water_gradients<Real>, 4>();
     }
     void solve_divergence() const {
-        pass<Pass::first_parting>();
-        for (int k = 1; k < physics::parting_passes; ++k) pass<Pass::parting>();
-        for (int k = 0; k < physics::divergence_passes; ++k) pass<Pass::divergence>();
+        seldom_pass<Pass::first_parting>();
+        for (int k = 1; k < physics::parting_passes; ++k) seldom_pass<Pass::parting>();
+        each_pair<push_water_apart<Pass::divergence, Real>, 8>();
     }
     void add_viscosity() const {
         each_pair<water_viscosity<Real>>();
@@ -83,9 +94,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void update_velocities() const {
         if (model.plan.water) {
             each_particle<lay_out_relief<Real>>();
-            each_pair<return_relief<Real>>();
+            each_pair<end_water_passes<Real>, 6>(model.planes > 0 && norm(model.fluid_gravity) > 0);
             if (launch.keeps_forces) each_pair_of_solids<add_pressure_forces<Real>>();
-            if (model.planes > 0 && norm(model.fluid_gravity) > 0) each_pair<hold_at_walls<Real>>();
             launch.template each_slot<move_water<Real>>(model.fluid);
         }
         each_particle<constrained_velocities<Real>>();

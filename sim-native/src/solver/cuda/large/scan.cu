@@ -1,55 +1,80 @@
 #include "scan.h"
 
 #include <cub/block/block_scan.cuh>
-#include <cub/device/device_scan.cuh>
 
 #include "solver/cuda/device_buffer.h"
 
 namespace natator::cuda {
-
-std::size_t scan_bytes(int count) {
-    std::size_t bytes = 0;
-    int* const none = nullptr;
-    check(cub::DeviceScan::ExclusiveSum(nullptr, bytes, none, none, count), "scan");
-    return bytes;
-}
-
 namespace {
 
-constexpr int scan_threads = 1024, scan_items = 8;
-constexpr int most_by_block = 1 << 16;
+constexpr int scan_threads = 1024, scan_items = 8, tile = scan_threads * scan_items;
+constexpr int most_by_block = 4 * tile;  // more are faster by several
+
+constexpr int tiles_of(int count) {
+    return (count + tile - 1) / tile;
+}
+
+using BlockScan = cub::BlockScan<int, scan_threads>;
+
+/// Replaces the values of one tile, from `first` on, by `before` and the sums of all before each in it. Returns the sum of
+/// all of them, to every thread.
+__device__ int scan_tile(BlockScan::TempStorage& storage, int* values, int count, int first, int before) {
+    int items[scan_items];
+    const int begin = first + static_cast<int>(threadIdx.x) * scan_items;
+    for (int k = 0; k < scan_items; ++k) items[k] = begin + k < count ? values[begin + k] : 0;
+    int sum = 0;
+    BlockScan(storage).ExclusiveSum(items, items, sum);
+    for (int k = 0; k < scan_items; ++k)
+        if (begin + k < count) values[begin + k] = before + items[k];
+    return sum;
+}
+
+__device__ int* array_of(int* values, std::size_t stride) {
+    return reinterpret_cast<int*>(reinterpret_cast<char*>(values) + blockIdx.y * stride);
+}
 
 /// A block for an array.
 __global__ void __launch_bounds__(scan_threads) scan_by_block(int* values, int count, std::size_t stride) {
-    using Scan = cub::BlockScan<int, scan_threads>;
-    __shared__ typename Scan::TempStorage storage;
-    int* const own = reinterpret_cast<int*>(reinterpret_cast<char*>(values) + blockIdx.x * stride);
+    __shared__ BlockScan::TempStorage storage;
     int before = 0;
-    for (int first = 0; first < count; first += scan_threads * scan_items) {
-        int items[scan_items];
-        const int begin = first + static_cast<int>(threadIdx.x) * scan_items;
-        for (int k = 0; k < scan_items; ++k) items[k] = begin + k < count ? own[begin + k] : 0;
-        int sum = 0;
-        Scan(storage).ExclusiveSum(items, items, sum);
-        for (int k = 0; k < scan_items; ++k)
-            if (begin + k < count) own[begin + k] = before + items[k];
-        before += sum;
+    for (int first = 0; first < count; first += tile) {
+        before += scan_tile(storage, array_of(values, stride), count, first, before);
         __syncthreads();
     }
 }
 
+/// A block for a tile: each by itself, and their sums by array.
+__global__ void __launch_bounds__(scan_threads) scan_tiles(int* values, int count, std::size_t stride, int* sums) {
+    __shared__ BlockScan::TempStorage storage;
+    const int sum = scan_tile(storage, array_of(values, stride), count, static_cast<int>(blockIdx.x) * tile, 0);
+    if (threadIdx.x == 0) sums[blockIdx.y * gridDim.x + blockIdx.x] = sum;
+}
+
+/// Once these are scanned: adds to each tile what is before it.
+__global__ void __launch_bounds__(scan_threads) add_before(int* values, int count, std::size_t stride, const int* sums) {
+    const int before = sums[blockIdx.y * gridDim.x + blockIdx.x];
+    const int begin = static_cast<int>(blockIdx.x) * tile, end = min(begin + tile, count);
+    for (int k = begin + static_cast<int>(threadIdx.x); k < end; k += scan_threads) array_of(values, stride)[k] += before;
+}
+
 }  // namespace
 
-void exclusive_scan(int* values, int count, int arrays, std::size_t stride, void* room, std::size_t bytes,
-                    cudaStream_t stream) {
+std::size_t scan_bytes(int count, int arrays) {
+    return sizeof(int) * static_cast<std::size_t>(arrays) * tiles_of(count);
+}
+
+void exclusive_scan(int* values, int count, int arrays, std::size_t stride, void* room, cudaStream_t stream) {
+    const dim3 by_array{1, static_cast<unsigned>(arrays)};
     if (count <= most_by_block) {
-        scan_by_block<<<arrays, scan_threads, 0, stream>>>(values, count, stride);
+        scan_by_block<<<by_array, scan_threads, 0, stream>>>(values, count, stride);
         return;
     }
-    for (int k = 0; k < arrays; ++k) {
-        int* const own = reinterpret_cast<int*>(reinterpret_cast<char*>(values) + k * stride);
-        check(cub::DeviceScan::ExclusiveSum(room, bytes, own, own, count, stream), "scan");
-    }
+    const int tiles = tiles_of(count);
+    int* const sums = static_cast<int*>(room);
+    const dim3 by_tile{static_cast<unsigned>(tiles), static_cast<unsigned>(arrays)};
+    scan_tiles<<<by_tile, scan_threads, 0, stream>>>(values, count, stride, sums);
+    scan_by_block<<<by_array, scan_threads, 0, stream>>>(sums, tiles, tiles * sizeof(int));
+    add_before<<<by_tile, scan_threads, 0, stream>>>(values, count, stride, sums);
 }
 
 }  // namespace natator::cuda

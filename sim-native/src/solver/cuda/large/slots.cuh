@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "pair_gradient.cuh"
 #include "solver/cuda/neighbours.cuh"
 
 namespace natator::cuda {
@@ -59,7 +60,7 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Quad<Real>, parting, water)    /* velocities that part overlaps; w: inverse mass, 0 for solids */               \
     X(Quad<Real>, crowding, water)   /* w: largest |v_j - v_i|^2 */                                                   \
     X(Quad<Real>, zeroth, water)     /* sum of G_ij; w: physics::relief */                                            \
-    X(Quad<Real>, relief, water)     /* E_j times its relief_share */                                                 \
+    X(Quad<Real>, relief, water)     /* E_j times its relief_share; w: impulse_sum */                                                 \
     X(Quad<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */      \
     X(Quad<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                     \
     X(Real, density, water)                                                                                           \
@@ -84,9 +85,9 @@ struct StateArrays {
 template <class Real>
 struct WaterArrays {
     NATATOR_WATER_ARRAYS(NATATOR_MEMBER)
-    // Of neighbour k of slot s at [s * water_neighbours + k]; by themselves, as their room may grow.
+    // Of neighbour k of slot s at [Slots::water_place(s, k)]; by themselves, as their room may grow.
     unsigned* neighbour = nullptr;  ///< entries
-    Quad<Real>* pair = nullptr;     ///< G_ij; w: the entry as an integer
+    PairGradient<Real>* pair = nullptr;
 };
 #undef NATATOR_MEMBER
 
@@ -138,6 +139,12 @@ public:
     __device__ unsigned& neighbour_entry(int s, int k) const {
         uint4* const chunk = at.neighbour + (static_cast<std::size_t>(s / 32) * chunks + k / 4) * 32 + s % 32;
         return reinterpret_cast<unsigned*>(chunk)[k % 4];
+    }
+
+    /// Of an entry of the water's lists: those that the threads of a warp read at once lie side by side.
+    __device__ std::size_t water_place(int s, int k) const {
+        const std::size_t rows = water_neighbours / pair_lanes, row = s / slots_of_warp * rows + k / pair_lanes;
+        return row * 32 + s % slots_of_warp * pair_lanes + k % pair_lanes;
     }
 
     /// Nothing that is not finite goes through further substeps: its cells would hold too many particles.

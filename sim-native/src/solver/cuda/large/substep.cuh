@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "kernels.cuh"
 #include "scan.h"
 #include "solver/step.h"
@@ -18,7 +20,6 @@ struct LargeLaunch {
     Slots<Real> slots;
     int states;  ///< side by side
     void* scan_room;
-    std::size_t scan_bytes;
     cudaStream_t stream;
     Trace<Real> trace;        ///< null where nobody looks
     StageClock* clock = nullptr;  ///< likewise
@@ -37,6 +38,15 @@ struct LargeLaunch {
     template <auto work, int least_blocks = 0>
     void each_particle() const {
         each_slot<work, 1, large_threads, least_blocks>(model.particles);
+    }
+    /// The same by blocks that fill a GPU once or twice, however many slots there are.
+    template <auto work, int lanes>
+    void each_slot_in_turn(int count) const {
+        constexpr int filling = 2048;
+        const int blocks = std::min(blocks_for(count * lanes, large_threads), blocks_for(filling, states));
+        if (count > 0)
+            for_each_slot_in_turn<work, Of::running, lanes, large_threads>
+                <<<grid(blocks), large_threads, 0, stream>>>(model, slots, count);
     }
     /// Calls work(model, slots, more...) by all threads of the blocks for each State.
     template <auto work, int block = large_threads, int least_blocks = 0, class... More>
@@ -64,7 +74,7 @@ struct LargeLaunch {
     }
     /// Replaces its counts by the sums of all before each.
     void add_up(int* table, int count) const {
-        exclusive_scan(table, count, states, slots.stride, scan_room, scan_bytes, stream);
+        exclusive_scan(table, count, states, slots.stride, scan_room, stream);
     }
 
     void mark(Stage stage) const {

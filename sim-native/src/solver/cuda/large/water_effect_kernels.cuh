@@ -16,7 +16,7 @@ __device__ void measure_water(const ModelView<Real>& model, const Slots<Real>& s
     for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
         gradients += gradient;
         if (model.vorticity > 0)
-            vorticity += physics::vorticity_part(xyz(seen(model, water.velocity, other, planes)) - v, gradient);
+            vorticity += physics::vorticity_part(xyz(seen(model, water.velocity[other], planes)) - v, gradient);
     });
     gradients = sum_of_lanes(gradients);
     vorticity = sum_of_lanes(vorticity);
@@ -50,7 +50,7 @@ __device__ void push_water_by_effects(const ModelView<Real>& model, const Slots<
             if (!(r > 0 && r < of.effect_radius)) return;
             if (cohesive) pull += physics::cohesion_part(difference, r, inverse_radius, of.cohesion_slope, w, its);
             if (tense)
-                tension += physics::tension_part(normal, xyz(seen(model, water.normal, other, planes)), w, its);
+                tension += physics::tension_part(normal, xyz(seen(model, water.normal[other], planes)), w, its);
         });
     pull = sum_of_lanes(pull);
     tension = sum_of_lanes(tension);

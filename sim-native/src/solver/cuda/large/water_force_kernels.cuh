@@ -26,7 +26,7 @@ __device__ void add_viscous_forces(const ModelView<Real>& model, const Slots<Rea
         if (other >= model.fluid) return;
         const Quad<Real> there = water.position[other];
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-        const Quad<Real> u = seen(model, water.velocity, other, planes);
+        const Quad<Real> u = seen(model, water.velocity[other], planes);
         const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most) *
                            physics::viscous_grip(Real(1), Real(0));
         sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
@@ -48,7 +48,7 @@ __device__ void add_pressure_forces(const ModelView<Real>& model, const Slots<Re
         const Quad<Real> there = water.position[other];
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
         const physics::PairSide<Real> its{there.w, water.impulse_sum[other],
-                                          xyz(seen(model, water.relief, other, planes))};
+                                          xyz(seen(model, water.relief[other], planes))};
         sum += pressure_impulse_between(own, its, gradient, model.water.kernel.value(physics::length_of(difference)));
     });
     sum = sum_of_lanes(sum);

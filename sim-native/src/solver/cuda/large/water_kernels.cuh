@@ -2,7 +2,10 @@
 
 // The water of scheme conserving: a kernel per sum over neighbours, which pair_lanes threads share. See
 // cpu/conserving/water.h.
+#include <cuda/std/tuple>
+
 #include "body_momentum.cuh"
+#include "pair_gradient.cuh"
 #include "solids.cuh"
 
 namespace natator::cuda {
@@ -11,18 +14,20 @@ inline constexpr unsigned slot_mask = (1u << most_slot_bits) - 1;
 
 template <class Real>
 __device__ Vec3<Real> turned(const Reflection<Real>& mirror, const Vec3<Real>& v) {
-    return {dot(mirror.turn[0], v), dot(mirror.turn[1], v), dot(mirror.turn[2], v)};
+    return {dot(xyz(mirror.row[0]), v), dot(xyz(mirror.row[1]), v), dot(xyz(mirror.row[2]), v)};
 }
 /// H L H^T.
 template <class Real>
 __device__ physics::Symmetric3<Real> turned(const Reflection<Real>& mirror, const physics::Symmetric3<Real>& l) {
-    const Vec3<Real> x = l * mirror.turn[0], y = l * mirror.turn[1], z = l * mirror.turn[2];
-    return {dot(mirror.turn[0], x), dot(mirror.turn[1], y), dot(mirror.turn[2], z),
-            dot(mirror.turn[0], y), dot(mirror.turn[0], z), dot(mirror.turn[1], z)};
+    const Vec3<Real> a = xyz(mirror.row[0]), b = xyz(mirror.row[1]), c = xyz(mirror.row[2]);
+    const Vec3<Real> x = l * a, y = l * b, z = l * c;
+    return {dot(a, x), dot(b, y), dot(c, z), dot(a, y), dot(a, z), dot(b, z)};
 }
 template <class Real>
 __device__ Vec3<Real> ghost_of(const WaterModel<Real>& water, const Vec3<Real>& x, unsigned planes) {
-    return planes == 0 ? x : turned(water.reflection[planes], x) + water.reflection[planes].shift;
+    if (planes == 0) return x;
+    const Reflection<Real> mirror = water.reflection[planes];
+    return turned(mirror, x) + Vec3<Real>{mirror.row[0].w, mirror.row[1].w, mirror.row[2].w};
 }
 
 /// What a particle keeps from planes. Water does not touch them otherwise: its ghosts hold it.
@@ -31,30 +36,26 @@ __device__ Real wall_distance(const ModelView<Real>& model, bool fluid) {
     return fluid ? Real(physics::least_wall_distance) * model.water.spacing : model.collision_distance;
 }
 
-/// Calls visit(planes, position) for a particle at x and for its ghosts.
+/// Calls visit(planes, position) for the ghosts of what is at x, itself a ghost of `planes` or none, in up to `mirrors` more
+/// planes from number `first` on: in those that it is before, nearer than the kernel's support.
+template <int mirrors, class Real, class Visit>
+__device__ void for_each_ghost(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& of, unsigned planes,
+                               int first, const Visit& visit) {
+    for (int k = first; k < model.planes; ++k) {
+        const Real distance = distance_to(model.plane[k].surface, x);
+        if (!(distance >= 0 && distance < model.water.radius)) continue;
+        const unsigned with_this = planes | 1u << k;
+        const Vec3<Real> ghost = ghost_of(model.water, of, with_this);
+        visit(with_this, ghost);
+        if constexpr (mirrors > 1) for_each_ghost<mirrors - 1>(model, ghost, of, with_this, k + 1, visit);
+    }
+}
+
+/// The same for a particle at x, which has no planes, and for its ghosts.
 template <class Real, class Visit>
 __device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x, const Visit& visit) {
     visit(0u, x);
-    unsigned near = 0;
-    for (int k = 0; k < model.planes; ++k) {
-        const Real distance = distance_to(model.plane[k].surface, x);
-        if (distance >= 0 && distance < model.water.radius) near |= 1u << k;
-    }
-    if (near == 0) return;
-    // Each set of planes from the one without its last.
-    for (unsigned planes = 1; planes < 1u << model.planes; ++planes) {
-        const bool first_is_near = near & planes & ~(planes - 1);
-        if (!first_is_near || __popc(planes) > 3) continue;
-        bool before_all = true;
-        unsigned so_far = 0;
-        for (int k = 0; k < model.planes && before_all; ++k) {
-            if (!(planes >> k & 1)) continue;
-            const Real distance = distance_to(model.plane[k].surface, ghost_of(model.water, x, so_far));
-            before_all = distance >= 0 && distance < model.water.radius;
-            so_far |= 1u << k;
-        }
-        if (before_all) visit(planes, ghost_of(model.water, x, planes));
-    }
+    for_each_ghost<most_mirrors_at_once>(model, x, x, 0, 0, visit);
 }
 
 /// Puts what is behind planes before them, and counts particles and ghosts by cell.
@@ -123,68 +124,108 @@ __device__ Real largest_of_lanes(Real value) {
     return value;
 }
 
-/// Lists what is within the kernel's support of each particle, solids and ghosts too, in the order of the cells.
+/// Lists what is within the kernel's support of each particle, solids and ghosts too, in the order of the cells. The
+/// lanes of a warp stay together, those that have no candidate left as well.
 template <class Real>
-__device__ void find_water_neighbours_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    const int lane = own_lane();
+__device__ void find_water_neighbours_large(const ModelView<Real>& model, const Slots<Real>& slots) {
+    const int slot = own_index() / pair_lanes, lane = own_lane(), first_lane = static_cast<int>(threadIdx.x) % 32 - lane;
+    if (slot - first_lane / pair_lanes >= model.particles) return;  // the whole warp
+    const int s = min(slot, model.particles - 1);
     const WaterArrays<Real>& water = slots.water;
+    const GridView<Real>& grid = model.water.grid;
     const Vec3<Real> x = xyz(water.position[s]);
     const Real distance_squared = model.water.radius * model.water.radius;
-    const int first_lane = static_cast<int>(threadIdx.x) % 32 - lane;
-    const unsigned lanes = ((1u << pair_lanes) - 1) << first_lane;
-    unsigned* const list = water.neighbour + static_cast<std::size_t>(s) * slots.water_neighbours;
+    const int room = slots.water_neighbours;
+    unsigned* const list = water.neighbour + slots.water_place(s, 0);
+    const unsigned lanes_before = (1u << lane) - 1;
+    const int cx = grid.coordinate(x.x, 0), cy = grid.coordinate(x.y, 1), cz = grid.coordinate(x.z, 2);
+    const int low = max(cx - grid.reach_x, 0), high = min(cx + grid.reach_x, grid.count[0] - 1);
     int n = 0;
-    model.water.grid.for_each_run(x, [&](int first, int last) {
-        const int begin = first > 0 ? water.table[first - 1] : 0, end = water.table[last];
-        for (int k = begin; k < end; k += pair_lanes) {
+    for (int around = 0; around < 9; ++around) {
+        const int iy = cy + around % 3 - 1, iz = cz + around / 3 - 1;
+        int from = 0, to = 0;
+        if (slot == s && iy >= 0 && iy < grid.count[1] && iz >= 0 && iz < grid.count[2]) {
+            const int row = (iz * grid.count[1] + iy) * grid.count[0];
+            from = row + low > 0 ? water.table[row + low - 1] : 0;
+            to = water.table[row + high];
+        }
+        int most = to - from;
+        for (int step = pair_lanes; step < 32; step *= 2) most = max(most, __shfl_xor_sync(0xffffffff, most, step));
+        for (int k = from + lane; most > 0; most -= pair_lanes, k += pair_lanes) {
             Quad<Real> other{};
-            bool near = k + lane < end;
+            bool near = k < to;
             if (near) {
-                other = water.candidate[k + lane];
+                other = water.candidate[k];
                 const Real r2 = physics::squared_length(x - xyz(other));
                 near = r2 < distance_squared && r2 > 0;
             }
-            const unsigned found = __ballot_sync(lanes, near) >> first_lane & ((1u << pair_lanes) - 1);
-            const int at = n + __popc(found & ((1u << lane) - 1));
-            if (near && at < slots.water_neighbours) list[at] = static_cast<unsigned>(number_in(other.w));
+            const unsigned found = __ballot_sync(0xffffffff, near) >> first_lane & ((1u << pair_lanes) - 1);
+            const int at = n + __popc(found & lanes_before);
+            if (near && at < room) list[at / pair_lanes * 32 + at % pair_lanes] = static_cast<unsigned>(number_in(other.w));
             n += __popc(found);
         }
-    });
-    if (lane != 0) return;
-    if (n > slots.water_neighbours) atomicMax(&slots.shared().most_neighbours, n);
-    water.count[s] = min(n, slots.water_neighbours);
+    }
+    if (lane != 0 || slot != s) return;
+    if (n > room) atomicMax(&slots.shared().most_neighbours, n);
+    water.count[s] = min(n, room);
     water.count_of[number_in(slots.at.state_velocity[s].w)] = n;
 }
 
-/// Calls visit(its place, slot, planes) for this thread's share of the neighbours of slot s.
-template <class Real, class Visit>
-__device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit) {
-    const WaterArrays<Real>& water = slots.water;
-    const std::size_t first = static_cast<std::size_t>(s) * slots.water_neighbours;
-    const int count = water.count[s];
-    for (int k = own_lane(); k < count; k += pair_lanes) {
-        const unsigned entry = water.neighbour[first + k];
-        visit(first + k, static_cast<int>(entry & slot_mask), entry >> most_slot_bits);
+/// Calls visit(its place, slot, planes, values...) for this thread's share of the neighbours of slot s, with what is at the
+/// neighbour's slot in each of the arrays. Those of `batch` neighbours are under way at a time.
+template <int batch, class Real, class Visit, class... Value>
+__device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
+    const std::size_t first = slots.water_place(s, own_lane());
+    const int count = (slots.water.count[s] - own_lane() + pair_lanes - 1) / pair_lanes;  // of this thread
+    for (int begin = 0; begin < count; begin += batch) {
+        unsigned entry[batch];
+        ::cuda::std::tuple<Value...> there[batch];
+#pragma unroll
+        for (int k = 0; k < batch; ++k)
+            entry[k] = read_once(slots.water.neighbour + first + 32 * min(begin + k, count - 1));
+#pragma unroll
+        for (int k = 0; k < batch; ++k) there[k] = ::cuda::std::tuple<Value...>(array[entry[k] & slot_mask]...);
+#pragma unroll
+        for (int k = 0; k < batch; ++k) {
+            if (begin + k >= count) break;
+            const int slot = static_cast<int>(entry[k] & slot_mask);
+            const unsigned planes = entry[k] >> most_slot_bits;
+            ::cuda::std::apply([&](const Value&... value) { visit(first + 32 * (begin + k), slot, planes, value...); },
+                               there[k]);
+        }
     }
 }
 
-/// Calls visit(G_ij, slot, planes) for the same, once gradients are known.
-template <class Real, class Visit>
-__device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit) {
-    const Quad<Real>* const first = slots.water.pair + static_cast<std::size_t>(s) * slots.water_neighbours;
-    const int count = slots.water.count[s];
-#pragma unroll 4
-    for (int k = own_lane(); k < count; k += pair_lanes) {
-        const Quad<Real> pair = first[k];
-        const auto entry = static_cast<unsigned>(number_in(pair.w));
-        visit(xyz(pair), static_cast<int>(entry & slot_mask), entry >> most_slot_bits);
+/// The same with G_ij instead of the place, once gradients are known.
+template <int batch = 4, class Real, class Visit, class... Value>
+__device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
+    const std::size_t first = slots.water_place(s, own_lane());
+    const int count = (slots.water.count[s] - own_lane() + pair_lanes - 1) / pair_lanes;  // of this thread
+    for (int begin = 0; begin < count; begin += batch) {
+        unsigned entry[batch];
+        PairGradient<Real> gradient[batch];
+        ::cuda::std::tuple<Value...> there[batch];
+#pragma unroll
+        for (int k = 0; k < batch; ++k) {
+            const std::size_t place = first + 32 * min(begin + k, count - 1);
+            entry[k] = read_once(slots.water.neighbour + place);
+            gradient[k] = read_once(slots.water.pair + place);
+        }
+#pragma unroll
+        for (int k = 0; k < batch; ++k) there[k] = ::cuda::std::tuple<Value...>(array[entry[k] & slot_mask]...);
+#pragma unroll
+        for (int k = 0; k < batch; ++k) {
+            if (begin + k >= count) break;
+            const int slot = static_cast<int>(entry[k] & slot_mask);
+            const unsigned planes = entry[k] >> most_slot_bits;
+            ::cuda::std::apply([&](const Value&... value) { visit(gradient[k].value(), slot, planes, value...); }, there[k]);
+        }
     }
 }
 
-/// A neighbour's velocity, or another vector by slot; of a ghost as its mirrors show it. w as it is there.
+/// A vector of a neighbour; of a ghost as its mirrors show it. w as it is.
 template <class Real>
-__device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>* vector, int slot, unsigned planes) {
-    const Quad<Real> v = vector[slot];
+__device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>& v, unsigned planes) {
     return planes == 0 ? v : quad(turned(model.water.reflection[planes], xyz(v)), v.w);
 }
 
@@ -194,12 +235,12 @@ __device__ void water_moments(const ModelView<Real>& model, const Slots<Real>& s
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
     physics::MomentSums<Real> sums;
-    for_each_water_neighbour(slots, s, [&](std::size_t, int other, unsigned planes) {
-        const Quad<Real> there = water.position[other];
+    const auto add = [&](std::size_t, int, unsigned planes, const Quad<Real>& there, const Quad<Real>& velocity) {
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-        const Quad<Real> v = seen(model, water.velocity, other, planes);
+        const Quad<Real> v = seen(model, velocity, planes);
         sums.add(difference, model.water.kernel, model.water.at_spacing, there.w, xyz(v) - xyz(moves));
-    });
+    };
+    for_each_water_neighbour<2>(slots, s, add, water.position, water.velocity);
     sums.density = sum_of_lanes(sums.density);
     physics::Symmetric3<Real>& m = sums.moments;
     m = {sum_of_lanes(m.xx), sum_of_lanes(m.yy), sum_of_lanes(m.zz),
@@ -223,29 +264,38 @@ __device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction,
     return {correction.x, correction.y, correction.z, correction.w, shear.x, shear.y};
 }
 
-/// G_ij and the response.
+static_assert(physics::divergence_passes == 1, "its impulses are those of water_gradients");
+
+/// G_ij, the response, and the impulses of the divergence pass, as the sum of the substep so far.
 template <class Real>
 __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], own_shear = water.shear[s];
     const physics::Symmetric3<Real> own = correction_of(water.correction[s], own_shear);
+    const Vec3<Real> v = xyz(water.velocity[s]);
     physics::ResponseSums<Real> sums;
-    for_each_water_neighbour(slots, s, [&](std::size_t place, int other, unsigned planes) {
-        const Quad<Real> there = water.position[other], shear = water.shear[other];
-        physics::Symmetric3<Real> its = correction_of(water.correction[other], shear);
+    Real rate = 0;
+    const auto add = [&](std::size_t place, int, unsigned planes, const Quad<Real>& there, const Quad<Real>& correction,
+                         const Quad<Real>& shear, const Quad<Real>& velocity) {
+        physics::Symmetric3<Real> its = correction_of(correction, shear);
         if (planes != 0) its = turned(model.water.reflection[planes], its);
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
         const Vec3<Real> gradient =
             physics::pair_gradient(difference, model.water.kernel, here.w * there.w, own + its);
-        water.pair[place] = quad(gradient, as_number<Real>(static_cast<int>(water.neighbour[place])));
-        sums.add(gradient, shear.z);
-    });
+        const PairGradient<Real> kept(gradient);
+        water.pair[place] = kept;
+        sums.add(kept.value(), shear.z);
+        rate += dot(xyz(seen(model, velocity, planes)) - v, kept.value());
+    };
+    for_each_water_neighbour<1>(slots, s, add, water.position, water.correction, water.shear, water.velocity);
     sums.gradient = sum_of_lanes(sums.gradient);
     sums.square = sum_of_lanes(sums.square);
+    rate = sum_of_lanes(rate);
     if (own_lane() != 0) return;
-    water.response[s] = sums.response(own_shear.z);
+    const Real response = sums.response(own_shear.z);
+    water.response[s] = response;
     water.zeroth[s] = quad(sums.gradient, Real(0));
-    water.impulse_sum[s] = 0;
+    water.impulse_sum[s] = physics::pressure_impulse(Real(0), rate, response, water.density[s]);
 }
 
 /// What the passes of a substep are for, see cpu/conserving/water.cpp.
@@ -268,9 +318,10 @@ __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& 
     if (pass != Pass::first_parting) {
         const Quad<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
         const Vec3<Real> v = xyz(velocity[s]);
-        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
-            rate += dot(xyz(seen(model, velocity, other, planes)) - v, gradient);
-        });
+        const auto add = [&](const Vec3<Real>& gradient, int, unsigned planes, const Quad<Real>& u) {
+            rate += dot(xyz(seen(model, u, planes)) - v, gradient);
+        };
+        for_each_water_pair<2>(slots, s, add, velocity);
         rate = sum_of_lanes(rate);
     }
     if (own_lane() != 0) return;
@@ -301,11 +352,11 @@ template <Pass pass, class Real>
 __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (parts(pass) && !slots.shared().high) return;
     const WaterArrays<Real>& water = slots.water;
-    const Real own = water.impulse[s];
+    const Real* const impulse = pass == Pass::divergence ? water.impulse_sum : water.impulse;
+    const Real own = impulse[s];
     Vec3<Real> sum{0, 0, 0};
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned) {
-        sum += (own + water.impulse[other]) * gradient;
-    });
+    const auto add = [&](const Vec3<Real>& gradient, int, unsigned, Real its) { sum += (own + its) * gradient; };
+    for_each_water_pair(slots, s, add, impulse);
     sum = sum_of_lanes(sum);
     if (own_lane() != 0) return;
     const int number = number_in(slots.at.state_velocity[s].w);
@@ -332,14 +383,15 @@ __device__ void water_viscosity(const ModelView<Real>& model, const Slots<Real>&
     const Real most = physics::viscous_limit(model.water.spacing, strength);
     const Real solid = water.shear[s].w;
     physics::ViscousSums<Real> sums;
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
-        const Quad<Real> there = water.position[other];
+    const auto add = [&](const Vec3<Real>& gradient, int, unsigned planes, const Quad<Real>& there,
+                         const Quad<Real>& velocity, const Quad<Real>& shear) {
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-        const Quad<Real> u = seen(model, water.velocity, other, planes);
+        const Quad<Real> u = seen(model, velocity, planes);
         const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
-        const Real grip = physics::viscous_grip(solid, water.shear[other].w);
+        const Real grip = physics::viscous_grip(solid, shear.w);
         sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share * grip, gradient);
-    });
+    };
+    for_each_water_pair<2>(slots, s, add, water.position, water.velocity, water.shear);
     const Vec3<Real> v = xyz(moves) + (strength * moves.w) * sum_of_lanes(sums.impulse);
     if (own_lane() == 0) water.pushed[s] = quad(v, moves.w);
 }
@@ -386,49 +438,33 @@ __device__ void lay_out_relief(const ModelView<Real>& model, const Slots<Real>& 
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> zeroth = water.zeroth[s];
     const Real share = physics::relief_share(water.density[s], water.position[s].w, model.water.kernel);
-    water.relief[s] = quad(zeroth.w * share * xyz(zeroth), Real(0));
+    water.relief[s] = quad(zeroth.w * share * xyz(zeroth), water.impulse_sum[s]);
 }
 
-/// Once all passes are done: gives it back.
+/// Once all passes are done: gives it back, and where `walls` hold up water, holds up what lies at them. Ghosts are behind
+/// planes, so only what is nearer to a plane than the kernel's support has any for neighbours.
 template <class Real>
-__device__ void return_relief(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+__device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool walls) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s];
-    Vec3<Real> sum{};
-    for_each_water_neighbour(slots, s, [&](std::size_t, int other, unsigned planes) {
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(water.position[other]), planes);
-        sum += model.water.kernel.value(physics::length_of(difference)) * xyz(seen(model, water.relief, other, planes));
-    });
-    sum = sum_of_lanes(sum);
+    Vec3<Real> given_back{}, weight{};
+    const auto add = [&](std::size_t place, int other, unsigned planes, const Quad<Real>& x, const Quad<Real>& relief) {
+        const Vec3<Real> there = ghost_of(model.water, xyz(x), planes);
+        given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * xyz(seen(model, relief, planes));
+        if (!walls || planes == 0 || other >= model.fluid) return;
+        weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, model.fluid_gravity,
+                                           there - xyz(x), relief.w) *
+                  water.pair[place].value();
+    };
+    for_each_water_neighbour<1>(slots, s, add, water.position, water.relief);
+    given_back = sum_of_lanes(given_back);
+    weight = sum_of_lanes(weight);
     if (own_lane() != 0) return;
     const Quad<Real> v = water.velocity[s];
-    const Vec3<Real> push = (-v.w * here.w) * sum;
-    water.velocity[s] = quad(xyz(v) + push, v.w);
+    const Vec3<Real> push = (-v.w * here.w) * given_back;
+    water.velocity[s] = quad(xyz(v) + push - v.w * weight, v.w);
     const int number = number_in(slots.at.state_velocity[s].w);
     if (number >= model.fluid && v.w > 0) move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
-}
-
-/// Once all passes are done: holds up what lies at walls. Ghosts are behind planes, so only what is nearer to a plane than
-/// the kernel's support has any for neighbours.
-template <class Real>
-__device__ void hold_at_walls(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    const WaterArrays<Real>& water = slots.water;
-    const Vec3<Real> here = xyz(water.position[s]);
-    bool near = false;
-    for (int k = 0; k < model.planes; ++k) near |= distance_to(model.plane[k].surface, here) < model.water.radius;
-    Vec3<Real> sum{};
-    if (near)
-        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int owner, unsigned planes) {
-            if (planes == 0 || owner >= model.fluid) return;
-            const Quad<Real> x = water.position[owner];
-            sum += physics::weight_to_ghost(slots.at.state_position[owner].w, x.w, slots.h, model.fluid_gravity,
-                                            ghost_of(model.water, xyz(x), planes) - xyz(x), water.impulse_sum[owner]) *
-                   gradient;
-        });
-    sum = sum_of_lanes(sum);
-    if (!near || own_lane() != 0) return;
-    const Quad<Real> v = water.velocity[s];
-    water.velocity[s] = quad(xyz(v) - v.w * sum, v.w);
 }
 
 /// The fluid goes where its velocities take it.
