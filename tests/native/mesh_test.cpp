@@ -259,6 +259,27 @@ TEST_F(Mesh, IsTheSameFileWhereverItIsNamedFrom) {
     EXPECT_EQ(build_model(load_scene("pool/eel", {{"creature", {{"name", name}, {"rearCentre", {0.5, 0.5, 0.5}}}}})).body.particles.size(), 400u);
 }
 
+/// A scene's file that holds its creature, with a companion: their meshes are beside it; a bundled one needs not be.
+TEST_F(Mesh, IsBesideTheSceneThatHoldsItsCreature) {
+    write("box.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());
+    const auto written = [&](const std::string& file) {
+        const json one{{"mesh", {{"file", file}, {"joints", {0.3, 0.6}}, {"length", 1.2}}}, {"rearCentre", {0.6, 0.6, 0.6}}};
+        json other = one;
+        other["rearCentre"] = {3, 0.6, 0.6};
+        return write("scene.json", json{{"base", "pool/water"},
+                                        {"creature", one},
+                                        {"companions", json::array({{{"creature", other}}})}}.dump());
+    };
+    const json definition = scene_definition(written("box.obj"));
+    for (const json& creature : {definition["creature"], definition["companions"][0]["creature"]}) {
+        EXPECT_EQ(creature["mesh"]["file"], (folder_ / "box.obj").string());
+        EXPECT_EQ(creature["mesh"]["digest"].get<std::string>().size(), 16u);
+    }
+    EXPECT_EQ(scene_definition(written("ray.obj"))["creature"]["mesh"]["file"], "ray.obj");
+    write("ray.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());
+    EXPECT_EQ(scene_definition(written("ray.obj"))["creature"]["mesh"]["file"], (folder_ / "ray.obj").string());
+}
+
 /// What an override cannot take away.
 TEST_F(Mesh, NamesWhatIsMissing) {
     const std::string file = write("box.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());

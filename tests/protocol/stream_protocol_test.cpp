@@ -47,6 +47,7 @@ TEST(StreamTest, TheSceneIsComplete) {
                                             "body",
                                             "slices",
                                             "bodyLength",
+                                            "companions",
                                             "clusters",
                                             "joints",
                                             "actuators",
@@ -90,6 +91,29 @@ TEST(StreamTest, TheSceneIsComplete) {
         EXPECT_LE(std::abs(muscle["lateral"].get<double>()), 1);
         EXPECT_GT(muscle["restLength"], 0);
     }
+}
+
+TEST(StreamTest, CompanionsSayWhichParticlesAreTheirs) {
+    StreamClient alone(paused_in(water, {}));
+    alone.expect("SCEN");
+    EXPECT_EQ(alone.scene()["companions"], json::array());
+
+    StreamClient school({"company/school", "--paused"});
+    school.expect("SCEN");
+    const json& scene = school.scene();
+    ASSERT_EQ(scene["companions"].size(), 2u);
+    std::set<int> particles;
+    for (const int particle : scene["body"]) particles.insert(particle);
+    for (const json& companion : scene["companions"]) {
+        EXPECT_EQ(companion["name"], "creature-2");
+        EXPECT_EQ(companion["body"].size(), scene["body"].size());
+        EXPECT_EQ(companion["slices"].size(), scene["slices"].size());
+        std::set<int> sliced;
+        for (const json& slice : companion["slices"]) sliced.insert(slice.begin(), slice.end());
+        EXPECT_EQ(sliced, std::set<int>(companion["body"].begin(), companion["body"].end()));
+        for (const int particle : companion["body"]) EXPECT_TRUE(particles.insert(particle).second) << particle;
+    }
+    EXPECT_EQ(particles.size() + scene["fluid"][1].get<std::size_t>(), scene["particles"]);
 }
 
 TEST(StreamTest, ABodyOfAMeshBringsItsSkin) {

@@ -111,6 +111,16 @@ ordered_json muscles_json(const Scene& scene, const Model& model) {
     return muscles;
 }
 
+/// Bodies that are in the tank besides the swimmer: their creature's name, particles, and slices from the head on.
+ordered_json companions_json(const Scene& scene, const Model& model) {
+    ordered_json companions = ordered_json::array();
+    for (std::size_t k = 0; k < model.companions.size(); ++k) {
+        const Body& body = model.companions[k].body;
+        companions.push_back({{"name", scene.companions[k].creature.name}, {"body", body.particles}, {"slices", body.slices}});
+    }
+    return companions;
+}
+
 /// [x, y, z] each.
 template <class Vectors>
 ordered_json triples_json(const Vectors& vectors) {
@@ -187,6 +197,7 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     body["body"] = model.body.particles;
     body["slices"] = model.body.slices;
     body["bodyLength"] = model.body.length;
+    body["companions"] = companions_json(scene, model);
     body["clusters"] = clusters_json(model);
     body["joints"] = scene.creature ? scene.creature->joints : std::vector<int>{};
     body["actuators"] = model.actuators;

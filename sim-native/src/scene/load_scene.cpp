@@ -13,16 +13,28 @@ using nlohmann::json;
 
 constexpr int max_bases = 8;
 
-/// A mesh that a file names is beside that file, whatever the working directory. `mesh`: what has the key `file`.
-void place_mesh(json& mesh, const std::string& name) {
+/// A mesh that a file names is beside that file, whatever the working directory; a plain name that is not there may be a
+/// bundled mesh. `mesh`: what has the key `file`.
+void place_mesh(json& mesh, const std::string& name, const std::filesystem::path& data) {
     if (!name.ends_with(".json") || !mesh.is_object() || !mesh.contains("file") || !mesh.at("file").is_string()) return;
     const std::filesystem::path file = mesh.at("file").get<std::string>(), folder = std::filesystem::path(name).parent_path();
-    if (file.is_relative()) mesh["file"] = ((folder.empty() ? "." : folder) / file).string();
+    if (file.is_absolute()) return;
+    const std::filesystem::path beside = (folder.empty() ? "." : folder) / file;
+    std::error_code failed;
+    const bool bundled = mesh_path(file.string(), data) != file;
+    if (!bundled || std::filesystem::exists(beside, failed)) mesh["file"] = beside.string();
 }
 
 /// The array under a key of a document; null if there is none. The readers refuse what is something else.
 json* array_in(json& document, const char* key) {
     return document.contains(key) && document.at(key).is_array() ? &document.at(key) : nullptr;
+}
+
+/// The same for the mesh of a creature that is written in the scene itself. `holder`: the scene, or one of its companions.
+void place_creature_mesh(json& holder, const std::string& name, const std::filesystem::path& data) {
+    if (!holder.is_object() || !holder.contains("creature") || !holder.at("creature").is_object()) return;
+    json& creature = holder.at("creature");
+    if (creature.contains("mesh")) place_mesh(creature.at("mesh"), name, data);
 }
 
 /// A scene file merged onto the scene that its `base` names, and so on.
@@ -32,7 +44,10 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     if (!document.is_object()) fields::refuse(place, document, "an object");
     fields::drop_schema_key(document, place);
     if (json* const obstacles = array_in(document, "obstacles"))
-        for (json& obstacle : *obstacles) place_mesh(obstacle, name);
+        for (json& obstacle : *obstacles) place_mesh(obstacle, name, data);
+    place_creature_mesh(document, name, data);
+    if (json* const companions = array_in(document, "companions"))
+        for (json& companion : *companions) place_creature_mesh(companion, name, data);
     if (!document.contains("base")) return document;
 
     const json base = document.at("base");
@@ -71,7 +86,7 @@ void resolve_creature(json& holder, const Place& place, const std::filesystem::p
     }
     if (!merged.is_object()) fields::refuse(place.key("name"), merged, "the name of a file that holds an object");
     fields::drop_schema_key(merged, place);
-    if (merged.contains("mesh")) place_mesh(merged.at("mesh"), name.get<std::string>());
+    if (merged.contains("mesh")) place_mesh(merged.at("mesh"), name.get<std::string>(), data);
     for (const char* kind : {"profile", "mesh"}) {
         if (!creature.contains(kind) || merged.contains(kind)) continue;
         for (const char* key : {"slices", "joints", "muscleSlices", "profile", "mesh"}) merged.erase(key);
