@@ -8,9 +8,9 @@ usage: ./setup.sh [--check] [--cuda] [--browser] [--readers] [--tidy]
   --check   only report what is missing (exit 1 if anything is), install nothing
   --cuda    also what the CUDA backend is compiled with: where there is no nvcc 13, from PyPI into .cuda (400 MB)
   --browser also what the tests look at the page of natator view with: chromium, unless it or Google Chrome is there
-  --readers also what the tests read exports back and try the Python client with: pyvista, plyfile, USD, numpy,
-            gymnasium and pycma, from PyPI into .readers (1 GB); and valgrind, in which they run the program on a
-            processor without AVX-512
+  --readers also what the tests read exports back and try the Python client with: pyvista, plyfile, USD, pygltflib,
+            pysplashsurf, numpy, gymnasium and pycma, from PyPI into .readers (1 GB); the validator of glTF, where npm
+            is; and valgrind, in which they run the program on a processor without AVX-512
   --tidy    also what .ci/tidy looks for mistakes with: clang-tidy
 TEXT
 }
@@ -95,8 +95,11 @@ browser_works() {
 readonly readers_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/.readers
 readonly readers_list=$(dirname "$readers_folder")/tests/readers/requirements.txt
 
+readonly validator_version=2.0.0-dev.3.10
+
 # Whether every package is there in the version that the list names.
 readers_work() {
+    { ! command -v npm >/dev/null || [[ -d $readers_folder/node_modules/gltf-validator ]]; } || return
     "$readers_folder/bin/python" - "$readers_list" 2>/dev/null <<'PYTHON'
 import sys
 from importlib.metadata import version
@@ -109,7 +112,9 @@ PYTHON
 
 install_readers() {
     python3 -m venv "$readers_folder" &&
-        "$readers_folder/bin/pip" --quiet --disable-pip-version-check install --requirement "$readers_list"
+        "$readers_folder/bin/pip" --quiet --disable-pip-version-check install --requirement "$readers_list" || return
+    ! command -v npm >/dev/null ||
+        npm install --silent --no-fund --prefix "$readers_folder" "gltf-validator@$validator_version"
 }
 
 installed() {

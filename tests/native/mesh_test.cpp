@@ -270,14 +270,14 @@ TEST_F(Mesh, IsBesideTheSceneThatHoldsItsCreature) {
                                         {"creature", one},
                                         {"companions", json::array({{{"creature", other}}})}}.dump());
     };
-    const json definition = scene_definition(written("box.obj"));
+    const json definition = scene_definition(written("box.obj"), json::object());
     for (const json& creature : {definition["creature"], definition["companions"][0]["creature"]}) {
         EXPECT_EQ(creature["mesh"]["file"], (folder_ / "box.obj").string());
         EXPECT_EQ(creature["mesh"]["digest"].get<std::string>().size(), 16u);
     }
-    EXPECT_EQ(scene_definition(written("ray.obj"))["creature"]["mesh"]["file"], "ray.obj");
+    EXPECT_EQ(scene_definition(written("ray.obj"), json::object())["creature"]["mesh"]["file"], "ray.obj");
     write("ray.obj", box({0, 0, 0}, {2, 0.5, 0.4}).obj());
-    EXPECT_EQ(scene_definition(written("ray.obj"))["creature"]["mesh"]["file"], (folder_ / "ray.obj").string());
+    EXPECT_EQ(scene_definition(written("ray.obj"), json::object())["creature"]["mesh"]["file"], (folder_ / "ray.obj").string());
 }
 
 /// What an override cannot take away.

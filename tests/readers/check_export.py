@@ -62,6 +62,18 @@ class Reference:
             cluster[members] = i
         return cluster
 
+    def creature(self):
+        """0 for the swimmer, from 1 on companions, -1 for all else."""
+        creature = np.full(self.scene["particles"], -1, "i4")
+        for i, companion in enumerate(self.scene.get("companions", []), 1):
+            creature[companion["body"]] = i
+        creature[self.scene["body"]] = 0
+        return creature
+
+    def slices(self):
+        """Of each creature, in this order."""
+        return [self.scene["slices"]] + [companion["slices"] for companion in self.scene.get("companions", [])]
+
     def mass(self):
         return np.array([np.inf if mass is None else mass for mass in self.scene["mass"]], "f4")
 
@@ -87,6 +99,8 @@ class Check:
         self.shown = np.flatnonzero(self.kind >= (0 if self.metadata["water"] else 1))
         self.water = np.flatnonzero(self.kind == 0) if self.metadata["water"] else np.empty(0, int)
         self.solids = np.flatnonzero(self.kind != 0)
+        self.creature = self.reference.creature()
+        self.has_surface = self.metadata["waterSurface"] and np.any(self.kind == 0)
         self.same("number of frames", [self.metadata["frames"]], [len(self.reference.frames)])
         for key in ("gait", "definition", "scheme", "precision", "timeStep", "planes"):
             if self.metadata[key] != self.reference.scene[key]:
@@ -108,10 +122,10 @@ class Check:
             raise Difference(f"{what}: {found}; expected {expected}")
         self.compared += np.size(expected)
 
-    def surface(self, what, triangles, solids):
-        """A closed skin, seen from outside, of the grid that every slice is."""
-        slices = self.reference.scene["slices"]
-        if not len(slices):
+    def surface(self, what, triangles, solids, bodies=None):
+        """A closed skin, seen from outside, of the grid that every slice is; of all creatures if not of these."""
+        bodies = [slices for slices in (self.reference.slices() if bodies is None else bodies) if len(slices)]
+        if not bodies:
             self.same(what, np.size(triangles), 0)
             return
         triangles = np.asarray(triangles).reshape(-1, 3)
@@ -124,16 +138,44 @@ class Check:
         a, b, c = (start[triangles[:, i]] for i in range(3))
         volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
         wanted = 0
-        areas = []
-        for members in slices:
-            y, z = (self.reference.frames[0]["position"][members, axis] for axis in (1, 2))
-            areas.append((y.max() - y.min()) * (z.max() - z.min()))
-        places = [self.reference.frames[0]["position"][members, 0].mean() for members in slices]
-        for i in range(1, len(areas)):
-            wanted += (areas[i - 1] + areas[i]) / 2 * (places[i - 1] - places[i])
+        for slices in bodies:
+            areas = []
+            for members in slices:
+                y, z = (self.reference.frames[0]["position"][members, axis] for axis in (1, 2))
+                areas.append((y.max() - y.min()) * (z.max() - z.min()))
+            places = [self.reference.frames[0]["position"][members, 0].mean() for members in slices]
+            for i in range(1, len(areas)):
+                wanted += (areas[i - 1] + areas[i]) / 2 * (places[i - 1] - places[i])
         if abs(volume - wanted) > 0.05 * wanted:
             raise Difference(f"{what}: encloses {volume}; expected about {wanted}")
         self.compared += triangles.size
+
+    def water_surface(self, what, frame, vertices, triangles):
+        """A closed mesh between the walls, seen from outside, near the water's particles, which are inside it."""
+        import pyvista
+
+        vertices, triangles = np.asarray(vertices, float), np.asarray(triangles).reshape(-1, 3)
+        edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+        there, count = np.unique(edges, axis=0, return_counts=True)
+        back, back_count = np.unique(edges[:, ::-1], axis=0, return_counts=True)
+        if not (np.array_equal(there, back) and np.array_equal(count, back_count)):
+            raise Difference(f"{what}: open edges")
+        spacing = self.reference.scene["fluidRestDistance"]
+        behind = min((vertices @ plane[:3] + plane[3]).min() for plane in np.array(self.reference.scene["planes"]))
+        if behind < -1e-5:
+            raise Difference(f"{what}: a vertex is {-behind} behind a wall")
+        mesh = pyvista.PolyData(vertices, np.hstack([np.full((len(triangles), 1), 3), triangles]).ravel())
+        water = frame["position"][self.kind == 0].astype(float)
+        inside = pyvista.PolyData(water).select_interior_points(mesh)["selected_points"].mean()
+        if inside < 0.98:
+            raise Difference(f"{what}: {inside:.3f} of the water is inside; expected nearly all")
+        a, b, c = (vertices[triangles[:, i]] for i in range(3))
+        if np.einsum("ij,ij->i", a, np.cross(b, c)).sum() <= 0:
+            raise Difference(f"{what}: seen from inside")
+        far = max(np.sqrt(((water - vertex) ** 2).sum(1).min()) for vertex in vertices[::20])
+        if far > 1.5 * spacing:
+            raise Difference(f"{what}: {far / spacing} spacings from the water")
+        self.compared += vertices.size + triangles.size
 
     # --- one method per format ---------------------------------------------------------------------------------------
 
@@ -153,6 +195,9 @@ class Check:
         self.same("particle", data["particle"], self.shown)
         self.same("mass", data["mass"], self.reference.mass()[self.shown])
         self.same("kind", data["kind"], self.kind[self.shown])
+        self.same("creature", data["creature"], self.creature[self.shown])
+        self.same("cluster_creature", data["cluster_creature"],
+                  [self.creature[cluster[0]] for cluster in scene["clusters"]])
         members = np.zeros((len(scene["clusters"]), scene["particles"]), bool)
         for i, cluster in enumerate(scene["clusters"]):
             members[i, cluster] = True
@@ -187,7 +232,7 @@ class Check:
         from plyfile import PlyData
 
         names = {"position": ("x", "y", "z"), "velocity": ("vx", "vy", "vz"), "density": ("density",)}
-        files = sorted(self.folder.glob("*.ply"))
+        files = sorted(self.folder.glob("swim_*.ply"))
         wanted = [f"swim_{frame['frame']:06d}.ply" for frame in self.reference.frames]
         if [file.name for file in files] != wanted:
             raise Difference(f"files are {[file.name for file in files]}; expected {wanted}")
@@ -199,12 +244,20 @@ class Check:
             self.same(f"{file.name} mass", vertices["mass"], self.reference.mass()[self.shown])
             self.same(f"{file.name} kind", vertices["kind"], self.kind[self.shown])
             self.same(f"{file.name} cluster", vertices["cluster"], self.reference.first_cluster()[self.shown])
+            self.same(f"{file.name} creature", vertices["creature"], self.creature[self.shown])
+        surfaces = sorted(self.folder.glob("water-surface/*.ply"))
+        self.same("surfaces", [len(surfaces)], [len(files) if self.has_surface else 0])
+        for file, frame in zip(surfaces, self.reference.frames):
+            data = PlyData.read(file)
+            vertices = np.stack([data["vertex"][name] for name in "xyz"], 1)
+            self.water_surface(file.name, frame, vertices, np.stack(data["face"]["vertex_indices"]))
 
     def vtp(self):
         import pyvista
 
         parts = [name for name, there in (("water", self.water.size), ("body", self.solids.size),
-                                          ("muscles", len(self.reference.scene["muscles"]))) if there]
+                                          ("muscles", len(self.reference.scene["muscles"])),
+                                          ("water-surface", self.has_surface)) if there]
         reader = pyvista.get_reader(self.folder / "swim.pvd")
         self.same("times", reader.time_values, [frame["time"] for frame in self.reference.frames])
         for frame in self.reference.frames:
@@ -213,7 +266,9 @@ class Check:
             self.same("parts", [blocks.n_blocks], [len(parts)])
             for name, block in zip(parts, blocks):
                 self.same(f"{name} time", block.field_data["TimeValue"], [frame["time"]])
-                if name == "muscles":
+                if name == "water-surface":
+                    self.water_surface(name, frame, block.points, block.faces.reshape(-1, 4)[:, 1:])
+                elif name == "muscles":
                     self._vtp_muscles(block, frame)
                 else:
                     self._vtp_points(name, block, frame, self.water if name == "water" else self.solids)
@@ -228,6 +283,7 @@ class Check:
         self.same(f"{name} mass", block.point_data["mass"], self.reference.mass()[particles])
         self.same(f"{name} kind", block.point_data["kind"], self.kind[particles])
         self.same(f"{name} cluster", block.point_data["cluster"], self.reference.first_cluster()[particles])
+        self.same(f"{name} creature", block.point_data["creature"], self.creature[particles])
         self.same(f"{name} particle", block.point_data["particle"], particles)
         self.same(f"{name} vertices", block.verts.reshape(-1, 2)[:, 1], np.arange(len(particles)))
         faces = block.faces.reshape(-1, 4)[:, 1:] if block.faces.size else np.empty(0)
@@ -242,10 +298,15 @@ class Check:
         self.same("actuator", block.cell_data["actuator"], self.reference.muscles("actuator"))
         self.near("contraction", block.cell_data["contraction"], self.reference.contraction(frame))
 
+    def usdc(self):
+        with open(self.folder / "swim.usdc", "rb") as file:
+            self.same("first letters", [file.read(8)], [b"PXR-USDC"])
+        self.usd()
+
     def usd(self):
         from pxr import Usd, UsdGeom
 
-        stage = Usd.Stage.Open(str(self.folder / "swim.usda"))
+        stage = Usd.Stage.Open(str(self.folder / f"swim.{'usdc' if self.metadata['format'] == 'usdc' else 'usda'}"))
         frames, scene = self.reference.frames, self.reference.scene
         self.same("metersPerUnit", [UsdGeom.GetStageMetersPerUnit(stage)], [1])
         if UsdGeom.GetStageUpAxis(stage) != "Y":
@@ -254,10 +315,13 @@ class Check:
         self.same("time range", [stage.GetStartTimeCode(), stage.GetEndTimeCode()],
                   [frames[0]["frame"], frames[-1]["frame"]])
         root = stage.GetDefaultPrim().GetPath()
-        points = {"Water": self.water, "BodyParticles": self.solids}
+        points = {"Water": self.water, "BodyParticles": np.flatnonzero(self.creature >= 0),
+                  "Obstacles": np.flatnonzero((self.kind != 0) & (self.creature < 0))}
         wanted = {name for name, particles in points.items() if len(particles)}
-        if scene["slices"]:
-            wanted.add("Body")
+        bodies = {f"Companion{i}" if i else "Body": i for i, slices in enumerate(self.reference.slices()) if slices}
+        wanted |= set(bodies)
+        if self.has_surface:
+            wanted.add("WaterSurface")
         if scene["muscles"]:
             wanted.add("Muscles")
         found = {prim.GetName() for prim in stage.GetDefaultPrim().GetChildren()}
@@ -265,8 +329,15 @@ class Check:
             raise Difference(f"prims are {sorted(found)}; expected {sorted(wanted)}")
         for name in wanted & set(points):
             self._usd_points(UsdGeom.Points(stage.GetPrimAtPath(root.AppendChild(name))), points[name])
-        if "Body" in wanted:
-            self._usd_body(UsdGeom.Mesh(stage.GetPrimAtPath(root.AppendChild("Body"))))
+        for name, i in bodies.items():
+            self._usd_body(UsdGeom.Mesh(stage.GetPrimAtPath(root.AppendChild(name))), i)
+        if self.has_surface:
+            mesh = UsdGeom.Mesh(stage.GetPrimAtPath(root.AppendChild("WaterSurface")))
+            values = [self._usd_samples(attribute) for attribute in (
+                mesh.GetPointsAttr(), mesh.GetFaceVertexIndicesAttr(), mesh.GetFaceVertexCountsAttr())]
+            for frame, points, indices, counts in zip(frames, *values):
+                self.same("WaterSurface face counts", counts, np.full(len(indices) // 3, 3))
+                self.water_surface("WaterSurface", frame, points, indices)
         if "Muscles" in wanted:
             self._usd_muscles(UsdGeom.BasisCurves(stage.GetPrimAtPath(root.AppendChild("Muscles"))))
 
@@ -300,22 +371,79 @@ class Check:
                 raise Difference(f"{path} density is {density.GetInterpolation()}")
         self.same(f"{path} ids", np.array(prim.GetIdsAttr().Get()), particles)
         self.same(f"{path} mass", np.array(primvars.GetPrimvar("mass").Get()), self.reference.mass()[particles])
-        water = np.array_equal(particles, self.water)
         scene = self.reference.scene
-        width = scene["fluidRestDistance"] if water else scene["solidRestDistance"] / 2
+        width = {"Water": scene["fluidRestDistance"], "BodyParticles": scene["solidRestDistance"] / 2,
+                 "Obstacles": scene["solidRestDistance"]}[prim.GetPrim().GetName()]
         self.same(f"{path} widths", np.array(prim.GetWidthsAttr().Get()), np.array([width], "f4"))
-        if not water:
+        if prim.GetPrim().GetName() == "BodyParticles":
             self.same(f"{path} cluster", np.array(primvars.GetPrimvar("cluster").Get()),
                       self.reference.first_cluster()[particles])
+            self.same(f"{path} creature", np.array(primvars.GetPrimvar("creature").Get()), self.creature[particles])
         self._usd_extent(prim, particles, width)
 
-    def _usd_body(self, mesh):
+    def _usd_body(self, mesh, creature):
+        particles = np.flatnonzero(self.creature == creature)
         self.same("Body points", self._usd_samples(mesh.GetPointsAttr()),
-                  [frame["position"][self.solids] for frame in self.reference.frames])
+                  [frame["position"][particles] for frame in self.reference.frames])
         counts = np.array(mesh.GetFaceVertexCountsAttr().Get())
         self.same("Body face counts", counts, np.full(counts.size, 3))
-        self.surface("Body", np.array(mesh.GetFaceVertexIndicesAttr().Get()), self.solids)
-        self._usd_extent(mesh, self.solids, 0)
+        self.surface("Body", np.array(mesh.GetFaceVertexIndicesAttr().Get()), particles,
+                     [self.reference.slices()[creature]])
+        self._usd_extent(mesh, particles, 0)
+
+    def glb(self):
+        from glb_reader import Glb
+
+        glb = Glb(self.folder / "swim.glb")
+        names = [f"Companion{i}" if i else "Body" for i, slices in enumerate(self.reference.slices()) if slices]
+        self.same("meshes", sorted(glb.bodies), sorted(names))
+        self.near("times", glb.times, [frame["time"] for frame in self.reference.frames])
+        for name in names:
+            self._glb_body(name, glb.bodies[name], int(name.removeprefix("Companion")) if name != "Body" else 0)
+
+    def _glb_body(self, name, body, creature):
+        """The mesh at rest is the settled start's, or the skin's; moved by its bones it stays by the particles."""
+        own = np.flatnonzero(self.creature == creature)
+        start = self.reference.frames[0]["position"]
+        if creature == 0 and self.reference.scene["skin"]:
+            self._glb_skin(body)
+            return
+        order = {tuple(start[particle]): particle for particle in own}
+        particles = np.array([order.get(tuple(place), -1) for place in body.places])
+        if particles.min() < 0:
+            raise Difference(f"{name}: a vertex is not at a particle of the settled start")
+        self.surface(name, particles[body.triangles], np.arange(len(self.creature)), [self.reference.slices()[creature]])
+        for i, frame in enumerate(self.reference.frames):
+            off = np.linalg.norm(body.moved(i) - frame["position"][particles], axis=1)
+            share = np.sqrt((off ** 2).mean()) / self.reference.scene["solidRestDistance"]
+            if share > 0.25:
+                raise Difference(f"{name} in frame {frame['frame']}: {share:.3f} solid rest distances from its particles")
+            self.compared += body.places.size
+        if i and np.allclose(body.moved(i), body.moved(0), atol=1e-4):
+            raise Difference(f"{name} does not move")
+
+    def _glb_skin(self, body):
+        """Each vertex where the best rigid motions of its two clusters bring it, computed here once more."""
+        scene = self.reference.scene
+        skin, row = scene["skin"], {particle: i for i, particle in enumerate(scene["body"])}
+        vertices, rest = np.array(skin["vertices"]), np.array(skin["rest"])
+        self.near("skin", body.places, vertices)
+        share, front = np.array(skin["share"])[:, None], np.array(skin["cluster"])
+        for i, frame in enumerate(self.reference.frames):
+            places = []
+            for cluster in scene["clusters"]:
+                at = rest[[row[particle] for particle in cluster]]
+                now = frame["position"][cluster].astype(float)
+                u, _, v = np.linalg.svd((now - now.mean(0)).T @ (at - at.mean(0)))
+                turn = u @ np.diag([1, 1, np.sign(np.linalg.det(u @ v))]) @ v
+                places.append((vertices - at.mean(0)) @ turn.T + now.mean(0))
+            places = np.array(places)
+            rear = np.minimum(front + 1, len(places) - 1)
+            each = np.arange(len(vertices))
+            wanted = share * places[front, each] + (1 - share) * places[rear, each]
+            if np.abs(body.moved(i) - wanted).max() > 1e-4:
+                raise Difference(f"skin in frame {frame['frame']}: {np.abs(body.moved(i) - wanted).max()} off")
+            self.compared += wanted.size
 
     def _usd_muscles(self, curves):
         from pxr import UsdGeom

@@ -6,7 +6,9 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.export.Export;
+import io.natator.export.ExportContent;
 import io.natator.export.ExportFormat;
+import io.natator.export.Python;
 import io.natator.stream.StreamField;
 import io.natator.stream.StreamOptions;
 import io.natator.verdict.Reproduction;
@@ -27,8 +29,9 @@ import picocli.CommandLine.Spec;
 /** {@code natator export}: a swim in the formats of other programs. */
 @Command(name = "export", mixinStandardHelpOptions = true,
         description = {"Simulates a swim and writes it, frame by frame, for another program.",
-            "vtp: ParaView; ply: Blender, a file for each frame; usd: USD; csv: one table; npz: numpy. The folder "
-                + "appears when it is whole; metadata.json in it says what was simulated."},
+            "vtp: ParaView; ply: Blender, a file for each frame; usd: USD as text, usdc: as binary; glb: glTF, bodies "
+                + "alone with bones; csv: one table; npz: numpy. The folder appears when it is whole; metadata.json in "
+                + "it says what was simulated."},
         customSynopsis = "natator export --format FORMAT [OPTIONS] RUN|SCENE",
         footer = {"", "Examples:",
             "  natator export --format vtp runs/creature-1-seed-1",
@@ -46,7 +49,8 @@ final class ExportCommand implements Callable<Integer> {
     private String source;
 
     @Section(Topic.OUTPUT)
-    @Option(names = "--format", required = true, paramLabel = "FORMAT", description = "vtp, ply, usd, csv or npz.")
+    @Option(names = "--format", required = true, paramLabel = "FORMAT", description = "vtp, ply, usd, usdc, glb, csv or npz. "
+            + "usdc needs Python with usd-core (pip install usd-core).")
     private ExportFormat format;
 
     @Section(Topic.SCENE)
@@ -83,6 +87,16 @@ final class ExportCommand implements Callable<Integer> {
     @Option(names = "--no-water", description = "Only the body.")
     private boolean noWater;
 
+    @Section(Topic.OUTPUT)
+    @Option(names = "--water-surface", description = "Also the water's surface, a mesh in every frame: vtp, ply, usd, "
+            + "usdc. Needs Python with pysplashsurf (pip install pysplashsurf).")
+    private boolean waterSurface;
+
+    @Section(Topic.COMPUTING)
+    @Option(names = "--python", paramLabel = "PROGRAM", defaultValue = "${env:NATATOR_PYTHON:-python3}",
+            description = "A Python with what usdc and --water-surface need. Default: $NATATOR_PYTHON, else python3.")
+    private String python;
+
     @Section(Topic.COMPUTING)
     @Option(names = "--precision", paramLabel = "PRECISION",
             description = "What the simulator computes in: float (default) or double. Files hold floats.")
@@ -109,7 +123,8 @@ final class ExportCommand implements Callable<Integer> {
         Path folder = outputDir != null ? outputDir : swimmer.run() != null
                 ? swimmer.run().resolve("export-" + format.text()) : Path.of(swimmer.name() + "-" + format.text());
         Map<Long, Double> distances = new HashMap<>();
-        Export.Written written = new Export(format, folder, force, !noWater)
+        Export.Written written = new Export(format, folder, force, new ExportContent(!noWater, waterSurface),
+                new Python(python))
                 .write(simulator, options, swimmer.described(), distances::put);
         Reproduction stored = swimmer.reproduction(simulator, sceneOptions.overrides(), sceneOptions.scheme(), precision);
         Double today = stored == null ? null : distances.get(stored.lastFrame());

@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assumptions.assumeThat;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.stream.StreamBytes;
@@ -25,7 +26,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine;
 
 /**
- * Exports of the real simulator, read back by pyvista, plyfile, USD and numpy in {@code tests/readers/check_export.py},
+ * Exports of the real simulator, read back by pyvista, plyfile, USD, pygltflib and numpy in {@code tests/readers/check_export.py},
  * which compares every number with the simulator's own stream.
  */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
@@ -80,7 +81,8 @@ class ExportReadersTest {
     private Path export(Path simulator, String format, double until, String... arguments) {
         Path target = folder.resolve(format);
         List<String> all = new ArrayList<>(List.of("export", "--format", format, "--duration", "" + until,
-                "--simulator-path", simulator.toString(), "--output-dir", target.toString()));
+                "--simulator-path", simulator.toString(), "--python", READERS.toString(),
+                "--output-dir", target.toString()));
         all.addAll(List.of(arguments));
         StringWriter said = new StringWriter();
         CommandLine command = Main.commandLine().setOut(new PrintWriter(said, true)).setErr(new PrintWriter(said, true));
@@ -97,7 +99,8 @@ class ExportReadersTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"vtp, 500000", "ply, 400000", "usd, 300000", "csv, 400000", "npz, 300000"})
+    @CsvSource({"vtp, 500000", "ply, 400000", "usd, 300000", "usdc, 300000", "csv, 400000", "npz, 300000",
+        "glb, 5000"})
     void everyNumberOfASwimIsReadBack(String format, long atLeast) throws IOException, InterruptedException {
         Path gait = folder.resolve("two.json");
         Path stream = stream(0.1, "thesis/creature-1", "--gait", gait.toString());
@@ -110,7 +113,7 @@ class ExportReadersTest {
 
     /** Slices of many sizes, every third frame, another scheme, changed settings. */
     @ParameterizedTest
-    @CsvSource({"vtp", "ply", "usd", "csv", "npz"})
+    @CsvSource({"vtp", "ply", "usd", "usdc", "glb", "csv", "npz"})
     void theBodyAloneAndFewerFieldsAndFrames(String format) throws IOException, InterruptedException {
         String[] swim = {"thesis/creature-4", "--gait", folder.resolve("three.json").toString(), "--scheme",
             "conserving", "--overrides", "{\"solver\":{\"substeps\":2,\"viscosity\":3}}"};
@@ -123,7 +126,7 @@ class ExportReadersTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"vtp", "ply", "usd", "csv", "npz"})
+    @CsvSource({"vtp", "ply", "usd", "usdc", "csv", "npz"})
     void waterWithoutABody(String format) throws IOException, InterruptedException {
         check(0, stream(0.05, "thesis/tank"), export(format, 0.05, "thesis/tank"));
     }
@@ -144,6 +147,58 @@ class ExportReadersTest {
         assertThat(program.toFile().setExecutable(true)).isTrue();
 
         check(0, file, export(program, format, 1, "test/pool"));
+    }
+
+    /** Two companions, whose particles, clusters and surfaces are told apart from the swimmer's. */
+    @ParameterizedTest
+    @CsvSource({"vtp", "ply", "usd", "glb", "npz"})
+    void severalCreatures(String format) throws IOException, InterruptedException {
+        check(0, stream(0.05, "company/school"), export(format, 0.05, "company/school"));
+    }
+
+    @Test
+    void obstaclesAreNoCreatures() throws IOException, InterruptedException {
+        check(0, stream(0.02, "company/pillars"), export("usd", 0.02, "company/pillars"));
+    }
+
+    /** A closed mesh around the water in every frame, between the tank's walls. */
+    @ParameterizedTest
+    @CsvSource({"vtp", "ply", "usd", "usdc"})
+    void theWatersSurface(String format) throws IOException, InterruptedException {
+        String[] swim = {"pool/creature-1", "--gait", folder.resolve("two.json").toString()};
+        List<String> arguments = new ArrayList<>(List.of(swim));
+        arguments.addAll(List.of("--water-surface", "--every", "10", "--fields", "position"));
+
+        check(0, stream(0.35, swim), export(format, 0.35, arguments.toArray(String[]::new)));
+    }
+
+    /** A mesh as skin, moved by bones; found good by the validator of glTF where there is one. */
+    @Test
+    void aSkinHasBones() throws IOException, InterruptedException {
+        Path gait = Files.writeString(folder.resolve("five.json"),
+                GAIT.formatted("1.5", "1,1,1,1,1", "0,0.92,0.84,0.76,0.68"));
+        String[] swim = {"pool/ray", "--gait", gait.toString()};
+
+        Path export = export("glb", 0.3, swim);
+
+        check(0, stream(0.3, swim), export);
+        validate(export.resolve("swim.glb"));
+    }
+
+    @Test
+    void theValidatorOfGltfFindsNothing() throws IOException, InterruptedException {
+        validate(export("glb", 0.1, "company/school").resolve("swim.glb"));
+    }
+
+    private void validate(Path file) throws IOException, InterruptedException {
+        Path validator = READERS.resolve("../../node_modules/gltf-validator").normalize();
+        assumeThat(validator).as("installed by ./setup.sh --readers where npm is").isDirectory();
+        Path log = folder.resolve("validator.log");
+
+        int status = run(log.toFile(), "node", CHECK.resolveSibling("validate_glb.js").toString(), validator.toString(),
+                file.toString());
+
+        assertThat(status).as(Files.readString(log)).isZero();
     }
 
     /** That the comparison would find a difference. */

@@ -33,9 +33,14 @@ final class BodySurface {
      * @param position x, y, z of every particle at rest
      */
     static BodySurface of(StreamScene scene, float[] position) {
+        return of(scene, scene.slices(), position);
+    }
+
+    /** The same of these slices, the body's or a companion's. */
+    static BodySurface of(StreamScene scene, List<List<Integer>> slices, float[] position) {
         BodySurface surface = new BodySurface();
         List<int[][]> grids = new ArrayList<>();
-        for (List<Integer> slice : scene.slices()) {
+        for (List<Integer> slice : slices) {
             int[][] grid = grid(slice, position, ROW_GAP * scene.solidRestDistance());
             if (grid == null) {
                 return surface;
@@ -50,6 +55,13 @@ final class BodySurface {
             surface.cap(grids.get(grids.size() - 1), false);
         }
         return surface;
+    }
+
+    /** All triangles of these. */
+    static BodySurface joined(List<BodySurface> surfaces) {
+        BodySurface all = new BodySurface();
+        surfaces.forEach(surface -> all.triangles.addAll(surface.triangles));
+        return all;
     }
 
     /** Rows from the bottom to the top, each from the left to the right; null if the slice does not consist of such. */

@@ -28,7 +28,8 @@ public final class Export {
     private final ExportFormat format;
     private final Path folder;
     private final boolean replace;
-    private final boolean water;
+    private final ExportContent content;
+    private final Python python;
 
     /**
      * What was written.
@@ -45,13 +46,15 @@ public final class Export {
      *
      * @param folder  which appears when it is done
      * @param replace whether an earlier export may be there
-     * @param water   whether to write the water too
+     * @param content what to write of the swim
+     * @param python  for formats and surfaces that need it
      */
-    public Export(ExportFormat format, Path folder, boolean replace, boolean water) {
+    public Export(ExportFormat format, Path folder, boolean replace, ExportContent content, Python python) {
         this.format = format;
         this.folder = folder;
         this.replace = replace;
-        this.water = water;
+        this.content = content;
+        this.python = python;
     }
 
     /**
@@ -61,12 +64,14 @@ public final class Export {
      * @param options   a lossless stream with an end, with positions
      * @param source    further entries of {@code metadata.json}
      * @param onFrame   told the number and the distance of each frame
-     * @throws InvalidInputException if the folder is occupied, or the program refuses the options
+     * @throws InvalidInputException if the folder is occupied, the format does not hold what is wanted, a package of
+     *                               Python is missing, or the program refuses the options
      * @throws UncheckedIOException  if a file cannot be written, or the simulation fails; the folder does not appear
      * @throws InterruptedException  if this virtual machine is shutting down
      */
     public Written write(Path simulator, StreamOptions options, ObjectNode source,
             BiConsumer<Long, Double> onFrame) throws InterruptedException {
+        requirePackages();
         try (ExportFolder target = ExportFolder.begin(folder, replace);
                 StreamProcess process = new StreamProcess(simulator, options)) {
             Written written = write(process, target.path(), source.deepCopy().put("every", options.every()),
@@ -75,6 +80,19 @@ public final class Export {
             return written;
         } catch (IOException e) {
             throw new UncheckedIOException("no export to " + folder + ": " + FileErrors.reason(folder, e), e);
+        }
+    }
+
+    private void requirePackages() throws InterruptedException {
+        if (content.waterSurface() && !format.holdsWaterSurface()) {
+            throw new InvalidInputException("--water-surface and --format " + format.text()
+                    + ": expected a format that holds meshes of many shapes: vtp, ply, usd or usdc");
+        }
+        if (content.waterSurface()) {
+            python.require("--water-surface", WaterSurface.MODULE, WaterSurface.MODULE);
+        }
+        if (format == ExportFormat.USDC) {
+            python.require("--format usdc", "pxr.Sdf", "usd-core");
         }
     }
 
@@ -91,7 +109,7 @@ public final class Export {
                 if (message instanceof StreamMessage.Frame next) {
                     StreamFrame frame = next.decode();
                     if (writer == null) {
-                        swim = ExportContext.of(next.scene(), frame, water);
+                        swim = ExportContext.of(next.scene(), frame, content, python);
                         writer = format.open(swim, path);
                     }
                     writer.frame(frame);
@@ -110,6 +128,9 @@ public final class Export {
         } finally {
             if (writer != null) {
                 writer.close();
+            }
+            if (swim != null && swim.hasWaterSurface()) {
+                swim.waterSurface().close();
             }
         }
         Files.writeString(path.resolve(ExportFolder.METADATA),
@@ -131,7 +152,8 @@ public final class Export {
     private ObjectNode metadata(StreamMessage.Scene message, ObjectNode source, int frames) throws IOException {
         ObjectNode all = JsonNodeFactory.instance.objectNode();
         all.put("format", format.text()).setAll(source);
-        all.put("frames", frames).put("water", water);
+        all.put("frames", frames).put("water", content.water())
+                .put("waterSurface", content.waterSurface());
         ObjectNode kinds = all.putObject("kinds");
         for (ParticleKind kind : ParticleKind.values()) {
             kinds.put("" + kind.ordinal(), kind.text());

@@ -3,28 +3,44 @@ package io.natator.export;
 import io.natator.stream.StreamField;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamScene;
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.List;
 import java.util.stream.IntStream;
 
 /**
  * What is exported of a scene, and what is the same in every frame.
  *
- * @param scene   as streamed
- * @param shown   all exported particles, in the order of their indices
- * @param water   of them, the water
- * @param solids  of them, all others
- * @param surface skin of the body
+ * @param scene        as streamed
+ * @param shown        all exported particles, in the order of their indices
+ * @param water        of them, the water
+ * @param solids       of them, all others
+ * @param surfaces     skin of the swimmer, and after it of each companion
+ * @param surface      all of these
+ * @param waterSurface of the water, or null if it is not exported
+ * @param python       for what needs it
  */
-record ExportContext(StreamScene scene, ParticleSet shown, ParticleSet water, ParticleSet solids, BodySurface surface) {
+record ExportContext(StreamScene scene, ParticleSet shown, ParticleSet water, ParticleSet solids,
+        List<BodySurface> surfaces, BodySurface surface, WaterSurface waterSurface, Python python) {
 
     /**
      * A scene whose settled start is known.
      *
-     * @param water whether the water is exported too
+     * @param content what of it is exported
      */
-    static ExportContext of(StreamScene scene, StreamFrame start, boolean water) {
+    static ExportContext of(StreamScene scene, StreamFrame start, ExportContent content, Python python)
+            throws IOException {
         ParticleSet solids = ParticleSet.of(scene, false);
+        boolean water = content.water();
+        List<BodySurface> surfaces = new ArrayList<>(List.of(BodySurface.of(scene, start.position())));
+        scene.companions().forEach(one -> surfaces.add(BodySurface.of(scene, one.slices(), start.position())));
         return new ExportContext(scene, water ? ParticleSet.of(scene, true) : solids,
-                water ? ParticleSet.water(scene) : null, solids, BodySurface.of(scene, start.position()));
+                water ? ParticleSet.water(scene) : null, solids, surfaces, BodySurface.joined(surfaces),
+                content.waterSurface() && scene.fluidCount() > 0 ? new WaterSurface(scene, python) : null, python);
+    }
+
+    boolean hasWaterSurface() {
+        return waterSurface != null;
     }
 
     boolean hasWater() {

@@ -12,6 +12,10 @@ public enum ExportFormat {
     PLY(PlyWriter::new),
     /** USD: one layer in text form with time samples. */
     USD(UsdWriter::new),
+    /** USD: the same layer in binary form. */
+    USDC(UsdWriter::binary),
+    /** glTF: bodies alone, as meshes that bones move, in one binary file. */
+    GLB(GlbWriter::new),
     /** One table. */
     CSV(CsvWriter::new),
     /** numpy: one archive of arrays. */
@@ -30,6 +34,11 @@ public enum ExportFormat {
 
     FrameWriter open(ExportContext swim, Path folder) throws IOException {
         return opening.open(swim, folder);
+    }
+
+    /** Whether files of it can hold a mesh whose vertices are others in every frame. */
+    boolean holdsWaterSurface() {
+        return this == VTP || this == PLY || this == USD || this == USDC;
     }
 
     /** Its name on the command line and in metadata. */

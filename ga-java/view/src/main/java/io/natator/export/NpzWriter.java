@@ -78,6 +78,8 @@ final class NpzWriter implements FrameWriter {
         add(zip, "particle", "<i4", shown.indices(), particles);
         add(zip, "mass", "<f4", shown.masses(), particles);
         add(zip, "kind", "|u1", shown.kinds(), particles);
+        add(zip, "creature", "<i4", shown.creatures(), particles);
+        add(zip, "cluster_creature", "<i4", clusterCreatures(), swim.scene().clusters().size());
         add(zip, "cluster", "|b1", membership(), swim.scene().clusters().size(), particles);
         add(zip, "muscle", "<i4", LittleEndian.ints(swim.muscleEnds(shown)), muscles.size(), 2);
         add(zip, "muscle_actuator", "<i4",
@@ -91,6 +93,12 @@ final class NpzWriter implements FrameWriter {
         add(zip, "muscle_lateral", "<f4", lateral.flip(), muscles.size());
         add(zip, "muscle_rest_length", "<f4", restLength.flip(), muscles.size());
         add(zip, "surface", "<i4", LittleEndian.ints(swim.surface().corners(shown)), swim.surface().size(), 3);
+    }
+
+    private ByteBuffer clusterCreatures() {
+        int[] creatures = ParticleSet.creatures(swim.scene());
+        return LittleEndian.ints(swim.scene().clusters().stream()
+                .mapToInt(cluster -> cluster.isEmpty() ? ParticleSet.NO_CREATURE : creatures[cluster.get(0)]).toArray());
     }
 
     /** For every cluster, of each particle, whether it belongs to it. */

@@ -12,26 +12,32 @@ final class ParticleSet {
 
     /** The cluster of a particle that belongs to none. */
     static final int NO_CLUSTER = -1;
+    /** The creature of a particle that belongs to none. */
+    static final int NO_CREATURE = -1;
 
     private final int[] index;
     private final int[] place;
     private final ParticleKind[] kind;
     private final int[] cluster;
+    private final int[] creature;
     private final float[] mass;
 
     private ParticleSet(StreamScene scene, int[] particles) {
         ParticleKind[] kinds = kinds(scene);
         int[] clusters = firstClusters(scene);
+        int[] creatures = creatures(scene);
         index = particles;
         place = new int[scene.particles()];
         Arrays.fill(place, -1);
         kind = new ParticleKind[index.length];
         cluster = new int[index.length];
+        creature = new int[index.length];
         mass = new float[index.length];
         for (int i = 0; i < index.length; i++) {
             place[index[i]] = i;
             kind[i] = kinds[index[i]];
             cluster[i] = clusters[index[i]];
+            creature[i] = creatures[index[i]];
             Double value = scene.mass().get(index[i]);
             mass[i] = value == null ? Float.POSITIVE_INFINITY : value.floatValue();
         }
@@ -45,6 +51,29 @@ final class ParticleSet {
     /** The water alone. */
     static ParticleSet water(StreamScene scene) {
         return those(scene, kind -> kind == ParticleKind.WATER);
+    }
+
+    /** Those of the swimmer and of companions. */
+    static ParticleSet creaturesOf(StreamScene scene) {
+        return ofCreatures(scene, true);
+    }
+
+    /** Those of one creature: 0 the swimmer, from 1 on companions. */
+    static ParticleSet ofCreature(StreamScene scene, int creature) {
+        int[] creatures = creatures(scene);
+        return new ParticleSet(scene,
+                IntStream.range(0, scene.particles()).filter(particle -> creatures[particle] == creature).toArray());
+    }
+
+    /** Solids of no creature. */
+    static ParticleSet obstacles(StreamScene scene) {
+        return ofCreatures(scene, false);
+    }
+
+    private static ParticleSet ofCreatures(StreamScene scene, boolean any) {
+        int[] creatures = creatures(scene);
+        return new ParticleSet(scene, IntStream.range(0, scene.particles()).filter(particle ->
+                !scene.isFluid(particle) && any == (creatures[particle] != NO_CREATURE)).toArray());
     }
 
     /** These particles in this order; one may occur more than once. */
@@ -79,6 +108,19 @@ final class ParticleSet {
         return clusters;
     }
 
+    /** 0 of the swimmer, 1 of the first companion, and so on. */
+    static int[] creatures(StreamScene scene) {
+        int[] creatures = new int[scene.particles()];
+        Arrays.fill(creatures, NO_CREATURE);
+        for (int i = 0; i < scene.companions().size(); i++) {
+            for (int particle : scene.companions().get(i).body()) {
+                creatures[particle] = i + 1;
+            }
+        }
+        scene.body().forEach(particle -> creatures[particle] = 0);
+        return creatures;
+    }
+
     int size() {
         return index.length;
     }
@@ -100,6 +142,11 @@ final class ParticleSet {
     /** The first cluster of the i-th particle, from the head on, or {@link #NO_CLUSTER}. */
     int cluster(int i) {
         return cluster[i];
+    }
+
+    /** The creature of the i-th particle: 0 the swimmer, from 1 on companions, or {@link #NO_CREATURE}. */
+    int creature(int i) {
+        return creature[i];
     }
 
     /** Mass of the i-th particle; infinite if it is held in place. */
@@ -147,6 +194,11 @@ final class ParticleSet {
     /** First clusters, 32-bit. */
     ByteBuffer clusters() {
         return LittleEndian.ints(cluster);
+    }
+
+    /** Creatures, 32-bit. */
+    ByteBuffer creatures() {
+        return LittleEndian.ints(creature);
     }
 
     /** Indices in the scene, 32-bit. */

@@ -21,7 +21,7 @@ final class PlyWriter implements FrameWriter {
         this.swim = swim;
         this.folder = folder;
         int floats = 3 + (swim.hasVelocity() ? 3 : 0) + (swim.hasDensity() ? 1 : 0) + 1;
-        this.rows = LittleEndian.buffer((long) swim.shown().size() * (floats * Float.BYTES + 1 + Integer.BYTES));
+        this.rows = LittleEndian.buffer((long) swim.shown().size() * (floats * Float.BYTES + 1 + 2 * Integer.BYTES));
     }
 
     @Override
@@ -33,13 +33,40 @@ final class PlyWriter implements FrameWriter {
             put(frame.position(), 3, particle);
             put(frame.velocity(), swim.hasVelocity() ? 3 : 0, particle);
             put(frame.density(), swim.hasDensity() ? 1 : 0, particle);
-            rows.putFloat(shown.mass(i)).put((byte) shown.kind(i).ordinal()).putInt(shown.cluster(i));
+            rows.putFloat(shown.mass(i)).put((byte) shown.kind(i).ordinal()).putInt(shown.cluster(i)).putInt(shown.creature(i));
         }
         Path file = folder.resolve(String.format(Locale.ROOT, "swim_%06d.ply", frame.frame()));
         try (OutputStream out = new BufferedOutputStream(Files.newOutputStream(file))) {
             out.write(head(frame).getBytes(StandardCharsets.US_ASCII));
             out.write(rows.array(), 0, rows.position());
         }
+        if (swim.hasWaterSurface()) {
+            writeSurface(frame);
+        }
+    }
+
+    /** A mesh in a file of its own. */
+    private void writeSurface(StreamFrame frame) throws IOException {
+        WaterSurface.Mesh mesh = swim.waterSurface().of(frame);
+        Path surfaces = Files.createDirectories(folder.resolve("water-surface"));
+        ByteBuffer faces = LittleEndian.buffer((long) mesh.triangleCount() * (1 + 3 * Integer.BYTES));
+        for (int i = 0; i < mesh.triangles().length; i += 3) {
+            faces.put((byte) 3).putInt(mesh.triangles()[i]).putInt(mesh.triangles()[i + 1])
+                    .putInt(mesh.triangles()[i + 2]);
+        }
+        Path file = surfaces.resolve(String.format(Locale.ROOT, "water-surface_%06d.ply", frame.frame()));
+        try (OutputStream out = new BufferedOutputStream(Files.newOutputStream(file))) {
+            out.write((headLines(frame, mesh.vertexCount()) + "element face " + mesh.triangleCount()
+                    + "\nproperty list uchar int vertex_indices\nend_header\n").getBytes(StandardCharsets.US_ASCII));
+            out.write(LittleEndian.floats(mesh.places()).array());
+            out.write(faces.array());
+        }
+    }
+
+    private String headLines(StreamFrame frame, int vertices) {
+        return "ply\nformat binary_little_endian 1.0\ncomment " + swim.title() + ", frame " + frame.frame() + ", time "
+                + frame.time() + " s\nelement vertex " + vertices + "\n"
+                + "property float x\nproperty float y\nproperty float z\n";
     }
 
     private void put(float[] values, int components, int particle) {
@@ -49,12 +76,10 @@ final class PlyWriter implements FrameWriter {
     }
 
     private String head(StreamFrame frame) {
-        return "ply\nformat binary_little_endian 1.0\ncomment " + swim.title() + ", frame " + frame.frame() + ", time "
-                + frame.time() + " s\nelement vertex " + swim.shown().size() + "\n"
-                + "property float x\nproperty float y\nproperty float z\n"
+        return headLines(frame, swim.shown().size())
                 + (swim.hasVelocity() ? "property float vx\nproperty float vy\nproperty float vz\n" : "")
                 + (swim.hasDensity() ? "property float density\n" : "")
-                + "property float mass\nproperty uchar kind\nproperty int cluster\nend_header\n";
+                + "property float mass\nproperty uchar kind\nproperty int cluster\nproperty int creature\nend_header\n";
     }
 
     @Override

@@ -33,7 +33,7 @@ final class UsdPrim implements Closeable {
     /** Where its points are in a frame: x, y, z each. */
     @FunctionalInterface
     interface Points {
-        float[] of(StreamFrame frame);
+        float[] of(StreamFrame frame) throws IOException;
     }
 
     /**

@@ -49,6 +49,11 @@ final class UsdSamples implements Closeable {
         out.append(text.append("],\n"));
     }
 
+    /** Adds whole numbers. */
+    void add(long timeCode, int[] values) throws IOException {
+        out.append("            " + timeCode + ": ").append(UsdText.list(values)).append(",\n");
+    }
+
     private static void append(StringBuilder text, float[] values, int from, int components) {
         if (components == 1) {
             text.append(UsdText.number(values[from]));

@@ -6,10 +6,6 @@ import java.util.stream.IntStream;
 /** Values as USD's text form writes them. */
 final class UsdText {
 
-    /** Colours of clusters, from the head on, again from the first after the last. */
-    private static final String[] PALETTE = {"(0.894, 0.510, 0.176)", "(0.839, 0.278, 0.302)", "(0.741, 0.290, 0.573)",
-        "(0.451, 0.373, 0.725)", "(0.984, 0.737, 0.294)"};
-
     private UsdText() {
     }
 
@@ -40,6 +36,10 @@ final class UsdText {
         return list(IntStream.range(0, particles.size()).map(particles::cluster).toArray());
     }
 
+    static String creatures(ParticleSet particles) {
+        return list(IntStream.range(0, particles.size()).map(particles::creature).toArray());
+    }
+
     /** A colour for each particle's cluster. */
     static String colours(ParticleSet particles) {
         return colours(IntStream.range(0, particles.size()).map(particles::cluster).toArray());
@@ -47,7 +47,8 @@ final class UsdText {
 
     /** A colour for each of these clusters. */
     static String colours(int[] clusters) {
-        return IntStream.of(clusters).mapToObj(cluster -> PALETTE[Math.max(0, cluster) % PALETTE.length])
+        return IntStream.of(clusters).mapToObj(ClusterColours::of)
+                .map(colour -> "(" + colour[0] + ", " + colour[1] + ", " + colour[2] + ")")
                 .collect(Collectors.joining(", ", "[", "]"));
     }
 }

@@ -8,49 +8,62 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 import java.util.stream.IntStream;
 
 /**
- * For USD: {@code swim.usda}, a time code for each simulated frame. {@code Water} and {@code BodyParticles} are
- * points, {@code Muscles} are curves. {@code Body} is the body's surface: the mesh that it was made of, or that of its slices. Where there is
- * one, its particles are there but invisible. The unit of length counts as a metre.
+ * For USD: {@code swim.usda}, or {@code swim.usdc}, a time code for each simulated frame. {@code Water},
+ * {@code BodyParticles} and {@code Obstacles} are points, {@code Muscles} are curves, {@code WaterSurface} is a mesh.
+ * {@code Body} is the swimmer's surface: the mesh that it was made of, or that of its slices; {@code Companion1} and so on
+ * are those of companions. Where there is a surface, its particles are there but invisible. The unit of length counts as a metre.
  */
 final class UsdWriter implements FrameWriter {
 
+    private static final String INVISIBLE = "token visibility = \"invisible\"";
     private static final double MUSCLE_WIDTH = 0.05;  // in solid rest distances
 
     private final ExportContext swim;
     private final Path folder;
     private final List<UsdPrim> prims = new ArrayList<>();
+    private final boolean binary;
     private long first = -1;
     private long last = -1;
 
     UsdWriter(ExportContext swim, Path folder) throws IOException {
+        this(swim, folder, false);
+    }
+
+    private UsdWriter(ExportContext swim, Path folder, boolean binary) throws IOException {
         this.swim = swim;
         this.folder = folder;
+        this.binary = binary;
         StreamScene scene = swim.scene();
         if (swim.hasWater()) {
             UsdPrim water = points("Water", swim.water(), scene.fluidRestDistance());
             water.fix("color3f[] primvars:displayColor = [(0.35, 0.62, 0.86)] (interpolation = \"constant\")");
             water.fix("float[] primvars:displayOpacity = [0.3] (interpolation = \"constant\")");
+            if (swim.hasWaterSurface()) {
+                water.fix(INVISIBLE);
+            }
         }
-        if (swim.solids().size() > 0) {
-            if (swim.hasSkin()) {
-                addSkin();
-            } else if (swim.surface().size() > 0) {
-                addSurface();
-            }
-            UsdPrim body = points("BodyParticles", swim.solids(), scene.solidRestDistance() / 2);
-            body.fix("int[] primvars:cluster = " + UsdText.clusters(swim.solids()) + " (interpolation = \"vertex\")");
-            body.fix(colours());
-            if (swim.hasSkin() || swim.surface().size() > 0) {
-                body.fix("token visibility = \"invisible\"");
-            }
+        if (swim.hasWaterSurface()) {
+            addWaterSurface();
+        }
+        addBodies();
+        ParticleSet obstacles = ParticleSet.obstacles(scene);
+        if (obstacles.size() > 0) {
+            points("Obstacles", obstacles, scene.solidRestDistance())
+                    .fix("color3f[] primvars:displayColor = [(0.56, 0.62, 0.66)] (interpolation = \"constant\")");
         }
         if (!scene.muscles().isEmpty()) {
             addMuscles();
         }
+    }
+
+    /** One in binary form. */
+    static UsdWriter binary(ExportContext swim, Path folder) throws IOException {
+        return new UsdWriter(swim, folder, true);
     }
 
     private UsdPrim prim(String type, String name, ParticleSet particles, double width) throws IOException {
@@ -80,6 +93,44 @@ final class UsdWriter implements FrameWriter {
         return points;
     }
 
+    private void addBodies() throws IOException {
+        ParticleSet bodies = ParticleSet.creaturesOf(swim.scene());
+        if (bodies.size() == 0) {
+            return;
+        }
+        if (swim.hasSkin()) {
+            addSkin();
+        }
+        for (int i = 0; i < swim.surfaces().size(); i++) {
+            if (swim.surfaces().get(i).size() > 0 && !(i == 0 && swim.hasSkin())) {
+                addSurface(i == 0 ? "Body" : "Companion" + i, ParticleSet.ofCreature(swim.scene(), i), swim.surfaces().get(i));
+            }
+        }
+        UsdPrim points = points("BodyParticles", bodies, swim.scene().solidRestDistance() / 2);
+        points.fix("int[] primvars:cluster = " + UsdText.clusters(bodies) + " (interpolation = \"vertex\")");
+        points.fix("int[] primvars:creature = " + UsdText.creatures(bodies) + " (interpolation = \"vertex\")");
+        points.fix(colours(bodies));
+        if (swim.hasSkin() || swim.surface().size() > 0) {
+            points.fix(INVISIBLE);
+        }
+    }
+
+    /** Its faces are others in every frame. */
+    private void addWaterSurface() throws IOException {
+        WaterSurface surface = swim.waterSurface();
+        UsdPrim mesh = prim("Mesh", "WaterSurface", frame -> surface.of(frame).places(), 0);
+        mesh.sample("int[] faceVertexCounts", (samples, frame) -> {
+            int[] counts = new int[surface.of(frame).triangleCount()];
+            Arrays.fill(counts, 3);
+            samples.add(frame.frame(), counts);
+        });
+        mesh.sample("int[] faceVertexIndices",
+                (samples, frame) -> samples.add(frame.frame(), surface.of(frame).triangles()));
+        mesh.fix("uniform token subdivisionScheme = \"none\"");
+        mesh.fix("color3f[] primvars:displayColor = [(0.35, 0.62, 0.86)] (interpolation = \"constant\")");
+        mesh.fix("float[] primvars:displayOpacity = [0.3] (interpolation = \"constant\")");
+    }
+
     /** The mesh that the body was made of. */
     private void addSkin() throws IOException {
         Skin skin = swim.scene().skin();
@@ -92,17 +143,17 @@ final class UsdWriter implements FrameWriter {
         mesh.fix("color3f[] primvars:displayColor = " + UsdText.colours(skin.cluster()) + " (interpolation = \"vertex\")");
     }
 
-    private void addSurface() throws IOException {
-        UsdPrim mesh = prim("Mesh", "Body", swim.solids(), 0);
-        mesh.fix("int[] faceVertexCounts = " + UsdText.list(swim.surface().size(), 3));
-        mesh.fix("int[] faceVertexIndices = " + UsdText.list(swim.surface().corners(swim.solids())));
+    private void addSurface(String name, ParticleSet body, BodySurface surface) throws IOException {
+        UsdPrim mesh = prim("Mesh", name, body, 0);
+        mesh.fix("int[] faceVertexCounts = " + UsdText.list(surface.size(), 3));
+        mesh.fix("int[] faceVertexIndices = " + UsdText.list(surface.corners(body)));
         mesh.fix("uniform token subdivisionScheme = \"none\"");
         mesh.fix("uniform bool doubleSided = 1");
-        mesh.fix(colours());
+        mesh.fix(colours(body));
     }
 
-    private String colours() {
-        return "color3f[] primvars:displayColor = " + UsdText.colours(swim.solids()) + " (interpolation = \"vertex\")";
+    private static String colours(ParticleSet bodies) {
+        return "color3f[] primvars:displayColor = " + UsdText.colours(bodies) + " (interpolation = \"vertex\")";
     }
 
     /** The points of a curve are those of its two ends, so a particle may occur more than once. */
@@ -139,7 +190,8 @@ final class UsdWriter implements FrameWriter {
     @Override
     public void finish() throws IOException {
         double codesPerSecond = 1 / swim.scene().timeStep();
-        try (BufferedWriter out = Files.newBufferedWriter(folder.resolve("swim.usda"))) {
+        Path text = folder.resolve("swim.usda");
+        try (BufferedWriter out = Files.newBufferedWriter(text)) {
             out.write("#usda 1.0\n(\n    defaultPrim = \"Swim\"\n    doc = \"" + swim.title() + "\"\n    endTimeCode = "
                     + last + "\n    framesPerSecond = " + codesPerSecond + "\n    metersPerUnit = 1\n"
                     + "    startTimeCode = " + first + "\n    timeCodesPerSecond = " + codesPerSecond
@@ -148,6 +200,10 @@ final class UsdWriter implements FrameWriter {
                 prim.moveTo(out);
             }
             out.write("}\n");
+        }
+        if (binary) {
+            swim.python().run("usd_binary.py", text.toString(), folder.resolve("swim.usdc").toString());
+            Files.delete(text);
         }
     }
 

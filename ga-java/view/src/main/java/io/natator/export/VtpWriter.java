@@ -12,8 +12,8 @@ import java.util.Locale;
 import java.util.stream.IntStream;
 
 /**
- * For ParaView: {@code swim.pvd} names the files of all times, up to three each: {@code water} and {@code body} (points
- * with arrays; the body also with its surface) and {@code muscles} (lines).
+ * For ParaView: {@code swim.pvd} names the files of all times, up to four each: {@code water} and {@code body} (points
+ * with arrays; the body also with its surface), {@code muscles} (lines) and {@code water-surface} (triangles).
  */
 final class VtpWriter implements FrameWriter {
 
@@ -30,12 +30,12 @@ final class VtpWriter implements FrameWriter {
 
     /** What is the same in every frame of a set of particles. */
     private record Fixed(ParticleSet particles, ByteBuffer mass, ByteBuffer kind, ByteBuffer cluster,
-            ByteBuffer particle, ByteBuffer nodes, ByteBuffer ends) {
+            ByteBuffer creature, ByteBuffer particle, ByteBuffer nodes, ByteBuffer ends) {
 
         static Fixed of(ParticleSet particles) {
             int count = particles.size();
             return new Fixed(particles, particles.masses(), particles.kinds(), particles.clusters(),
-                    particles.indices(), LittleEndian.ints(IntStream.range(0, count).toArray()),
+                    particles.creatures(), particles.indices(), LittleEndian.ints(IntStream.range(0, count).toArray()),
                     LittleEndian.ints(IntStream.rangeClosed(1, count).toArray()));
         }
     }
@@ -70,7 +70,13 @@ final class VtpWriter implements FrameWriter {
             write(points, frame, "body", part++);
         }
         if (!swim.scene().muscles().isEmpty()) {
-            write(muscles(frame), frame, "muscles", part);
+            write(muscles(frame), frame, "muscles", part++);
+        }
+        if (swim.hasWaterSurface()) {
+            WaterSurface.Mesh mesh = swim.waterSurface().of(frame);
+            PolyData surface = new PolyData(frame.time(), LittleEndian.floats(mesh.places()));
+            surface.cells("Polys", LittleEndian.ints(mesh.triangles()), LittleEndian.ints(mesh.ends()));
+            write(surface, frame, "water-surface", part);
         }
     }
 
@@ -85,6 +91,7 @@ final class VtpWriter implements FrameWriter {
         points.ofPoints("Float32", "mass", 1, fixed.mass);
         points.ofPoints("UInt8", "kind", 1, fixed.kind);
         points.ofPoints("Int32", "cluster", 1, fixed.cluster);
+        points.ofPoints("Int32", "creature", 1, fixed.creature);
         points.ofPoints("Int32", "particle", 1, fixed.particle);
         points.cells("Verts", fixed.nodes, fixed.ends);
         return points;

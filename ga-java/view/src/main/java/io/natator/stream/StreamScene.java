@@ -34,7 +34,8 @@ import java.util.List;
  * @param body              indices of the body's particles
  * @param slices            indices of each slice's particles, from the head on
  * @param bodyLength        head to tail at rest; 0 without a body
- * @param clusters          indices of each cluster's particles, from the head on
+ * @param companions        the other bodies in the tank, in the scene's order
+ * @param clusters          indices of each cluster's particles, from the head on, after the body's those of companions
  * @param joints            indices of the slices that are joints
  * @param actuators         their number A; 0 = nearest the head
  * @param muscles           springs that contract
@@ -50,7 +51,7 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         @JsonProperty(required = true) List<StreamField> fields, @JsonProperty(required = true) int particles,
         @JsonProperty(required = true) List<Double> mass, @JsonProperty(required = true) List<Integer> fluid,
         @JsonProperty(required = true) List<Integer> body, @JsonProperty(required = true) List<List<Integer>> slices,
-        double bodyLength, @JsonProperty(required = true) List<List<Integer>> clusters,
+        double bodyLength, List<Companion> companions, @JsonProperty(required = true) List<List<Integer>> clusters,
         @JsonProperty(required = true) List<Integer> joints, @JsonProperty(required = true) int actuators,
         @JsonProperty(required = true) List<Muscle> muscles, Skin skin) {
 
@@ -60,14 +61,27 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
     static final int MAX_PARTICLES = 10_000_000;
     static final int MAX_ACTUATORS = 100_000;
 
-    /** A JSON null counts as absent. */
+    /** A JSON null counts as absent, and absent companions as none. */
     public StreamScene {
+        companions = companions == null ? List.of() : companions;
         overrides = present(overrides);
         gait = present(gait);
     }
 
     private static JsonNode present(JsonNode node) {
         return node == null || node.isNull() ? null : node;
+    }
+
+    /**
+     * A body beside the one that swims.
+     *
+     * @param name   of its creature
+     * @param body   indices of its particles
+     * @param slices indices of each slice's particles, from the head on
+     */
+    @JsonIgnoreProperties(ignoreUnknown = true)
+    public record Companion(String name, @JsonProperty(required = true) List<Integer> body,
+            @JsonProperty(required = true) List<List<Integer>> slices) {
     }
 
     /**
@@ -118,6 +132,11 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
                 "fluid is " + fluid + "; expected [first, count] of at most " + particles + " particles");
         indices("body", body, particles);
         lists("slices", slices);
+        for (Companion companion : companions) {
+            expect(companion != null, "companions: expected objects");
+            indices("companions.body", companion.body, particles);
+            lists("companions.slices", companion.slices);
+        }
         lists("clusters", clusters);
         indices("joints", joints, sizeOf(slices));
         expect(planes != null && planes.stream().allMatch(plane -> plane != null && plane.size() == 4
