@@ -65,6 +65,9 @@ class ExportCommandTest {
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of("export", "--simulator-path", simulator.toString(), "--output-dir",
                 folder.resolve("out").toString()));
+        if (!List.of(arguments).contains("--python")) {
+            all.addAll(List.of("--python", System.getProperty("natator.readers")));
+        }
         all.addAll(List.of(arguments));
         return command.execute(all.toArray(String[]::new));
     }
@@ -150,6 +153,7 @@ class ExportCommandTest {
         "test/pool --generation 0|--generation: test/pool is not a run folder",
         "none.json|--scene is none.json; expected a named scene or an existing file",
         "test/pool --gait none.json|--gait none.json does not exist",
+        "test/pool --duration 1 --water-surface|--water-surface and --format csv: expected a format that holds meshes of many shapes",
         "test/pool --every 0|--every is 0; expected a whole number from 1",
         "test/pool --duration 0|--duration is 0.0; expected a number of seconds above 0"})
     void badUsageIsOneLine(String arguments, String message) throws IOException {
@@ -188,6 +192,38 @@ class ExportCommandTest {
             assertThat(folder.resolve("out")).doesNotExist();
             assertThat(folder.resolve("out.partial")).doesNotExist();
         }
+    }
+
+    /** Found out before anything is simulated. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "usdc||--format usdc needs the Python package usd-core, which PYTHON cannot import: pip install usd-core",
+        "usd|--water-surface|--water-surface needs the Python package pysplashsurf, which PYTHON cannot import: "
+            + "pip install pysplashsurf"})
+    void aMissingPackageIsNamed(String format, String option, String message) throws IOException {
+        Path python = Files.writeString(folder.resolve("python"), "#!/bin/sh\nexit 1\n");
+        assertThat(python.toFile().setExecutable(true)).isTrue();
+        List<String> arguments = new ArrayList<>(
+                List.of("test/pool", "--format", format, "--duration", "1", "--python", python.toString()));
+        if (option != null) {
+            arguments.add(option);
+        }
+
+        assertThat(export(simulator(whole(1), "exit 0"), arguments.toArray(String[]::new))).isEqualTo(2);
+        assertThat(err.toString()).contains(message.replace("PYTHON", python.toString())).hasLineCount(1);
+        assertThat(folder.resolve("arguments")).doesNotExist();
+    }
+
+    @Test
+    void bonesNeedABody() throws IOException {
+        ObjectNode scene = StreamBytes.scene();
+        scene.putArray("slices");
+        scene.putArray("joints");
+        StreamBytes stream = new StreamBytes().json("SCEN", scene).frame(1, 0).json("STOP", "{\"reason\":\"until\"}");
+
+        assertThat(export(simulator(stream, "exit 0"), "test/pool", "--format", "glb", "--duration", "1")).isEqualTo(2);
+        assertThat(err.toString()).contains("--format glb: test/pool has no body with a surface").hasLineCount(1);
+        assertThat(folder.resolve("out")).doesNotExist();
     }
 
     @Test

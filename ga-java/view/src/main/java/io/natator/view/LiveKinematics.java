@@ -47,8 +47,9 @@ final class LiveKinematics {
      * @param frames    that it is drawn from
      * @param envelope  [place, amplitude] pairs
      * @param modes     the best fit to each real fish
+     * @param nearest   name of the one that the motion is nearest to; null if it is like none ({@link ModeFit#nearest})
      */
-    record Analysis(double frequency, int frames, List<double[]> envelope, List<Mode> modes) {
+    record Analysis(double frequency, int frames, List<double[]> envelope, List<Mode> modes, String nearest) {
     }
 
     /**
@@ -152,9 +153,11 @@ final class LiveKinematics {
             Swimming swimming = new Swimming(spine, bodyLength);
             List<double[]> envelope = places(swimming.measuredLength() / bodyLength).mapToObj(share ->
                     new double[] {share, swimming.envelope(share * bodyLength) / bodyLength}).toList();
-            List<Mode> modes = ModeFit.all(swimming, frequency).stream().map(fit -> new Mode(fit.mode().label(),
+            List<ModeFit> fits = ModeFit.all(swimming, frequency);
+            List<Mode> modes = fits.stream().map(fit -> new Mode(fit.mode().label(),
                     fit.alpha(), fit.beta(), fit.error(), fishEnvelope(fit.mode(), frequency))).toList();
-            return new Analysis(frequency, spine.frames(), envelope, modes);
+            return new Analysis(frequency, spine.frames(), envelope, modes,
+                    ModeFit.nearest(fits).map(fit -> fit.mode().label()).orElse(null));
         }
     }
 

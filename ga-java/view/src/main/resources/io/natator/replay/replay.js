@@ -1,5 +1,6 @@
 /** The page of `natator page`: plays packed swims. */
 
+import {about} from './about.js';
 import {CAMERAS} from './cameras.js';
 import {TimeChart, chartColours} from './charts.js';
 import {byId, choose, fillSegments, fillSelect, make} from './element.js';
@@ -9,6 +10,7 @@ import {History} from './history.js';
 import {listen} from './keys.js';
 import {LookControls} from './look.js';
 import {Meter} from './meter.js';
+import {Presentation} from './present.js';
 import {Recording} from './recording.js';
 import {fixed} from './scaling.js';
 import {contents} from './scene.js';
@@ -27,6 +29,10 @@ class Player {
   #charts;
   #look;
   #theme;
+  #openAbout = about(false);
+  #presentation = new Presentation(isOn => {
+    this.#stage.rig.isOrbiting = isOn;
+  });
   #recording = null;
   #time = 0;
   #speed = 1;
@@ -215,6 +221,8 @@ class Player {
       ['x', 'cut the water open at the body', () => this.#look.toggle('cut')],
       ['m', 'muscles', () => this.#look.toggle('muscles')],
       ['t', 'trace of the spine', () => this.#look.toggle('trace')],
+      ['p', 'presentation: the picture alone', () => this.#presentation.toggle()],
+      ['a', 'about this', () => this.#openAbout()],
       ['d', 'light, dark', () => this.#theme.toggle()],
       ['?', 'this list', () => byId('help').showModal()],
     ]);

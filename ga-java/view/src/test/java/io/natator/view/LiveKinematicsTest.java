@@ -46,11 +46,16 @@ class LiveKinematicsTest {
 
     /** The body at a frame: it swims along x with its head in front, at half the fish's amplitude. */
     private static StreamFrame frame(int frame) {
+        return frame(frame, 1);
+    }
+
+    /** The same with a wave that goes to the tail (1), or from there to the head (−1). */
+    private static StreamFrame frame(int frame, int way) {
         double time = frame * STEP;
         float[] position = new float[3 * SLICES * PER_SLICE];
         for (int slice = 0; slice < SLICES; slice++) {
             double x = LENGTH * slice / (SLICES - 1);
-            double z = SCALE * FishMode.ANGUILLIFORM.lateral(x, time, LENGTH, FREQUENCY);
+            double z = SCALE * FishMode.ANGUILLIFORM.lateral(x, way * time, LENGTH, FREQUENCY);
             for (int i = 0; i < PER_SLICE; i++) {
                 int at = 3 * (PER_SLICE * slice + i);
                 position[at] = (float) (2 + 0.3 * time - x);
@@ -77,11 +82,25 @@ class LiveKinematicsTest {
         assertThat(eel.name()).isEqualTo("anguilliform");
         assertThat(eel.alpha()).isCloseTo(1 / SCALE, within(0.1));
         assertThat(eel.e()).isLessThan(0.06);
+        assertThat(analysis.nearest()).isEqualTo("anguilliform");
         double[] tail = analysis.envelope().get(LiveKinematics.PLACES - 1);
         assertThat(tail[0]).isCloseTo(1, within(0.03));
         assertThat(tail[1]).isCloseTo(SCALE * 0.1, within(0.015));
         double[] fishTail = eel.envelope().get(LiveKinematics.PLACES - 1);
         assertThat(fishTail).containsExactly(1, 0.1);
+    }
+
+    @Test
+    void aWaveFromTheTailIsLikeNoFish() throws JsonProcessingException {
+        motion.begin(scene(FREQUENCY, 0.8, true));
+        for (int i = 0; i < 150; i++) {
+            motion.add(frame(i, -1));
+        }
+
+        LiveKinematics.Analysis analysis = motion.lastBeats().analyse();
+
+        assertThat(analysis.modes()).allSatisfy(mode -> assertThat(mode.e()).isGreaterThan(0.25));
+        assertThat(analysis.nearest()).isNull();
     }
 
     /** Two whole beats of 48 frames fit into two seconds; with fewer frames it is one, and with less than one none. */

@@ -57,6 +57,15 @@ class ModulesTest extends BrowserTest {
     }
 
     @Test
+    void aMotionIsNamedAfterAFishOnlyIfItIsLikeOne() {
+        Object said = with("livecharts.js", """
+                ({likeness}) => [null, 'thunniform'].map(nearest => likeness(
+                    {nearest, modes: [{name: 'anguilliform', e: 0.31}, {name: 'thunniform', e: 0.12}]})).join('; ')""");
+
+        assertThat(said).isEqualTo("like none; e 0.12");
+    }
+
+    @Test
     void aFrameIsReadByteForByte() {
         Object read = with("protocol.js", """
                 ({decodeFrame, sceneNumber}) => {

@@ -7,6 +7,12 @@ import {fixed} from './scaling.js';
 /** Frames of the screen between two drawings of charts. */
 const TURN = 4;
 
+/** How near a motion (ANALYSIS) is to the real fish that it is most like, or that it is like none. */
+export function likeness({modes, nearest}) {
+  const fish = modes.find(mode => mode.name === nearest);
+  return fish ? `e ${fish.e.toFixed(2)}` : 'like none';
+}
+
 /** Distance, speed, envelope, momentum and density error of one or two views. */
 export class LiveCharts {
   #modes;
@@ -72,8 +78,7 @@ export class LiveCharts {
 
   #text(name, {history, analysis}) {
     if (name === 'envelope') {
-      const least = analysis?.modes.reduce((best, mode) => best === null || mode.e < best.e ? mode : best, null);
-      return least ? `e ${least.e.toFixed(2)}` : '';
+      return analysis ? likeness(analysis) : '';
     }
     const column = {distance: 'distance', speed: 'beatSpeed', momentum: 'momentum', density: 'densityMean'}[name];
     const value = history.last(column);

@@ -42,7 +42,7 @@ class Page {
   #vacuumBusy = false;
   #lockstep;
   #browsed = null;
-  #openAbout = about();
+  #openAbout = about(true);
   #presentation = new Presentation(isOn => this.#views.forEach(view => {
     view.stage.rig.isOrbiting = isOn;
   }));
