@@ -16,7 +16,8 @@ from mathutils import Vector
 
 FRAMES_PER_SECOND = 60
 SIZE, SAMPLES = (960, 480), 32
-WATER, SKIN, GROUND = (0.30, 0.62, 0.80, 1), (0.95, 0.42, 0.12, 1), (0.80, 0.78, 0.74, 1)
+WELD, EDGE_DEGREES = 0.012, 35  # along the tank's edges many vertices lie side by side
+WATER, SKIN, GROUND = (0.30, 0.62, 0.80, 1), (0.90, 0.25, 0.05, 1), (0.80, 0.78, 0.74, 1)
 
 
 def import_swim(water, body):
@@ -63,15 +64,26 @@ def water_material():
 def dress(thing, made):
     thing.data.materials.clear()
     thing.data.materials.append(made)
-    if thing.name == "WaterSurface":  # its mesh is another in every frame, and so are its materials
-        nodes = thing.modifiers.new("Dress", "NODES")
-        tree = nodes.node_group = bpy.data.node_groups.new("Dress", "GeometryNodeTree")
-        tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
-        tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
-        first, colour, last = (tree.nodes.new(kind) for kind in ("NodeGroupInput", "GeometryNodeSetMaterial", "NodeGroupOutput"))
-        colour.inputs["Material"].default_value = made
-        tree.links.new(first.outputs[0], colour.inputs["Geometry"])
-        tree.links.new(colour.outputs[0], last.inputs[0])
+
+
+def dress_water(surface, made):
+    """Geometry nodes: the mesh is another in every frame, so that its material and edges are set anew."""
+    tree = surface.modifiers.new("Dress", "NODES").node_group = bpy.data.node_groups.new("Dress", "GeometryNodeTree")
+    for direction in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    first, weld, angle, steep, edges, colour, last = (tree.nodes.new(kind) for kind in (
+        "NodeGroupInput", "GeometryNodeMergeByDistance", "GeometryNodeInputMeshEdgeAngle", "FunctionNodeCompare",
+        "GeometryNodeSetShadeSmooth", "GeometryNodeSetMaterial", "NodeGroupOutput"))
+    weld.inputs["Distance"].default_value = WELD
+    steep.operation = "GREATER_THAN"
+    steep.inputs[1].default_value = radians(EDGE_DEGREES)
+    edges.domain = "EDGE"
+    edges.inputs["Shade Smooth"].default_value = False
+    colour.inputs["Material"].default_value = made
+    for source, target in ((first.outputs[0], weld.inputs["Geometry"]), (weld.outputs[0], edges.inputs[0]),
+                           (angle.outputs["Unsigned Angle"], steep.inputs[0]), (steep.outputs[0], edges.inputs["Selection"]),
+                           (edges.outputs[0], colour.inputs["Geometry"]), (colour.outputs[0], last.inputs[0])):
+        tree.links.new(source, target)
 
 
 def surroundings(surface):
@@ -89,7 +101,7 @@ def surroundings(surface):
     world.use_nodes = True
     world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.75, 0.86, 1, 1)
     world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.7
-    away = Vector((0.25, -1, 0.55)).normalized() * size.length * 1.18
+    away = Vector((0.25, -1, 0.55)).normalized() * size.length * 1.32
     bpy.ops.object.camera_add(location=middle + away)
     camera = bpy.context.scene.camera = bpy.context.object
     camera.rotation_euler = (-away).to_track_quat("-Z", "Y").to_euler()
@@ -99,7 +111,7 @@ def surroundings(surface):
 def main(water, body, time, picture):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     surface, bodies = import_swim(str(Path(water).resolve()), str(Path(body).resolve()))
-    dress(surface, water_material())
+    dress_water(surface, water_material())
     skin, _ = material("Body", SKIN, 0.35)
     for one in bodies:
         dress(one, skin)
