@@ -16,7 +16,7 @@ from mathutils import Vector
 
 FRAMES_PER_SECOND = 60
 SIZE, SAMPLES = (960, 480), 32
-WELD, EDGE_DEGREES = 0.012, 35  # along the tank's edges many vertices lie side by side
+EDGE_DEGREES = 35
 WATER, SKIN, GROUND = (0.30, 0.62, 0.80, 1), (0.90, 0.25, 0.05, 1), (0.80, 0.78, 0.74, 1)
 
 
@@ -71,16 +71,15 @@ def dress_water(surface, made):
     tree = surface.modifiers.new("Dress", "NODES").node_group = bpy.data.node_groups.new("Dress", "GeometryNodeTree")
     for direction in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
-    first, weld, angle, steep, edges, colour, last = (tree.nodes.new(kind) for kind in (
-        "NodeGroupInput", "GeometryNodeMergeByDistance", "GeometryNodeInputMeshEdgeAngle", "FunctionNodeCompare",
+    first, angle, steep, edges, colour, last = (tree.nodes.new(kind) for kind in (
+        "NodeGroupInput", "GeometryNodeInputMeshEdgeAngle", "FunctionNodeCompare",
         "GeometryNodeSetShadeSmooth", "GeometryNodeSetMaterial", "NodeGroupOutput"))
-    weld.inputs["Distance"].default_value = WELD
     steep.operation = "GREATER_THAN"
     steep.inputs[1].default_value = radians(EDGE_DEGREES)
     edges.domain = "EDGE"
     edges.inputs["Shade Smooth"].default_value = False
     colour.inputs["Material"].default_value = made
-    for source, target in ((first.outputs[0], weld.inputs["Geometry"]), (weld.outputs[0], edges.inputs[0]),
+    for source, target in ((first.outputs[0], edges.inputs[0]),
                            (angle.outputs["Unsigned Angle"], steep.inputs[0]), (steep.outputs[0], edges.inputs["Selection"]),
                            (edges.outputs[0], colour.inputs["Geometry"]), (colour.outputs[0], last.inputs[0])):
         tree.links.new(source, target)
