@@ -38,4 +38,10 @@ else
     echo "natator: no java on the PATH nor in JAVA_HOME: install a Java runtime, version 17 or later" >&2
     exit 1
 fi
-exec "$java" "-Dnatator.command=$0" -jar "$jar" "$@"
+# How it was called, for the commands that it suggests: a name that the PATH leads to is given to this script as a path.
+command=$0
+name=${0##*/}
+if [ "$(command -v "$name")" = "$0" ]; then
+    command=$name
+fi
+exec "$java" "-Dnatator.command=$command" -jar "$jar" "$@"
