@@ -84,7 +84,7 @@ final class ExportCommand implements Callable<Integer> {
     private List<StreamField> fields;
 
     @Section(Topic.OUTPUT)
-    @Option(names = "--no-water", description = "Only the body.")
+    @Option(names = "--no-water", description = "Leave out the water's particles.")
     private boolean noWater;
 
     @Section(Topic.OUTPUT)
