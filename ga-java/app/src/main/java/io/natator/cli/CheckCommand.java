@@ -55,7 +55,7 @@ final class CheckCommand implements Callable<Integer> {
         if (starts < 2 || starts > Limits.STARTS) {
             throw new InvalidInputException("--starts is " + starts + "; expected a whole number from 2 to " + Limits.STARTS);
         }
-        StoredRun run = StoredRun.in(Archipelago.run(folder));
+        StoredRun run = Archipelago.stored(folder);
         if (run.best() == null) {
             throw new InvalidInputException(folder + " has no best gait yet; finish it by natator resume");
         }

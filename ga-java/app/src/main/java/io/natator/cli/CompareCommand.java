@@ -59,7 +59,7 @@ final class CompareCommand implements Callable<Integer> {
         if (starts != 0 && starts < 2 || starts > Limits.STARTS) {
             throw new InvalidInputException("--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
         }
-        List<StoredRun> runs = folders.stream().map(folder -> StoredRun.in(Archipelago.run(folder))).toList();
+        List<StoredRun> runs = folders.stream().map(Archipelago::stored).toList();
         PrintWriter out = spec.commandLine().getOut();
         for (int i = 0; i < runs.size(); i++) {
             out.printf("%d  %s: %s%n", i + 1, runs.get(i).directory(), ShowCommand.settings(runs.get(i).settings()));

@@ -41,7 +41,7 @@ final class ReportCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        StoredRun run = StoredRun.in(Archipelago.run(directory));
+        StoredRun run = Archipelago.stored(directory);
         ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(Backend.CPU), run.settings());
         Path folder = outputDir != null ? outputDir : run.directory().resolve("report");
         try {

@@ -43,7 +43,7 @@ final class ShowCommand implements Callable<Integer> {
         if (Archipelago.exists(folder)) {
             IslandsReport.print(Archipelago.in(folder), out);
         }
-        StoredRun run = StoredRun.in(Archipelago.run(folder));
+        StoredRun run = Archipelago.stored(folder);
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {

@@ -29,6 +29,9 @@ class RealSimulatorTest {
 
     private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
 
+    /** A tenth of the pool's particles. */
+    private static final String SMALL = "bench/small-tank";
+
     @TempDir
     private Path folder;
     private final StringWriter out = new StringWriter();
@@ -50,8 +53,8 @@ class RealSimulatorTest {
     void aTinyEvolution() throws IOException {
         Path run = folder.resolve("run");
 
-        assertThat(natator("evolve", "--population", "6", "--generations", "2", "--duration", "0.1", "--output-dir",
-                run.toString())).as(err.toString()).isZero();
+        assertThat(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "2",
+                "--duration", "0.1", "--output-dir", run.toString())).as(err.toString()).isZero();
 
         List<String> rows = Files.readAllLines(run.resolve("generations.csv"));
         assertThat(rows).hasSize(4);
@@ -63,7 +66,8 @@ class RealSimulatorTest {
                 .as("evaluations that went well").hasSizeGreaterThan(6);
 
         out.getBuffer().setLength(0);
-        assertThat(natator("evaluate", "--scene", "pool/creature-1", "--duration", "0.1", "--gait", run.resolve("best.json").toString())).isZero();
+        assertThat(natator("evaluate", "--scene", SMALL, "--scheme", "conserving", "--duration", "0.1", "--gait",
+                run.resolve("best.json").toString())).isZero();
         JsonNode again = Json.parse(out.toString(), JsonNode.class);
         assertThat(again.get("hash")).isEqualTo(best.get("result").get("hash"));
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
@@ -154,8 +158,9 @@ class RealSimulatorTest {
         List<String> logs = new ArrayList<>();
         for (String mode : List.of("process", "resident", "batch")) {
             Path run = folder.resolve(mode);
-            assertThat(natator("evolve", "--population", "6", "--generations", "1", "--duration", "0.1", "--workers",
-                    "2", "--starts", starts, "--no-cache", "--simulator", mode, "--output-dir", run.toString())).as(err.toString()).isZero();
+            assertThat(natator("evolve", "--scene", SMALL, "--scheme", "conserving", "--population", "6", "--generations", "1",
+                    "--duration", "0.1", "--workers", "2", "--starts", starts, "--no-cache", "--simulator", mode, "--output-dir",
+                    run.toString())).as(err.toString()).isZero();
             logs.add(Files.readString(run.resolve("evaluations.jsonl")) + Files.readString(run.resolve("best.json")));
         }
 
@@ -168,8 +173,8 @@ class RealSimulatorTest {
     @Test
     void aSecondRunTakesItsResultsFromTheCache() throws IOException {
         for (String name : List.of("first", "second", "without")) {
-            List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "4", "--generations", "1",
-                    "--duration", "0.05", "--output-dir", folder.resolve(name).toString()));
+            List<String> arguments = new ArrayList<>(List.of("evolve", "--scene", SMALL, "--scheme", "conserving",
+                    "--population", "4", "--generations", "1", "--duration", "0.05", "--output-dir", folder.resolve(name).toString()));
             if (name.equals("without")) {
                 arguments.add("--no-cache");
             }

@@ -4,7 +4,6 @@ import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.config.Limits;
 import io.natator.config.Migration;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
@@ -43,9 +42,7 @@ public record Archipelago(Path directory, Plan plan) {
          * @throws InvalidInputException naming what is out of range
          */
         public Plan {
-            if (islands < 2 || islands > Limits.AT_ONCE) {
-                throw new InvalidInputException("islands are " + islands + "; expected a whole number from 2 to " + Limits.AT_ONCE);
-            }
+            Migration.checkIslands(islands);
             if (migrants < 0) {
                 throw new InvalidInputException("migrants are " + migrants + "; expected a whole number from 0");
             }
@@ -153,6 +150,15 @@ public record Archipelago(Path directory, Plan plan) {
             throw new InvalidInputException("no island of " + directory + " has begun; continue by natator resume");
         }
         return archipelago.folder(winner);
+    }
+
+    /**
+     * What is stored of the run that a folder stands for, of an archipelago of its winner.
+     *
+     * @throws InvalidInputException if no island has begun, it is no run folder, or a file in it is damaged
+     */
+    public static StoredRun stored(Path directory) {
+        return StoredRun.in(run(directory));
     }
 
     /** The run folders that folders stand for: of an archipelago those of all its islands, the winner's first. */

@@ -17,9 +17,7 @@ public record Migration(int islands, int island, int every, int migrants) {
      * @throws InvalidInputException naming the setting that is out of range
      */
     public Migration {
-        if (islands < 2 || islands > Limits.AT_ONCE) {
-            throw new InvalidInputException("islands are " + islands + "; expected a whole number from 2 to " + Limits.AT_ONCE);
-        }
+        checkIslands(islands);
         if (island < 1 || island > islands) {
             throw new InvalidInputException("island is " + island + "; expected a whole number from 1 to " + islands);
         }
@@ -27,6 +25,17 @@ public record Migration(int islands, int island, int every, int migrants) {
             throw new InvalidInputException("generations between exchanges are " + every + "; expected a whole number from 1");
         }
         Limits.checkCount("migrants", migrants, Limits.POPULATION);
+    }
+
+    /**
+     * Checks how many islands there are.
+     *
+     * @throws InvalidInputException if they are fewer than 2 or more than {@link Limits#AT_ONCE}
+     */
+    public static void checkIslands(int islands) {
+        if (islands < 2 || islands > Limits.AT_ONCE) {
+            throw new InvalidInputException("islands are " + islands + "; expected a whole number from 2 to " + Limits.AT_ONCE);
+        }
     }
 
     /** Refuses what a run with this optimizer and population cannot do. */
@@ -43,6 +52,11 @@ public record Migration(int islands, int island, int every, int migrants) {
 
     /** Number of the island whose gaits come to this one. */
     public int before() {
+        return before(island, islands);
+    }
+
+    /** Number of the island before one in a ring of so many, from 1. */
+    public static int before(int island, int islands) {
         return island == 1 ? islands : island - 1;
     }
 

@@ -4,6 +4,7 @@ import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.Migration;
 import io.natator.evolution.Departure;
 import io.natator.evolution.Exchange;
 import io.natator.simulator.Evaluator;
@@ -39,7 +40,7 @@ public final class IslandsRun {
             int island = i + 1;
             PlannedRun run = islands.get(i);
             departures.get(i).forEach(one -> ring.leave(island, one));
-            List<Departure> before = departures.get((i + islands.size() - 1) % islands.size());
+            List<Departure> before = departures.get(Migration.before(island, islands.size()) - 1);
             all.add(() -> carryOut(run, island, before, ring, execution, evaluator, watcher));
         }
         return Lanes.carryOut(all, evaluator, islands.size());

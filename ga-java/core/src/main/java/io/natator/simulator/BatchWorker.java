@@ -89,9 +89,7 @@ final class BatchWorker implements Runnable {
             attempt(jobs, open);
             return true;
         } catch (SimulatorFailure e) {
-            endProcess();
-            group.failIfStopped();
-            failures++;
+            endAfterFailure();
             List<BatchJob> left = List.copyOf(open.values());
             LOG.debug("{}: {} evaluations without an answer: {}", command, left.size(), e.getMessage());
             if (!elsewhere || !queue.handOver(left, self)) {
@@ -129,9 +127,7 @@ final class BatchWorker implements Runnable {
         try {
             attempt(List.of(job), new LinkedHashMap<>());
         } catch (SimulatorFailure e) {
-            endProcess();
-            group.failIfStopped();
-            failures++;
+            endAfterFailure();
             job.done(SimulationResult.failed(0, e.getMessage()));
         } catch (RequestRejectedException e) {
             job.rejected(e);
@@ -174,6 +170,12 @@ final class BatchWorker implements Runnable {
                 job.done(result);
             }
         }
+    }
+
+    private void endAfterFailure() throws InterruptedException {
+        endProcess();
+        group.failIfStopped();
+        failures++;
     }
 
     private void endProcess() {

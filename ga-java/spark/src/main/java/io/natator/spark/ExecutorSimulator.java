@@ -149,7 +149,7 @@ final class ExecutorSimulator {
             if (!e.isBadInput()) {
                 throw new UnfitExecutorException(e.getMessage(), e);
             }
-            results.add(refused(here.get(0).id(), e.getMessage()));
+            results.add(refused(batches == null ? here.get(results.size()).id() : null, e.getMessage()));
         }
         if (results.stream().anyMatch(result -> result.status() == SimulationResult.Status.FAILED)) {
             check(mission, true);
@@ -157,7 +157,8 @@ final class ExecutorSimulator {
         return results;
     }
 
-    private static SimulationResult refused(long id, String reason) {
+    /** With the request's number, where it is known which of them it was. */
+    private static SimulationResult refused(Long id, String reason) {
         return new SimulationResult(id, SimulationResult.Status.ERROR, null, null, null, null, null, null, null, null, reason);
     }
 }

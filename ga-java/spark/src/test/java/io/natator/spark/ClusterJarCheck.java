@@ -189,6 +189,7 @@ class ClusterJarCheck {
         return evaluations(run);
     }
 
+    /** Fifty, or as many as {@code -Dspark.kills=N} says; the driver is killed at each tenth of them. */
     @Test
     @Tag("nightly")
     void fiftyKillsChangeNothing() throws IOException, InterruptedException {
@@ -198,7 +199,7 @@ class ClusterJarCheck {
         Path run = folder.resolve("run");
         Process driver = evolve(fake, run, List.of(), settings);
         long before = 0;
-        for (int kill = 0; kill < 50; kill++) {
+        for (int kill = 0; kill < Integer.getInteger("spark.kills", 50); kill++) {
             before = killAnExecutor(run, before + 10, kill);
             assertThat(driver.isAlive()).as(Files.readString(log)).isTrue();
             if (kill % 10 == 9) {

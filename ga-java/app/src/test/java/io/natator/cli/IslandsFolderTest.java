@@ -1,0 +1,125 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.stream.Stream;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+/** Commands that take a run folder take one of islands, too, and mean the winner's; with the real simulator in a small tank. */
+class IslandsFolderTest {
+
+    private static final String SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize().toString();
+
+    @TempDir
+    private static Path runs;
+    private static Path islands;
+    private static Path winner;
+    private static Path other;
+
+    @TempDir
+    private Path folder;
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    /** By this seed the second island wins: not the one that is first anyway. */
+    @BeforeAll
+    static void evolve() {
+        islands = runs.resolve("ring");
+        Commands.natator("evolve", "--simulator-path", SIMULATOR, "--scene", "bench/small-tank", "--islands", "2", "--migrate-every",
+                "1", "--migrants", "1", "--population", "3", "--generations", "2", "--starts", "1", "--duration", "0.05", "--seed", "1",
+                "--output-dir", islands.toString());
+        List<Path> worstFirst = Stream.of("island-1", "island-2").map(islands::resolve)
+                .sorted(Comparator.comparing(IslandsFolderTest::distance)).toList();
+        other = worstFirst.get(0);
+        winner = worstFirst.get(1);
+    }
+
+    private String natator(String... arguments) {
+        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true)).execute(arguments))
+                .as(err.toString()).isZero();
+        return out.toString();
+    }
+
+    /** A command that the real simulator swims for. */
+    private String swim(String... arguments) {
+        List<String> all = new ArrayList<>(List.of(arguments));
+        all.addAll(1, List.of("--simulator-path", SIMULATOR));
+        return natator(all.toArray(String[]::new));
+    }
+
+    private static double distance(Path run) {
+        return Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").doubleValue();
+    }
+
+    @Test
+    void showTellsOfTheWinnersRun() {
+        String ofAll = natator("show", islands.toString());
+        out.getBuffer().setLength(0);
+        String ofWinner = natator("show", winner.toString());
+
+        assertThat(ofAll).endsWith(ofWinner).hasSizeGreaterThan(ofWinner.length());
+    }
+
+    @Test
+    void checkAndReportAreInTheWinnersFolder() {
+        assertThat(swim("check", "--starts", "2", islands.toString())).contains("\nverdict: ");
+        swim("report", islands.toString());
+
+        assertThat(natator("show", winner.toString())).contains("  checked     ");
+        assertThat(winner.resolve("report/README.md")).content().startsWith("# bench/small-tank, seed " + (winner.endsWith("island-1") ? 1 : 2) + "\n");
+        assertThat(winner.resolve("report/swimmer.png")).isNotEmptyFile();
+        assertThat(other.resolve("report")).doesNotExist();
+        assertThat(islands.resolve("report")).doesNotExist();
+    }
+
+    @Test
+    void compareTakesTheWinner() {
+        String told = natator("compare", "--starts", "0", islands.toString(), other.toString());
+
+        assertThat(told).contains("1  " + winner + ": bench/small-tank", "2  " + other + ": ");
+    }
+
+    /** Two pictures of a moment in which two gaits have bent the body differently. */
+    @Test
+    void pictureDrawsTheWinner() throws IOException {
+        List<byte[]> pictures = new ArrayList<>();
+        for (Path run : List.of(islands, winner, other)) {
+            Path file = folder.resolve("picture-" + pictures.size() + ".png");
+            swim("picture", run.toString(), "--size", "320x200", "-o", file.toString());
+            pictures.add(Files.readAllBytes(file));
+        }
+
+        assertThat(pictures.get(0)).isEqualTo(pictures.get(1)).isNotEqualTo(pictures.get(2));
+    }
+
+    @Test
+    void pageAndExportSwimTheWinner() throws IOException {
+        List<String> pages = new ArrayList<>();
+        List<String> tables = new ArrayList<>();
+        for (Path run : List.of(islands, winner, other)) {
+            Path page = folder.resolve("page-" + pages.size() + ".html");
+            Path export = folder.resolve("export-" + pages.size());
+            swim("page", run.toString(), "--no-water", "--output", page.toString());
+            swim("export", run.toString(), "--format", "csv", "--no-water", "--output-dir", export.toString());
+            pages.add(Files.readString(page));
+            try (var files = Files.list(export)) {
+                tables.add(Files.readString(files.filter(one -> one.toString().endsWith(".csv")).sorted().findFirst().orElseThrow()));
+            }
+        }
+
+        assertThat(tables.get(0)).isEqualTo(tables.get(1)).isNotEqualTo(tables.get(2));
+        assertThat(pages.get(0)).contains("class=\"swim\"").isEqualTo(pages.get(1)).isNotEqualTo(pages.get(2));
+    }
+}
