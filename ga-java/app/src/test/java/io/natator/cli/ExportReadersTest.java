@@ -14,10 +14,11 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.TimeUnit;
 import org.junit.jupiter.api.BeforeAll;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -38,6 +39,12 @@ class ExportReadersTest {
             Path.of(System.getProperty("natator.protocol"), "../../tests/readers/check_export.py").normalize();
     private static final String GAIT = "{\"frequency\":%s,\"amplitude\":[%s],\"phase\":[%s]}";
 
+    /** Streams that several tests compare exports with, by the simulator's arguments. */
+    private static final Map<List<String>, Path> STREAMS = new HashMap<>();
+
+    @TempDir
+    private static Path shared;
+
     @TempDir
     private Path folder;
 
@@ -48,10 +55,16 @@ class ExportReadersTest {
         assertThat(SIMULATOR).as("built by: cmake --preset release && cmake --build --preset release").isExecutable();
     }
 
-    @BeforeEach
-    void gaits() throws IOException {
-        Files.writeString(folder.resolve("two.json"), GAIT.formatted("1.861", "0.973,0.690", "0,0.648"));
-        Files.writeString(folder.resolve("three.json"), GAIT.formatted("1.761", "0.863,0.503,0.271", "0,0.176,0.729"));
+    @BeforeAll
+    static void gaits() throws IOException {
+        Files.writeString(shared.resolve("two.json"), GAIT.formatted("1.861", "0.973,0.690", "0,0.648"));
+        Files.writeString(shared.resolve("three.json"), GAIT.formatted("1.761", "0.863,0.503,0.271", "0,0.176,0.729"));
+        Files.writeString(shared.resolve("five.json"), GAIT.formatted("1.5", "1,1,1,1,1", "0,0.92,0.84,0.76,0.68"));
+    }
+
+    /** Of one of these files. */
+    private static String gait(String name) {
+        return shared.resolve(name + ".json").toString();
     }
 
     private int run(File output, String... command) throws IOException, InterruptedException {
@@ -59,11 +72,15 @@ class ExportReadersTest {
     }
 
     /** What the simulator writes, byte for byte, all fields and frames. */
-    private Path stream(double until, String... scene) throws IOException, InterruptedException {
-        Path file = folder.resolve("reference.stream");
+    private static Path stream(double until, String... scene) throws IOException, InterruptedException {
         List<String> command = new ArrayList<>(List.of(SIMULATOR.toString(), "stream", "--fields",
                 "position,velocity,density", "--rate", "0", "--lossless", "--until", "" + until));
         command.addAll(List.of(scene));
+        Path known = STREAMS.get(command);
+        if (known != null) {
+            return known;
+        }
+        Path file = shared.resolve(STREAMS.size() + ".stream");
         Process process = new ProcessBuilder(command).redirectOutput(file.toFile())
                 .redirectError(ProcessBuilder.Redirect.INHERIT).start();
         try (OutputStream commands = process.getOutputStream()) {
@@ -71,6 +88,7 @@ class ExportReadersTest {
             commands.flush();
             assertThat(process.waitFor()).isZero();
         }
+        STREAMS.put(command, file);
         return file;
     }
 
@@ -102,10 +120,9 @@ class ExportReadersTest {
     @CsvSource({"vtp, 500000", "ply, 400000", "usd, 300000", "usdc, 300000", "csv, 400000", "npz, 300000",
         "glb, 5000"})
     void everyNumberOfASwimIsReadBack(String format, long atLeast) throws IOException, InterruptedException {
-        Path gait = folder.resolve("two.json");
-        Path stream = stream(0.1, "thesis/creature-1", "--gait", gait.toString());
+        Path stream = stream(0.1, "thesis/creature-1", "--gait", gait("two"));
 
-        String said = check(0, stream, export(format, 0.1, "thesis/creature-1", "--gait", gait.toString()));
+        String said = check(0, stream, export(format, 0.1, "thesis/creature-1", "--gait", gait("two")));
 
         assertThat(said).startsWith(format).endsWith("numbers equal in 7 frames\n");
         assertThat(Long.parseLong(said.split("[: ]+")[1])).isGreaterThan(atLeast);
@@ -115,7 +132,7 @@ class ExportReadersTest {
     @ParameterizedTest
     @CsvSource({"vtp", "ply", "usd", "usdc", "glb", "csv", "npz"})
     void theBodyAloneAndFewerFieldsAndFrames(String format) throws IOException, InterruptedException {
-        String[] swim = {"thesis/creature-4", "--gait", folder.resolve("three.json").toString(), "--scheme",
+        String[] swim = {"thesis/creature-4", "--gait", gait("three"), "--scheme",
             "conserving", "--overrides", "{\"solver\":{\"substeps\":2,\"viscosity\":3}}"};
         List<String> arguments = new ArrayList<>(List.of(swim));
         arguments.addAll(List.of("--no-water", "--every", "3", "--fields", "position"));
@@ -153,7 +170,7 @@ class ExportReadersTest {
     @ParameterizedTest
     @CsvSource({"vtp", "ply", "usd", "glb", "npz"})
     void severalCreatures(String format) throws IOException, InterruptedException {
-        check(0, stream(0.05, "company/school"), export(format, 0.05, "company/school"));
+        check(0, stream(0.02, "company/school"), export(format, 0.02, "company/school"));
     }
 
     @Test
@@ -165,29 +182,27 @@ class ExportReadersTest {
     @ParameterizedTest
     @CsvSource({"vtp", "ply", "usd", "usdc"})
     void theWatersSurface(String format) throws IOException, InterruptedException {
-        String[] swim = {"pool/creature-1", "--gait", folder.resolve("two.json").toString()};
+        String[] swim = {"pool/creature-1", "--gait", gait("two")};
         List<String> arguments = new ArrayList<>(List.of(swim));
-        arguments.addAll(List.of("--water-surface", "--every", "10", "--fields", "position"));
+        arguments.addAll(List.of("--water-surface", "--every", "5", "--fields", "position"));
 
-        check(0, stream(0.35, swim), export(format, 0.35, arguments.toArray(String[]::new)));
+        check(0, stream(0.1, swim), export(format, 0.1, arguments.toArray(String[]::new)));
     }
 
     /** A mesh as skin, moved by bones; found good by the validator of glTF where there is one. */
     @Test
     void aSkinHasBones() throws IOException, InterruptedException {
-        Path gait = Files.writeString(folder.resolve("five.json"),
-                GAIT.formatted("1.5", "1,1,1,1,1", "0,0.92,0.84,0.76,0.68"));
-        String[] swim = {"pool/ray", "--gait", gait.toString()};
+        String[] swim = {"pool/ray", "--gait", gait("five")};
 
-        Path export = export("glb", 0.3, swim);
+        Path export = export("glb", 0.1, swim);
 
-        check(0, stream(0.3, swim), export);
+        check(0, stream(0.1, swim), export);
         validate(export.resolve("swim.glb"));
     }
 
     @Test
     void theValidatorOfGltfFindsNothing() throws IOException, InterruptedException {
-        validate(export("glb", 0.1, "company/school").resolve("swim.glb"));
+        validate(export("glb", 0.02, "company/school").resolve("swim.glb"));
     }
 
     private void validate(Path file) throws IOException, InterruptedException {

@@ -24,7 +24,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 /**
  * The program as a process of its own: killed as by {@code kill -9}, ended as by Ctrl-C, without room to write. Each end costs a
- * start of the program, so there are few; {@code -Dnatator.kills=3} makes them three times as many.
+ * start of the program, so there are few; {@code -Dnatator.kills=4} makes them four times as many.
  */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
 class KilledRunTest {
@@ -107,7 +107,7 @@ class KilledRunTest {
         Random random = new Random(7);
         assertThat(ended(start(evolve(ISLANDS, run)), run, random, true)).isTrue();
         Path arrived = run.resolve("island-1/migrants.jsonl");
-        for (int i = 1; i < 6 * TIMES || !Files.exists(arrived); i++) {
+        for (int i = 1; i < 4 * TIMES || !Files.exists(arrived); i++) {
             Process next = start(command("resume", "--no-cache", "--simulator", "resident", "--workers", "2", "--timeout", "3600",
                     run.toString()));
             assertThat(ended(next, run, random, i % 8 != 4)).as("end %d came before that of the run", i).isTrue();
@@ -131,7 +131,7 @@ class KilledRunTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"jgap, 6, 1", "cma-es, 5, 1", "random, 5, 1", "jgap, 5, 3", "cma-es, 5, 3"})
+    @CsvSource({"jgap, 4, 1", "cma-es, 3, 1", "random, 3, 1", "jgap, 3, 3", "cma-es, 3, 3"})
     void killsChangeNothing(String optimizer, int kills, String starts) throws IOException, InterruptedException {
         Path whole = whole("--optimizer", optimizer, "--starts", starts);
         Path run = folder.resolve("killed");
