@@ -171,12 +171,32 @@ __device__ void find_water_neighbours_large(const ModelView<Real>& model, const 
     water.count_of[number_in(slots.at.state_velocity[s].w)] = n;
 }
 
+/// How many of the neighbours of slot s are this thread's share.
+template <class Real>
+__device__ int own_neighbours(const Slots<Real>& slots, int s) {
+    return (slots.water.count[s] - own_lane() + pair_lanes - 1) / pair_lanes;
+}
+
+/// What is in each of the arrays at the slot of an entry.
+template <class... Value>
+__device__ ::cuda::std::tuple<Value...> values_at(unsigned entry, const Value*... array) {
+    return ::cuda::std::tuple<Value...>(array[entry & slot_mask]...);
+}
+
+/// Calls visit(slot, planes, values...) for an entry.
+template <class Visit, class... Value>
+__device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& there, const Visit& visit) {
+    const int slot = static_cast<int>(entry & slot_mask);
+    const unsigned planes = entry >> most_slot_bits;
+    ::cuda::std::apply([&](const Value&... value) { visit(slot, planes, value...); }, there);
+}
+
 /// Calls visit(its place, slot, planes, values...) for this thread's share of the neighbours of slot s, with what is at the
 /// neighbour's slot in each of the arrays. Those of `batch` neighbours are under way at a time.
 template <int batch, class Real, class Visit, class... Value>
 __device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
     const std::size_t first = slots.water_place(s, own_lane());
-    const int count = (slots.water.count[s] - own_lane() + pair_lanes - 1) / pair_lanes;  // of this thread
+    const int count = own_neighbours(slots, s);
     for (int begin = 0; begin < count; begin += batch) {
         unsigned entry[batch];
         ::cuda::std::tuple<Value...> there[batch];
@@ -184,14 +204,13 @@ __device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const 
         for (int k = 0; k < batch; ++k)
             entry[k] = read_once(slots.water.neighbour + first + 32 * min(begin + k, count - 1));
 #pragma unroll
-        for (int k = 0; k < batch; ++k) there[k] = ::cuda::std::tuple<Value...>(array[entry[k] & slot_mask]...);
+        for (int k = 0; k < batch; ++k) there[k] = values_at(entry[k], array...);
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
             if (begin + k >= count) break;
-            const int slot = static_cast<int>(entry[k] & slot_mask);
-            const unsigned planes = entry[k] >> most_slot_bits;
-            ::cuda::std::apply([&](const Value&... value) { visit(first + 32 * (begin + k), slot, planes, value...); },
-                               there[k]);
+            visit_entry(entry[k], there[k], [&](int slot, unsigned planes, const Value&... value) {
+                visit(first + 32 * (begin + k), slot, planes, value...);
+            });
         }
     }
 }
@@ -200,7 +219,7 @@ __device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const 
 template <int batch = 4, class Real, class Visit, class... Value>
 __device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
     const std::size_t first = slots.water_place(s, own_lane());
-    const int count = (slots.water.count[s] - own_lane() + pair_lanes - 1) / pair_lanes;  // of this thread
+    const int count = own_neighbours(slots, s);
     for (int begin = 0; begin < count; begin += batch) {
         unsigned entry[batch];
         PairGradient<Real> gradient[batch];
@@ -212,13 +231,13 @@ __device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit
             gradient[k] = read_once(slots.water.pair + place);
         }
 #pragma unroll
-        for (int k = 0; k < batch; ++k) there[k] = ::cuda::std::tuple<Value...>(array[entry[k] & slot_mask]...);
+        for (int k = 0; k < batch; ++k) there[k] = values_at(entry[k], array...);
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
             if (begin + k >= count) break;
-            const int slot = static_cast<int>(entry[k] & slot_mask);
-            const unsigned planes = entry[k] >> most_slot_bits;
-            ::cuda::std::apply([&](const Value&... value) { visit(gradient[k].value(), slot, planes, value...); }, there[k]);
+            visit_entry(entry[k], there[k], [&](int slot, unsigned planes, const Value&... value) {
+                visit(gradient[k].value(), slot, planes, value...);
+            });
         }
     }
 }

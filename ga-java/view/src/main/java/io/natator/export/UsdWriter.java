@@ -41,8 +41,7 @@ final class UsdWriter implements FrameWriter {
         StreamScene scene = swim.scene();
         if (swim.hasWater()) {
             UsdPrim water = points("Water", swim.water(), scene.fluidRestDistance());
-            water.fix("color3f[] primvars:displayColor = [(0.35, 0.62, 0.86)] (interpolation = \"constant\")");
-            water.fix("float[] primvars:displayOpacity = [0.3] (interpolation = \"constant\")");
+            paintAsWater(water);
             if (swim.hasWaterSurface()) {
                 water.fix(INVISIBLE);
             }
@@ -127,8 +126,12 @@ final class UsdWriter implements FrameWriter {
         mesh.sample("int[] faceVertexIndices",
                 (samples, frame) -> samples.add(frame.frame(), surface.of(frame).triangles()));
         mesh.fix("uniform token subdivisionScheme = \"none\"");
-        mesh.fix("color3f[] primvars:displayColor = [(0.35, 0.62, 0.86)] (interpolation = \"constant\")");
-        mesh.fix("float[] primvars:displayOpacity = [0.3] (interpolation = \"constant\")");
+        paintAsWater(mesh);
+    }
+
+    private static void paintAsWater(UsdPrim prim) {
+        prim.fix("color3f[] primvars:displayColor = [(0.35, 0.62, 0.86)] (interpolation = \"constant\")");
+        prim.fix("float[] primvars:displayOpacity = [0.3] (interpolation = \"constant\")");
     }
 
     /** The mesh that the body was made of. */
