@@ -1,11 +1,40 @@
 // A member's bits depend on nothing but itself: not on its slot, the batch's size, or the run.
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <thread>
 
 #include "gpu_test.h"
 
 namespace natator::test {
 namespace {
+
+class GpuThreads : public OnGpu<testing::Test> {};
+
+/// Scenes whose kernels need different amounts of shared memory, set up by several threads at once, as `serve` does.
+TEST_F(GpuThreads, UnlikeScenesDoNotDisturbOneAnother) {
+    constexpr int rounds = 60;
+    std::vector<std::uint64_t> alone;
+    const auto evaluated = [](int creature) {
+        const nlohmann::json brief{{"duration", 0.0167}, {"settling", {{"updates", 1}}}};
+        const Scene scene = load_scene("thesis/creature-" + std::to_string(creature), brief);
+        return evaluate_on_gpu(scene, {{wave(scene), {}}}, {}).front().hash;
+    };
+    for (int creature = 1; creature <= 4; ++creature) alone.push_back(evaluated(creature));
+    std::vector<std::thread> threads;
+    std::vector<std::string> faults(4);
+    for (int k = 0; k < 4; ++k)
+        threads.emplace_back([&, k] {
+            try {
+                for (int round = 0; round < rounds; ++round)
+                    if (evaluated(1 + (k + round) % 4) != alone[(k + round) % 4]) faults[k] = "other bits";
+            } catch (const std::exception& error) {
+                faults[k] = error.what();
+            }
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(faults, std::vector<std::string>(4));
+}
 
 class GpuBatch : public OnGpu<testing::TestWithParam<std::tuple<Scheme, Precision>>> {
 protected:

@@ -26,10 +26,12 @@ int resident_blocks(const ModelView<Real>& model, bool on_chip) {
     check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "multiprocessors");
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, kernel(model, on_chip)), "kernel");
+    const int most_bytes = most_chip_bytes - static_cast<int>(attributes.sharedSizeBytes);
     const std::size_t bytes = layout_of(model, on_chip).chip_bytes;
-    if (bytes + attributes.sharedSizeBytes > static_cast<std::size_t>(most_chip_bytes)) return 0;
-    check(cudaFuncSetAttribute(kernel(model, on_chip), cudaFuncAttributeMaxDynamicSharedMemorySize,
-                               static_cast<int>(bytes)),
+    if (bytes > static_cast<std::size_t>(most_bytes)) return 0;
+    // The limit belongs to the kernel, for all Models and threads: one of this Model alone could come between another's limit and
+    // its launch.
+    check(cudaFuncSetAttribute(kernel(model, on_chip), cudaFuncAttributeMaxDynamicSharedMemorySize, most_bytes),
           "shared memory");
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&per_processor, kernel(model, on_chip), threads, bytes),
           "occupancy");

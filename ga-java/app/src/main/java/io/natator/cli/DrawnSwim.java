@@ -11,6 +11,7 @@ import io.natator.replay.Replay;
 import io.natator.replay.ReplayRecorder;
 import io.natator.report.FirstScreen;
 import io.natator.simulator.SceneInfo;
+import io.natator.simulator.SimulationRequest;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
 import java.awt.image.BufferedImage;
@@ -59,6 +60,13 @@ record DrawnSwim(BufferedImage picture, double time) {
     /** The best gait of a run folder as a report shows it. */
     static FirstScreen.Portrait portrait(Path run, Path simulator) {
         return png -> Files.write(png, of(SwimSource.of(run.toString(), null, null), null, null, null, PORTRAIT, simulator).png());
+    }
+
+    /** What a request simulates, as a report shows it. */
+    static FirstScreen.Portrait portrait(SimulationRequest request, Path simulator) {
+        SwimSource swim = new SwimSource(null, null, SceneOptions.scene(request.scene()), request.overrides(), request.gait(), request.scheme(),
+                request.duration(), null);
+        return png -> Files.write(png, of(swim, null, null, null, PORTRAIT, simulator).png());
     }
 
     /** The picture as a PNG file's content. */

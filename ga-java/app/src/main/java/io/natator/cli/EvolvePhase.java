@@ -3,13 +3,13 @@ package io.natator.cli;
 import io.natator.checkpoint.CompactRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Scheme;
 import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import io.natator.study.thesis.EvolutionPlan;
 import io.natator.study.thesis.EvolvedRun;
+import io.natator.study.thesis.Finalists;
+import io.natator.study.thesis.Water;
 import java.io.PrintWriter;
-import java.util.Arrays;
 import java.util.List;
 import java.util.Locale;
 
@@ -41,6 +41,7 @@ final class EvolvePhase {
             return queue.carryOut(new RunQueue(plan.runs().stream().map(EvolvedRun::plan).toList())::run, execution,
                     plan.runs().size(), plan.finished().size(), recorded + left(plan.runs()), recorded, err);
         } finally {
+            plan.finished().forEach(run -> Finalists.keep(run.plan().directory()));
             if (compact) {
                 plan.finished().forEach(run -> CompactRun.compact(run.plan().directory()));
             }
@@ -54,8 +55,9 @@ final class EvolvePhase {
     }
 
     private static long expected(EvolutionSettings settings) {
-        return Math.round(settings.population()
-                * (1 + ProgressEstimate.CHILDREN_PER_SELECTED * settings.generations()));
+        return Math.round(settings.starts() * settings.population()
+                * (1 + ProgressEstimate.CHILDREN_PER_SELECTED * settings.generations()))
+                + (long) settings.repeats() * (settings.generations() + 1);
     }
 
     /** Says how many evaluations are left and how long they will take, judged by a few short ones. */
@@ -66,9 +68,9 @@ final class EvolvePhase {
         double seconds = 0;
         try (Evaluator evaluator = Evaluator.open(execution)) {
             for (int creature : plan.runs().stream().map(EvolvedRun::creature).distinct().toList()) {
-                for (Scheme scheme : Arrays.asList(Scheme.values())) {
+                for (Water water : Water.values()) {
                     List<EvolvedRun> cell = plan.runs().stream()
-                            .filter(run -> run.creature() == creature && run.scheme() == scheme).toList();
+                            .filter(run -> run.creature() == creature && run.water() == water).toList();
                     if (cell.isEmpty()) {
                         continue;
                     }
@@ -77,7 +79,7 @@ final class EvolvePhase {
                     double each = new EvaluationTime(cell.get(0).plan().settings(), evaluator)
                             .of(together, duration == null ? THESIS_SECONDS : duration) / together;
                     out.printf(Locale.ROOT, "  creature %d, %-10s  %7d evaluations of %.3f s: %s%n", creature,
-                            scheme.name().toLowerCase(Locale.ROOT), evaluations, each,
+                            water.label(), evaluations, each,
                             ProgressEstimate.readable(Math.round(evaluations * each)));
                     seconds += evaluations * each;
                 }

@@ -6,7 +6,7 @@ import io.natator.study.thesis.ThesisStudy;
 import java.io.PrintWriter;
 import java.util.Locale;
 
-/** The measurements of {@code reproduce}: speeds on any backend, then recordings and times on the processor. */
+/** The measurements of {@code reproduce}: speeds on any backend, also at half the spacing, then recordings on the processor. */
 final class MeasurePhase {
 
     private static final double INTERVAL_SECONDS = 10;
@@ -40,13 +40,15 @@ final class MeasurePhase {
                 return false;
             }
         }
-        Double left = stopAfter == null ? null : Math.max(1, stopAfter - (System.nanoTime() - started) / NANOSECONDS);
-        Thread recorder = Thread.currentThread();
+        int levels = study.missingLevels();
         int recordings = study.missingRecordings();
-        err.printf("%d runs to record or time%n", recordings);
+        err.printf("%d gaits to run at half the spacing, %d runs to record or measure on the processor%n", levels, recordings);
         err.flush();
-        try (ShutdownHandler shutdown = new ShutdownHandler(recorder::interrupt, left,
+        Double left = stopAfter == null ? null : Math.max(1, stopAfter - (System.nanoTime() - started) / NANOSECONDS);
+        Thread worker = Thread.currentThread();
+        try (ShutdownHandler shutdown = new ShutdownHandler(worker::interrupt, left,
                 () -> QueueOptions.sayGoodbye(err))) {
+            study.converge(execution, counter(levels, err));
             study.record(execution, counter(recordings, err));
             return true;
         } catch (InterruptedException e) {

@@ -3,10 +3,13 @@ package io.natator.cli;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Scheme;
+import io.natator.config.Json;
+import io.natator.config.Limits;
 import io.natator.run.EvolutionRun;
 import io.natator.study.thesis.EvolutionPlan;
+import io.natator.study.thesis.Repeated;
 import io.natator.study.thesis.ThesisStudy;
+import io.natator.study.thesis.Water;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
@@ -27,7 +30,7 @@ import picocli.CommandLine.Spec;
 final class ReproduceCommand implements Callable<Integer> {
 
     /** What is to be done. */
-    enum Phase { EVOLVE, MEASURE, REPORT, ALL }
+    enum Phase { EVOLVE, MEASURE, REPORT, REPEAT, ALL }
 
     private static final double NANOSECONDS = 1e9;
     private static final List<String> WITHOUT_OUTCOME = List.of("--stop-after", "--simulator-path",
@@ -48,29 +51,34 @@ final class ReproduceCommand implements Callable<Integer> {
     private List<Integer> creatures;
 
     @Section(Topic.SCENE)
-    @Option(names = "--scheme", paramLabel = "SCHEME", split = ",", defaultValue = "flex,conserving",
-            description = "flex, conserving or both. In conserving the creatures sink, since they are heavier than its "
-                    + "water. Default: ${DEFAULT-VALUE}.")
-    private List<Scheme> schemes;
+    @Option(names = "--water", paramLabel = "WATER", split = ",", defaultValue = "flex,open-water",
+            description = "flex (the thesis' tank), open-water (incompressible water, scheme conserving) or both. Default: "
+                    + "${DEFAULT-VALUE}.")
+    private List<Water> waters;
 
     @Section(Topic.EXTENT)
     @Option(names = "--seeds", paramLabel = "N", defaultValue = "3",
-            description = "Evolutions of each creature in each scheme, from 1. Default: ${DEFAULT-VALUE}.")
+            description = "Evolutions of each creature in each water, from 1. Default: ${DEFAULT-VALUE}.")
     private int seeds;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--generations", paramLabel = "N", defaultValue = "100",
-            description = "Generations after the random one, from 0. Default: ${DEFAULT-VALUE}.")
-    private int generations;
+    @Option(names = "--generations", paramLabel = "N",
+            description = "Generations after the random one, from 0. Default: 25.")
+    private Integer generations;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--population", paramLabel = "N", defaultValue = "150",
-            description = "Chromosomes selected in each generation, from 2. Default: ${DEFAULT-VALUE}.")
-    private int population;
+    @Option(names = "--population", paramLabel = "N",
+            description = "Chromosomes selected in each generation, from 2. Default: 150 in flex, 60 in open water.")
+    private Integer population;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--starts", paramLabel = "K", description = "Runs of each new gait of an evolution, each from a start of its "
+            + "own. Default: 2.")
+    private Integer starts;
 
     @Section(Topic.SCENE)
     @Option(names = "--duration", paramLabel = "SECONDS",
-            description = "Simulated time of an evaluation. Default: the scene's (4).")
+            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 2.5.")
     private Double duration;
 
     @Section(Topic.OUTPUT)
@@ -80,13 +88,23 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--phase", paramLabel = "PHASE", defaultValue = "all",
-            description = "evolve, measure, report or all. Default: ${DEFAULT-VALUE}.")
+            description = "evolve, measure, report or all; or repeat: run some of what was measured on the processor again and "
+                    + "compare its last bit. Default: ${DEFAULT-VALUE}.")
     private Phase phase;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--runs", paramLabel = "N", defaultValue = "5",
-            description = "Runs of every measured gait, from 1, with starts that differ by 1e-6. "
-                    + "Default: ${DEFAULT-VALUE}.")
+    @Option(names = "--sample", paramLabel = "N", defaultValue = "6",
+            description = "How many runs --phase repeat draws, from 1. Default: ${DEFAULT-VALUE}.")
+    private int sample;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--sample-seed", paramLabel = "N", defaultValue = "1", description = "By which chance. Default: ${DEFAULT-VALUE}.")
+    private long sampleSeed;
+
+    @Section(Topic.EXTENT)
+    @Option(names = "--runs", paramLabel = "N", defaultValue = "8",
+            description = "Runs of every measured gait in its water, from 1, each from a start of its own; of other experiments at "
+                    + "most 4. Default: ${DEFAULT-VALUE}.")
     private int runs;
 
     @Section(Topic.OUTPUT)
@@ -102,8 +120,8 @@ final class ReproduceCommand implements Callable<Integer> {
     public Integer call() throws InterruptedException {
         Double stopAfter = queueOptions.stopAfter();
         ExecutionSettings execution = executionOptions.execution(Backend.CPU);
-        EvolutionPlan plan = new EvolutionPlan(creatures, schemes, seeds, population, generations, duration,
-                execution.backend(), execution.simulator(), directory);
+        EvolutionPlan plan = new EvolutionPlan(creatures, waters, seeds,
+                new EvolutionPlan.Size(population, generations, starts, duration), execution.backend(), execution.simulator(), directory);
         execution = EvolutionRun.withTimeLimit(execution, plan.runs().stream().filter(run -> run.seed() == 1)
                 .map(run -> run.plan().settings()).toList());
         PrintWriter out = spec.commandLine().getOut();
@@ -112,10 +130,13 @@ final class ReproduceCommand implements Callable<Integer> {
         if (dryRun) {
             evolution.forecast(out);
             try (ThesisStudy study = new ThesisStudy(directory, plan, runs, duration)) {
-                out.printf("then, of what is evolved so far, %d evaluations to measure and %d runs to record or time%n",
-                        study.missingMeasurements(), study.missingRecordings());
+                out.printf("then, of what is evolved so far, %d evaluations to measure, %d gaits to run at half the spacing and %d runs to "
+                        + "record%n", study.missingMeasurements(), study.missingLevels(), study.missingRecordings());
             }
             return ExitCode.OK;
+        }
+        if (phase == Phase.REPEAT) {
+            return repeat(plan, execution, out);
         }
         long started = System.nanoTime();
         if (phase == Phase.EVOLVE || phase == Phase.ALL) {
@@ -130,17 +151,30 @@ final class ReproduceCommand implements Callable<Integer> {
                 Double left = stopAfter == null ? null
                         : Math.max(1, stopAfter - (System.nanoTime() - started) / NANOSECONDS);
                 if (!new MeasurePhase(study, execution).run(left, err)) {
-                    out.printf("%d evaluations and %d recordings or times left; the same command continues%n",
-                            study.missingMeasurements(), study.missingRecordings());
+                    out.printf("%d evaluations, %d gaits at half the spacing and %d recordings left; the same command continues%n",
+                            study.missingMeasurements(), study.missingLevels(), study.missingRecordings());
                     return ExitCode.OK;
                 }
             }
             if (phase == Phase.REPORT || phase == Phase.ALL) {
                 Path simulator = execution.simulator();
                 out.println(study.report(plan, CommandText.of(spec, WITHOUT_OUTCOME),
-                        study.portrayed().map(run -> DrawnSwim.portrait(run, simulator)).orElse(null)));
+                        study.portrayed().map(swim -> DrawnSwim.portrait(swim, simulator)).orElse(null)));
             }
         }
         return ExitCode.OK;
+    }
+
+    /** Whether the present program still makes what is stored. */
+    private int repeat(EvolutionPlan plan, ExecutionSettings execution, PrintWriter out) throws InterruptedException {
+        Limits.checkCount("--sample", sample, Limits.REPETITIONS);
+        try (ThesisStudy study = new ThesisStudy(directory, plan, runs, duration)) {
+            List<Repeated> repeated = study.repeat(sample, sampleSeed, execution);
+            repeated.stream().filter(one -> !one.isSame()).forEach(one -> out.println("differs: " + Json.line(one.request()) + " ended as "
+                    + one.stored() + ", now as " + one.now()));
+            long same = repeated.stream().filter(Repeated::isSame).count();
+            out.printf("%d of %d runs end with the same bits%n", same, repeated.size());
+            return same == repeated.size() && same > 0 ? ExitCode.OK : ExitCode.SOFTWARE;
+        }
     }
 }

@@ -1,21 +1,23 @@
 package io.natator.study.thesis;
 
-import io.natator.config.Scheme;
+import io.natator.kinematics.FishMode;
 import io.natator.plot.Picture;
 import io.natator.report.Charts;
 import io.natator.report.FirstScreen;
-import io.natator.study.Sample;
+import io.natator.verdict.ControlVerdict;
+import io.natator.verdict.Measure;
+import io.natator.verdict.Verdict;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Locale;
-import java.util.Objects;
 import java.util.Optional;
 import java.util.function.Function;
+import java.util.stream.Collectors;
 import java.util.stream.IntStream;
-import java.util.stream.Stream;
 import org.knowm.xchart.XYChart;
 
 /** The report's first screen: what came of the thesis, in five sentences, a table and a chart. */
@@ -29,110 +31,100 @@ final class Answers {
         this.claims = claims;
     }
 
-    /** A gait of a creature in a scheme, as it was measured. */
-    private record Swim(int creature, Scheme scheme, Sample fluid, Sample vacuum) {
-
-        boolean swims() {
-            return outcome().equals(ClaimsSection.YES);
-        }
-
-        String outcome() {
-            return ClaimsSection.swims(fluid, vacuum);
-        }
+    private List<Subject> best(Water water) {
+        return IntStream.rangeClosed(1, 4).mapToObj(creature -> results.best(creature, water)).flatMap(Optional::stream).toList();
     }
 
-    private List<Swim> published(Scheme scheme) {
-        return results.data().gaits().stream().map(gait -> published(gait, scheme)).filter(swim -> swim.fluid.count() > 0).toList();
-    }
-
-    private Swim published(ThesisData.PublishedGait gait, Scheme scheme) {
-        return new Swim(gait.creature(), scheme, results.speed(gait, scheme, ExperimentCatalogue.FLUID),
-                results.speed(gait, scheme, ExperimentCatalogue.VACUUM));
-    }
-
-    private Stream<EvolvedRun> best(Scheme scheme) {
-        return IntStream.rangeClosed(1, 4).mapToObj(creature -> results.best(creature, scheme)).filter(Objects::nonNull);
-    }
-
-    private Swim evolved(EvolvedRun run) {
-        return new Swim(run.creature(), run.scheme(), results.speed(run, ExperimentCatalogue.FLUID),
-                results.speed(run, ExperimentCatalogue.VACUUM));
-    }
-
-    private List<Swim> evolved(Scheme scheme) {
-        return best(scheme).map(this::evolved).toList();
-    }
-
-    /** The evolution whose winner is the report's picture: the fastest that swims. */
-    Optional<EvolvedRun> portrayed() {
-        return ExperimentCatalogue.SCHEMES.stream().flatMap(this::best).max(Comparator
-                .comparing((EvolvedRun run) -> evolved(run).swims()).thenComparingDouble(run -> evolved(run).fluid.mean()));
+    private boolean swims(Subject subject) {
+        return results.verdict(subject).map(ControlVerdict::kind).filter(Verdict.Kind.SWIMS::equals).isPresent();
     }
 
     List<String> sentences() {
-        List<String> sentences = new ArrayList<>();
-        if (ExperimentCatalogue.SCHEMES.stream().allMatch(scheme -> published(scheme).isEmpty())) {
+        if (Arrays.stream(Water.values()).allMatch(water -> swimming(results.catalogue().published(water)) == null)) {
             return List.of("**Nothing is measured yet.**");
         }
-        sentences.add("**Of the thesis' gaits " + inEach(scheme -> swimming(published(scheme))) + " swim"
-                + (ExperimentCatalogue.SCHEMES.stream().allMatch(scheme -> evolved(scheme).isEmpty()) ? ".**"
-                        : "; of its bodies " + inEach(scheme -> swimming(evolved(scheme))) + " evolve to swim.**"));
+        List<String> sentences = new ArrayList<>();
+        String evolved = inEach(water -> swimming(best(water)));
+        sentences.add("**Of the thesis' gaits " + inEach(water -> swimming(results.catalogue().published(water))) + " swim by every control"
+                + (evolved.isEmpty() ? ".**" : "; of what its four bodies evolve here " + evolved + " do.**"));
         String fastest = inEach(this::fastest);
         if (!fastest.isEmpty()) {
-            sentences.add("The fastest that evolved and swims is " + fastest + ".");
-            sentences.add("Without water, where nothing can swim, the evolved gaits move at up to "
-                    + inEach(scheme -> TableFormat.shortNumber(evolved(scheme).stream().mapToDouble(swim -> Math.abs(swim.vacuum.mean()))
-                            .filter(Double::isFinite).max().orElse(Double.NaN))) + " units/s.");
+            sentences.add("The fastest of what evolved is " + fastest + ".");
         }
-        sentences.add("Of the thesis' conclusions that could be tested " + inEach(claims::kept) + " hold.");
+        String without = inEach(this::withoutWater);
+        if (!without.isEmpty()) {
+            sentences.add("Without water, where nothing can swim, what evolved moves at up to " + without + " units/s.");
+        }
         String like = inEach(this::eel);
         if (!like.isEmpty()) {
             sentences.add("Creature 2, which the thesis found to swim like an eel, evolves to swim like " + like + ".");
         }
+        if (!claims.waters().isEmpty()) {
+            sentences.add("Of the thesis' conclusions that can be tested " + inEach(claims::kept) + ".");
+        }
         return sentences;
     }
 
-    /** What is said of each scheme, where there is something. */
-    private static String inEach(Function<Scheme, String> of) {
-        return String.join(" and ", ExperimentCatalogue.SCHEMES.stream().filter(scheme -> of.apply(scheme) != null)
-                .map(scheme -> of.apply(scheme) + " in `" + TableFormat.name(scheme) + "`").toList());
+    /** What is said of each water, where there is something. */
+    private static String inEach(Function<Water, String> of) {
+        return Arrays.stream(Water.values()).filter(water -> of.apply(water) != null)
+                .map(water -> of.apply(water) + " in " + (water == Water.FLEX ? "`flex`" : water.words())).collect(Collectors.joining(", "));
     }
 
-    private static String swimming(List<Swim> swims) {
-        return swims.isEmpty() ? null : swims.stream().filter(Swim::swims).count() + " of " + swims.size();
+    private String swimming(List<Subject> subjects) {
+        List<Subject> judged = subjects.stream().filter(subject -> results.verdict(subject).isPresent()).toList();
+        return judged.isEmpty() ? null : judged.stream().filter(this::swims).count() + " of " + judged.size();
     }
 
-    private String fastest(Scheme scheme) {
-        return evolved(scheme).stream().filter(Swim::swims).max(Comparator.comparingDouble(swim -> swim.fluid.mean()))
-                .map(swim -> "creature " + swim.creature + " at " + TableFormat.speed(swim.fluid) + " units/s, "
-                        + TableFormat.shortNumber(swim.fluid.mean() / results.bodyLength(swim.creature) / results.data().eelBodyLengths())
-                        + " of an eel's speed,").orElse(null);
+    private String fastest(Water water) {
+        return best(water).stream().max(Comparator.comparingDouble(subject -> results.speed(subject).orElseThrow().mean()))
+                .map(subject -> "creature " + subject.creature() + " at " + results.speed(subject).orElseThrow()
+                        .text(results.bodyLength(subject.creature())) + " body lengths/s").orElse(null);
     }
 
-    private String eel(Scheme scheme) {
-        EvolvedRun two = results.best(2, scheme);
-        List<SwimKinematics> motions = two == null ? List.of() : results.motions(two);
-        return motions.isEmpty() ? null
-                : StudyResults.like(motions, SwimKinematics::fitsOfBody).map(fish -> fish.label() + " fish").orElse("no fish");
+    private String withoutWater(Water water) {
+        return best(water).stream().map(subject -> Math.abs(results.speed(subject, Condition.VACUUM).mean())).filter(Double::isFinite)
+                .max(Double::compare).map(TableFormat::shortNumber).orElse(null);
+    }
+
+    private String eel(Water water) {
+        return results.best(2, water).map(results::motions).filter(motions -> !motions.isEmpty()).map(motions -> StudyResults
+                .like(motions, SwimKinematics::fitsOfBody).map(FishMode::label).map(name -> name + " fish").orElse("no fish")).orElse(null);
     }
 
     /** Speeds of each creature, the thesis' gait and the best that evolved. */
     FirstScreen.Evidence evidence() {
         List<List<String>> rows = new ArrayList<>();
         for (ThesisData.PublishedGait gait : results.data().gaits()) {
-            List<String> row = new ArrayList<>(List.of(gait.creature() + (gait.published() != null ? "" : ", " + gait.about())));
-            ExperimentCatalogue.SCHEMES.forEach(scheme -> row.add(told(published(gait, scheme))));
-            ExperimentCatalogue.SCHEMES.forEach(scheme -> row.add(gait.published() == null ? ""
-                    : evolved(scheme).stream().filter(swim -> swim.creature == gait.creature()).findFirst().map(Answers::told).orElse("")));
+            boolean isPublished = gait.published() != null;
+            List<String> row = new ArrayList<>(List.of(gait.creature() + (isPublished ? "" : ", " + gait.about()),
+                    isPublished ? TableFormat.shortNumber(gait.published().speed()) : ""));
+            for (Water water : Water.values()) {
+                row.add(told(Optional.of(Subject.of(gait, water))));
+            }
+            for (Water water : Water.values()) {
+                row.add(isPublished ? told(results.best(gait.creature(), water)) : "");
+            }
             rows.add(row);
         }
-        return new FirstScreen.Evidence(List.of("creature", "thesis' gait, flex", "thesis' gait, conserving", "evolved, flex",
-                "evolved, conserving"), rows, "Speed in water, units/s, mean ± standard deviation. ✔ swims, ✘ does not, – doubtful: "
-                + "[the rules](#all-verdicts). Evolved: of the seeds the fastest that swims, else the fastest.");
+        return new FirstScreen.Evidence(List.of("creature", "published", "thesis' gait, flex", "thesis' gait, open water", "evolved, flex",
+                "evolved, open water"), rows, "Speed in scene units/s ± the largest of: the 95 % interval over fresh starts, the change at half "
+                + "the time step, the change at half the spacing (where evolved). ✔ swims by every control, ✘ does not, – may: "
+                + "[what the controls are](#how-it-was-judged). Evolved: of the seeds the fastest by the lower of its speeds at both time steps.");
     }
 
-    private static String told(Swim swim) {
-        return swim.fluid.count() == 0 ? "" : ClaimsSection.sign(swim.outcome()) + " " + TableFormat.speed(swim.fluid);
+    private String told(Optional<Subject> subject) {
+        return subject.flatMap(one -> results.speed(one).map(speed -> results.verdict(one).map(Answers::sign).orElse("–") + " "
+                + speed.text(1))).orElse("");
+    }
+
+    /** What stands before a verdict: ✔, ✘ or –. */
+    static String sign(ControlVerdict verdict) {
+        return FirstScreen.SIGNS.get(switch (verdict.kind()) {
+            case SWIMS -> Measure.Outcome.HOLDS;
+            case DOES_NOT_SWIM -> Measure.Outcome.FAILS;
+            case UNPROVEN -> Measure.Outcome.NOT_MEASURED;
+        });
     }
 
     /**
@@ -142,23 +134,24 @@ final class Answers {
      * @return the PNG file, or null if there is nothing to draw
      */
     Path draw(Path file) throws IOException {
-        XYChart chart = Charts.lines("Speed in water", "creature", "scene units/s, ± one standard deviation");
+        XYChart chart = Charts.lines("Speed in water", "creature", "scene units/s");
         chart.getStyler().setXAxisMin(0.0).setXAxisMax(5.0);
         chart.setCustomXAxisTickLabelsFormatter(x -> Math.abs(x - Math.rint(x)) < 1e-6 && x > 0.5 && x < 4.5 ? String.format(Locale.ROOT, "%.0f", x) : "");
         int number = 0;
-        for (Scheme scheme : ExperimentCatalogue.SCHEMES) {
-            add(chart, "thesis, " + TableFormat.name(scheme), published(scheme), number++);
-            add(chart, "evolved, " + TableFormat.name(scheme), evolved(scheme), number++);
+        for (Water water : Water.values()) {
+            add(chart, "thesis' gait, " + water.words(), results.catalogue().published(water), number++);
+            add(chart, "evolved, " + water.words(), best(water), number++);
         }
         return chart.getSeriesMap().isEmpty() ? null : Picture.save(chart, file);
     }
 
     /** Beside each other, so that bars do not hide bars. */
-    private static void add(XYChart chart, String name, List<Swim> swims, int number) {
-        if (!swims.isEmpty()) {
-            Charts.addPoints(chart, name, swims.stream().mapToDouble(swim -> swim.creature + 0.12 * (number - 1.5)).toArray(),
-                    swims.stream().mapToDouble(swim -> swim.fluid.mean()).toArray(),
-                    swims.stream().mapToDouble(swim -> swim.fluid.hasSpread() ? swim.fluid.standardDeviation() : 0).toArray(), number);
+    private void add(XYChart chart, String name, List<Subject> subjects, int number) {
+        List<Subject> known = subjects.stream().filter(subject -> results.speed(subject).isPresent()).toList();
+        if (!known.isEmpty()) {
+            List<Speed> speeds = known.stream().map(subject -> results.speed(subject).orElseThrow()).toList();
+            Charts.addPoints(chart, name, known.stream().mapToDouble(subject -> subject.creature() + 0.12 * (number - 1.5)).toArray(),
+                    speeds.stream().mapToDouble(Speed::mean).toArray(), speeds.stream().mapToDouble(Speed::error).toArray(), number);
         }
     }
 }

@@ -1,15 +1,14 @@
 package io.natator.study.thesis;
 
-import io.natator.config.Scheme;
 import io.natator.run.PlannedRun;
 
 /**
  * One evolution of the study.
  *
  * @param creature of the thesis, 1 to 4
- * @param scheme   in which it evolves
+ * @param water    in which it evolves
  * @param seed     of the evolution
  * @param plan     its settings and run folder
  */
-public record EvolvedRun(int creature, Scheme scheme, long seed, PlannedRun plan) {
+public record EvolvedRun(int creature, Water water, long seed, PlannedRun plan) {
 }

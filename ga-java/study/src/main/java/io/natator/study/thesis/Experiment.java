@@ -1,34 +1,37 @@
 package io.natator.study.thesis;
 
-import io.natator.config.Scheme;
-import io.natator.encoding.Gait;
 import io.natator.simulator.Perturbation;
 import io.natator.simulator.SimulationRequest;
+import java.util.List;
+import java.util.stream.IntStream;
 
 /**
- * Something that is measured, in several runs whose starts differ by an invisible random shift.
+ * Something that is measured, in several runs that begin from different starts.
  *
  * @param group   which of the thesis' questions it belongs to
- * @param subject what swims: a published gait {@code thesis/NAME}, or a run folder
+ * @param subject what swims
  * @param setting what is special about the scene, or the value of a parameter
- * @param request the evaluation, without a shift
+ * @param request the evaluation, from the scene's own start
+ * @param first   number of the first start; those of different purposes differ
+ * @param starts  how many
  */
-record Experiment(String group, String subject, String setting, SimulationRequest request) {
+record Experiment(String group, String subject, String setting, SimulationRequest request, int first, int starts) {
 
-    /** Largest shift of a starting coordinate, in scene units: invisible, but enough to part the runs in a second. */
+    /** Largest shift of a starting coordinate of what is recorded, in scene units: invisible, but runs part within a second. */
     private static final double SHIFT = 1e-6;
 
-    Scheme scheme() {
-        return request.scheme();
+    /** Its runs. */
+    List<SimulationRequest> runs() {
+        return IntStream.range(first, first + starts).mapToObj(request::withStart).toList();
     }
 
-    Gait gait() {
-        return request.gait();
-    }
-
-    /** One of the runs, with a seed from 1. */
-    SimulationRequest run(int seed) {
-        return new SimulationRequest(0, request.scene(), request.gait(), request.duration(), request.scheme(),
-                request.overrides(), new Perturbation(SHIFT, seed));
+    /**
+     * Runs to be recorded; the recorder of paths takes a shift of the start, no number.
+     *
+     * @param count how many
+     */
+    List<SimulationRequest> recordings(int count) {
+        return IntStream.rangeClosed(1, count).mapToObj(seed -> new SimulationRequest(0, request.scene(), request.gait(), request.duration(),
+                request.scheme(), request.overrides(), new Perturbation(SHIFT, seed))).toList();
     }
 }

@@ -1,197 +1,191 @@
 package io.natator.study.thesis;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import io.natator.checkpoint.BestGait;
-import io.natator.checkpoint.StoredRun;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.VacuumRequests;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.stream.IntStream;
 
-/** All experiments of the study: what is measured, for the tables of chapter 3 and the experiments of chapter 4. */
+/** What the study measures: requests for the tables of chapter 3 and the experiments of chapter 4, and how many runs of each. */
 final class ExperimentCatalogue {
 
-    static final String SPEED = "speed";
     static final String POTENTIATION = "potentiation";
     static final String TWO_CLUSTERS = "two-clusters";
-    static final String FLUID = "fluid";
-    static final String INVERSE_MASS = "fluid-inverse-mass";
+    static final String SINKING = "sinking";
+    static final String WATER = "water";
     static final String VACUUM = "vacuum";
-    /** What swims in the parameter study: the published gaits of creatures 1 and 2, as they swim best. */
-    static final List<String> STUDIED_GAITS = List.of("1", "2-step-0.862");
+    static final String RESTING = "resting";
     static final List<Double> POWERS = List.of(0.5, 1.0, 2.0, 4.0);
     /** Phase difference of the potentiated gaits, and that of the same gait backwards. */
     static final List<Double> PHASE_STEPS = List.of(0.25, 0.75);
-    static final List<Scheme> SCHEMES = List.of(Scheme.FLEX, Scheme.CONSERVING);
-    static final double THESIS_SECONDS = 4;
+    /** The published gait that swims, with which parameters are studied beside those that evolved. */
+    static final String STUDIED = "2-step-0.862";
     private static final double POTENTIATED_FREQUENCY = 2;
     private static final double POTENTIATED_AMPLITUDE = 0.8;
+    private static final int FIRST_START = 1;
+    /** Finalists are chosen by other starts than the winner is measured from. */
+    private static final int FIRST_START_OF_FINALISTS = 1001;
+    private static final int FEW = 4;
 
     private final ThesisData data;
-    private final List<EvolvedRun> evolved;
     private final Double duration;
-    private final Path directory;
-    private final Map<Path, BestGait> best = new HashMap<>();
+    private final int starts;
+    private final int few;
 
     /**
-     * The experiments on the published gaits and those that were evolved.
+     * The experiments of a study.
      *
-     * @param evolved   finished evolutions
-     * @param duration  simulated seconds, or null for the scene's own
-     * @param directory of the study
+     * @param duration simulated seconds, or null for the scene's own
+     * @param starts   of a gait in its water; of other experiments at most {@value #FEW}
      */
-    ExperimentCatalogue(ThesisData data, List<EvolvedRun> evolved, Double duration, Path directory) {
+    ExperimentCatalogue(ThesisData data, Double duration, int starts) {
         this.data = data;
-        this.evolved = evolved;
         this.duration = duration;
-        this.directory = directory;
+        this.starts = starts;
+        this.few = Math.min(starts, FEW);
     }
 
-    List<Experiment> all() {
-        List<Experiment> all = new ArrayList<>();
-        data.gaits().forEach(gait -> SCHEMES.forEach(scheme -> all.addAll(speeds(gait, scheme))));
-        evolved.forEach(run -> {
-            all.addAll(speeds(run));
-            all.add(crossed(run));
-        });
-        for (int creature : List.of(1, 2)) {
-            SCHEMES.forEach(scheme -> all.addAll(potentiated(creature, scheme)));
-        }
-        for (Parameter parameter : Parameter.values()) {
-            STUDIED_GAITS.forEach(gait -> SCHEMES.forEach(scheme -> all.addAll(study(parameter, gait, scheme))));
-        }
-        SCHEMES.forEach(scheme -> all.addAll(twoClusters(scheme)));
-        return all;
+    /** Published gaits in a water. */
+    List<Subject> published(Water water) {
+        return data.gaits().stream().map(gait -> Subject.of(gait, water)).toList();
     }
 
-    /** A published gait in fluid of both mass gradients and in vacuum. It runs on for its time, as measured with Flex. */
-    List<Experiment> speeds(ThesisData.PublishedGait gait, Scheme scheme) {
-        String subject = "thesis/" + gait.name();
-        return speeds(subject, ThesisData.scene(gait.creature()), gait.gait(), scheme, false);
+    /** A subject under a condition. */
+    Experiment of(Subject subject, Condition condition) {
+        boolean isCentral = condition == Condition.WATER || condition == Condition.HALF_STEP;
+        return new Experiment("swimming", subject.name(), condition.label(), condition.of(subject, duration), FIRST_START,
+                isCentral ? starts : few);
     }
 
-    /** The best gait of a run, likewise; it ends where it touches a plane, as it did when it evolved. */
-    List<Experiment> speeds(EvolvedRun run) {
-        return speeds(subject(run), ThesisData.scene(run.creature()), best(run).gait(),
-                run.scheme(), true);
+    /** A subject under all conditions of its water. */
+    List<Experiment> all(Subject subject) {
+        return Condition.in(subject.water()).stream().map(condition -> of(subject, condition)).toList();
     }
 
-    /** The best gait of a run in the other scheme, in fluid. */
-    Experiment crossed(EvolvedRun run) {
-        Scheme other = run.scheme() == Scheme.FLEX ? Scheme.CONSERVING : Scheme.FLEX;
-        return new Experiment(SPEED, subject(run), FLUID,
-                request(ThesisData.scene(run.creature()), best(run).gait(), other, stopping(true)));
+    /** The gaits among which the winner of an evolution is chosen, in the order of {@link Finalists}. */
+    List<Experiment> finalists(EvolvedRun run, Path directory) {
+        List<Finalists.Finalist> finalists = Finalists.of(run.plan().directory()).gaits();
+        return IntStream.range(0, finalists.size()).mapToObj(i -> new Experiment("finalists",
+                nameOf(run, directory) + "/" + (i + 1), WATER,
+                Condition.WATER.of(subject(run, finalists.get(i).gait(), directory), duration), FIRST_START_OF_FINALISTS, few)).toList();
+    }
+
+    /** What an evolution has found. */
+    static Subject subject(EvolvedRun run, Gait gait, Path directory) {
+        return new Subject(nameOf(run, directory), "evolved", run.creature(), run.water(), gait, run.seed());
     }
 
     /** Its run folder, from that of the study. */
-    String subject(EvolvedRun run) {
+    private static String nameOf(EvolvedRun run, Path directory) {
         return directory.relativize(run.plan().directory()).toString().replace('\\', '/');
     }
 
-    /** What is recorded with all its particles: the gaits in fluid, the published ones also in that of inverse masses. */
-    List<Experiment> recorded() {
-        List<Experiment> all = new ArrayList<>();
-        data.gaits().forEach(gait -> SCHEMES.forEach(scheme -> all.add(speeds(gait, scheme).get(0))));
-        data.gaits().forEach(gait -> all.add(speeds(gait, Scheme.FLEX).get(1)));
-        evolved.forEach(run -> all.add(speeds(run).get(0)));
-        return all;
+    /** Thesis 4.1: a gait with another value of a parameter. */
+    Experiment study(Subject subject, Parameter parameter, double value, boolean inVacuum) {
+        SimulationRequest request = Condition.WATER.of(subject, duration);
+        if (value != parameter.in(subject.water()).orElseThrow().standard()) {
+            request = request.withChange(parameter.overrides(value));
+        }
+        String setting = parameter.label() + "=" + value;
+        return new Experiment(parameter.label(), subject.name(), inVacuum ? VACUUM + " " + setting : setting,
+                inVacuum ? VacuumRequests.of(request, duration) : request, FIRST_START, few);
     }
 
-    /** What is timed: the parameter study of the first gait, in fluid. */
-    List<Experiment> timed() {
+    /** All values of all parameters. */
+    List<Experiment> studies(Subject subject) {
         List<Experiment> all = new ArrayList<>();
         for (Parameter parameter : Parameter.values()) {
-            SCHEMES.forEach(scheme -> study(parameter, STUDIED_GAITS.get(0), scheme).stream()
-                    .filter(one -> !one.setting().startsWith(VACUUM)).forEach(all::add));
+            parameter.in(subject.water()).ifPresent(range -> range.values().forEach(value -> {
+                all.add(study(subject, parameter, value, false));
+                if (parameter.alsoInVacuum(subject.water())) {
+                    all.add(study(subject, parameter, value, true));
+                }
+            }));
         }
         return all;
     }
 
-    /** What won an evolution. */
-    BestGait best(EvolvedRun run) {
-        return best.computeIfAbsent(run.plan().directory(), StoredRun::best);
-    }
-
-    private List<Experiment> speeds(String subject, String scene, Gait gait, Scheme scheme, boolean touchEnds) {
-        ObjectNode inverse = stopping(touchEnds);
-        inverse.putObject("fluid").putObject("mass").put("gradient", "inverse-mass-linear");
-        SimulationRequest fluid = request(scene, gait, scheme, stopping(touchEnds));
-        return List.of(new Experiment(SPEED, subject, FLUID, fluid),
-                new Experiment(SPEED, subject, INVERSE_MASS, request(scene, gait, scheme, inverse)),
-                new Experiment(SPEED, subject, VACUUM, VacuumRequests.of(fluid, duration)));
-    }
-
-    /** Thesis 4.2: forwards and with phase difference 1 − Δφ, in fluid and in vacuum. */
-    List<Experiment> potentiated(int creature, Scheme scheme) {
-        List<Experiment> all = new ArrayList<>();
+    /** Thesis 4.2: a gait whose activation is raised to a power. */
+    Experiment potentiated(int creature, double power, double step, Water water, boolean inVacuum) {
         int actuators = creature == 1 ? 2 : 8;
-        for (double power : POWERS) {
-            for (double step : PHASE_STEPS) {
-                Gait gait = new Gait(POTENTIATED_FREQUENCY,
-                        IntStream.range(0, actuators).mapToObj(i -> POTENTIATED_AMPLITUDE).toList(),
-                        IntStream.range(0, actuators).mapToObj(i -> i * step % 1).toList(), power);
-                String subject = potentiated(creature, power, step);
-                SimulationRequest fluid = request(ThesisData.scene(creature), gait, scheme, stopping(false));
-                all.add(new Experiment(POTENTIATION, subject, FLUID, fluid));
-                all.add(new Experiment(POTENTIATION, subject, VACUUM, VacuumRequests.of(fluid, duration)));
-            }
-        }
-        return all;
+        Gait gait = new Gait(POTENTIATED_FREQUENCY, IntStream.range(0, actuators).mapToObj(i -> POTENTIATED_AMPLITUDE).toList(),
+                IntStream.range(0, actuators).mapToObj(i -> i * step % 1).toList(), power);
+        SimulationRequest request = request(water.scene(creature), gait, water, Condition.stopping(false));
+        return new Experiment(POTENTIATION, "creature-" + creature + "/p=" + power + "/step=" + step, inVacuum ? VACUUM : WATER,
+                inVacuum ? VacuumRequests.of(request, duration) : request, FIRST_START, few);
     }
 
-    static String potentiated(int creature, double power, double step) {
-        return "creature-" + creature + "/p=" + power + "/step=" + step;
-    }
-
-    /** A published gait with other values of a parameter. */
-    List<Experiment> study(Parameter parameter, String gaitName, Scheme scheme) {
-        ThesisData.PublishedGait gait = data.gait(gaitName);
+    private List<Experiment> potentiated(Water water) {
         List<Experiment> all = new ArrayList<>();
-        for (double value : parameter.settings()) {
-            ObjectNode overrides = stopping(false);
-            if (value != parameter.standard()) {
-                overrides.setAll(parameter.overrides(value));
-            }
-            SimulationRequest fluid = request(ThesisData.scene(gait.creature()), gait.gait(), scheme, overrides);
-            String setting = parameter.label() + "=" + value;
-            all.add(new Experiment(parameter.label(), "thesis/" + gaitName, setting, fluid));
-            if (parameter.alsoInVacuum()) {
-                all.add(new Experiment(parameter.label(), "thesis/" + gaitName, VACUUM + " " + setting,
-                        VacuumRequests.of(fluid, duration)));
+        for (int creature : List.of(1, 2)) {
+            for (double power : POWERS) {
+                for (double step : PHASE_STEPS) {
+                    all.add(potentiated(creature, power, step, water, false));
+                    all.add(potentiated(creature, power, step, water, true));
+                }
             }
         }
         return all;
     }
 
-    /** Thesis 4.3: the body of two clusters, over frequencies and amplitudes. */
-    List<Experiment> twoClusters(Scheme scheme) {
+    /** Thesis 4.3: gaits of the body of two clusters. */
+    static List<Gait> gaitsOfTwoClusters() {
+        return List.of(0.5, 1.0, 1.5, 2.0).stream().flatMap(frequency -> List.of(0.5, 1.0).stream()
+                .map(amplitude -> new Gait(frequency, List.of(amplitude), List.of(0.0)))).toList();
+    }
+
+    /**
+     * The body of two clusters.
+     *
+     * @param setting {@link #WATER}, {@link #VACUUM} or {@link #RESTING}
+     */
+    Experiment twoClusters(Gait gait, Water water, String setting) {
+        ObjectNode overrides = Condition.stopping(false);
+        String scene = "thesis/two-clusters";
+        if (water == Water.OPEN_WATER) {
+            scene = water.scene(1);
+            overrides.putObject("creature").put("name", TWO_CLUSTERS);
+        }
+        SimulationRequest request = request(scene, setting.equals(RESTING) ? gait.resting() : gait, water, overrides);
+        String subject = setting.equals(RESTING) ? RESTING : "f=" + gait.frequency() + "/a=" + gait.amplitude().get(0);
+        return new Experiment(TWO_CLUSTERS, subject, setting, setting.equals(VACUUM) ? VacuumRequests.of(request, duration) : request,
+                FIRST_START, few);
+    }
+
+    private List<Experiment> twoClusters(Water water) {
         List<Experiment> all = new ArrayList<>();
-        for (double frequency : List.of(0.5, 1.0, 1.5, 2.0)) {
-            for (double amplitude : List.of(0.5, 1.0)) {
-                Gait gait = new Gait(frequency, List.of(amplitude), List.of(0.0));
-                SimulationRequest fluid = request("thesis/two-clusters", gait, scheme, stopping(false));
-                String subject = "f=" + frequency + "/a=" + amplitude;
-                all.add(new Experiment(TWO_CLUSTERS, subject, FLUID, fluid));
-                all.add(new Experiment(TWO_CLUSTERS, subject, VACUUM, VacuumRequests.of(fluid, duration)));
-            }
-        }
+        gaitsOfTwoClusters().forEach(gait -> {
+            all.add(twoClusters(gait, water, WATER));
+            all.add(twoClusters(gait, water, VACUUM));
+        });
+        all.add(twoClusters(gaitsOfTwoClusters().get(0), water, RESTING));
         return all;
     }
 
-    private SimulationRequest request(String scene, Gait gait, Scheme scheme, ObjectNode overrides) {
-        return new SimulationRequest(0, scene, gait, duration, scheme, overrides);
+    /** The thesis' tank and bodies as they are in scheme conserving. */
+    Experiment sinking(int creature) {
+        Gait gait = data.gaits().stream().filter(one -> one.creature() == creature).findFirst().orElseThrow().gait();
+        return new Experiment(SINKING, "creature-" + creature, WATER, new SimulationRequest(0, ThesisData.scene(creature), gait, duration,
+                Scheme.CONSERVING, Condition.stopping(true)), FIRST_START, few);
     }
 
-    private static ObjectNode stopping(boolean touchEnds) {
-        ObjectNode overrides = JsonNodeFactory.instance.objectNode();
-        overrides.putObject("stopping").put("planeContact", touchEnds).put("noProgressAfter", 0);
-        return overrides;
+    /** What depends on no evolution. */
+    List<Experiment> independent() {
+        List<Experiment> all = new ArrayList<>();
+        for (Water water : Water.values()) {
+            published(water).forEach(subject -> all.addAll(all(subject)));
+            all.addAll(potentiated(water));
+            all.addAll(twoClusters(water));
+        }
+        IntStream.rangeClosed(1, 4).forEach(creature -> all.add(sinking(creature)));
+        return all;
+    }
+
+    private SimulationRequest request(String scene, Gait gait, Water water, ObjectNode overrides) {
+        return new SimulationRequest(0, scene, gait, duration, water.scheme(), overrides);
     }
 }

@@ -2,6 +2,8 @@ package io.natator.study.thesis;
 
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
+import io.natator.flow.Snapshot;
+import io.natator.flow.WaterLevel;
 import io.natator.kinematics.BodyPath;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
@@ -18,7 +20,6 @@ import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 import java.util.concurrent.Future;
-import java.util.stream.IntStream;
 
 /** The recorded runs of the study, {@code motions.jsonl}: what was recorded and measured once stays. */
 final class KinematicsLog implements AutoCloseable {
@@ -43,13 +44,13 @@ final class KinematicsLog implements AutoCloseable {
 
     /** The runs of these experiments that are not recorded yet, each once. */
     List<SimulationRequest> missing(List<Experiment> experiments) {
-        return experiments.stream().flatMap(one -> IntStream.rangeClosed(1, runs).mapToObj(one::run))
+        return experiments.stream().flatMap(one -> one.recordings(runs).stream())
                 .filter(request -> rows.find(key(request)) == null).distinct().toList();
     }
 
     /** What came of the runs that are recorded. */
     List<SwimKinematics> of(Experiment experiment) {
-        return IntStream.rangeClosed(1, runs).mapToObj(seed -> rows.find(key(experiment.run(seed))))
+        return experiment.recordings(runs).stream().map(request -> rows.find(key(request)))
                 .filter(Objects::nonNull).toList();
     }
 
@@ -85,12 +86,18 @@ final class KinematicsLog implements AutoCloseable {
     private static SwimKinematics record(String program, SimulationRequest request, ExecutionSettings execution)
             throws InterruptedException {
         try {
-            Path file = Files.createTempFile("natator-", ".csv");
+            Path folder = Files.createTempDirectory("natator-");
+            Path file = folder.resolve("path.csv");
+            Path particles = folder.resolve("particles.csv");
             try {
-                new TrajectoryRecorder(execution).record(request, file, null, 0);
-                return SwimKinematics.of(program, request, BodyPath.read(file));
+                double duration = request.duration() == null ? StudyResults.THESIS_SECONDS : request.duration();
+                new TrajectoryRecorder(execution).record(request, file, particles, duration / 2);
+                return SwimKinematics.of(program, request, BodyPath.read(file),
+                        Files.exists(particles) ? WaterLevel.shareBelow(Snapshot.read(particles)) : null);
             } finally {
                 Files.deleteIfExists(file);
+                Files.deleteIfExists(particles);
+                Files.deleteIfExists(folder);
             }
         } catch (IOException e) {
             throw new UncheckedIOException("cannot record a run: " + e.getMessage(), e);

@@ -1,5 +1,6 @@
 package io.natator.study.thesis;
 
+import io.natator.checkpoint.SwimSample;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.simulator.Evaluator;
@@ -10,28 +11,22 @@ import io.natator.study.KeyedLog;
 import io.natator.study.Sample;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Collection;
 import java.util.List;
 import java.util.Objects;
-import java.util.stream.IntStream;
+import java.util.function.ToDoubleFunction;
 
 /**
- * The measured evaluations of the study, {@code measurements.jsonl}. What was measured once stays, whatever program and
+ * Measured evaluations of the study. What was measured once stays, whatever program and
  * backend it was measured with, which each row names; delete the file to measure anew.
  */
 final class MeasurementLog implements AutoCloseable {
 
     private final KeyedLog<Measurement> rows;
-    private final int runs;
 
-    /**
-     * Those of a study.
-     *
-     * @param runs of every experiment, at least 1
-     */
-    MeasurementLog(Path directory, int runs) {
-        this.runs = runs;
-        this.rows = new KeyedLog<>(directory.resolve("measurements.jsonl"), Measurement.class,
-                row -> key(row.request()));
+    /** Those of a file of JSON lines, which is made with the first. */
+    MeasurementLog(Path file) {
+        rows = new KeyedLog<>(file, Measurement.class, row -> key(row.request()));
     }
 
     private static String key(SimulationRequest request) {
@@ -40,7 +35,7 @@ final class MeasurementLog implements AutoCloseable {
 
     /** The runs of these experiments that are not measured yet, each once. */
     List<SimulationRequest> missing(List<Experiment> experiments) {
-        return experiments.stream().flatMap(one -> IntStream.rangeClosed(1, runs).mapToObj(one::run))
+        return experiments.stream().flatMap(one -> one.runs().stream())
                 .filter(request -> rows.find(key(request)) == null).distinct().toList();
     }
 
@@ -65,16 +60,36 @@ final class MeasurementLog implements AutoCloseable {
         });
     }
 
-    /** What came of the runs that are measured. */
-    List<SimulationResult> results(Experiment experiment) {
-        return IntStream.rangeClosed(1, runs).mapToObj(seed -> rows.find(key(experiment.run(seed))))
-                .filter(Objects::nonNull).map(Measurement::result).toList();
+    /** Whether all runs are measured. */
+    boolean has(Experiment experiment) {
+        return results(experiment).size() == experiment.starts();
     }
 
-    /** Speeds of the runs that stayed stable, in scene units per second. */
-    Sample speed(Experiment experiment) {
+    /** What came of the runs that are measured. */
+    List<SimulationResult> results(Experiment experiment) {
+        return experiment.runs().stream().map(request -> rows.find(key(request))).filter(Objects::nonNull)
+                .map(Measurement::result).toList();
+    }
+
+    /** Ways along x of the runs that stayed stable by the whole time, whether they lasted so long or not; scene units per second. */
+    Sample speed(Experiment experiment, double duration) {
+        return sample(experiment, result -> result.distance() / duration);
+    }
+
+    /** The same along the body's own heading. */
+    Sample forward(Experiment experiment, double duration) {
+        return sample(experiment, result -> (result.course() == null ? result.distance() : result.course().forward()) / duration);
+    }
+
+    private Sample sample(Experiment experiment, ToDoubleFunction<SimulationResult> value) {
         return Sample.of(results(experiment).stream().filter(one -> one.status() == SimulationResult.Status.OK)
-                .map(SimulationResult::speed).toList());
+                .map(value::applyAsDouble).toList());
+    }
+
+    /** All figures of the runs that are measured; null without any. */
+    SwimSample swim(Experiment experiment, int substeps, double duration, Double bodyLength) {
+        List<SimulationResult> results = results(experiment);
+        return results.isEmpty() ? null : SwimSample.of(results, substeps, experiment.request().gait(), duration, bodyLength);
     }
 
     /** How many runs became unstable. */
@@ -88,8 +103,8 @@ final class MeasurementLog implements AutoCloseable {
                 .distinct().toList();
     }
 
-    int size() {
-        return rows.rows().size();
+    Collection<Measurement> rows() {
+        return rows.rows();
     }
 
     @Override

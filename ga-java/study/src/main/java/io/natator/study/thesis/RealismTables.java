@@ -1,6 +1,5 @@
 package io.natator.study.thesis;
 
-import io.natator.config.Scheme;
 import io.natator.kinematics.FishMode;
 import io.natator.kinematics.ModeFit;
 import io.natator.report.ReportDocument;
@@ -9,7 +8,6 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Locale;
-import java.util.Optional;
 import java.util.function.Function;
 
 /** Table 3.2: which fish a creature swims like; and how the bodies lie and turn. */
@@ -23,16 +21,17 @@ final class RealismTables {
 
     void add(ReportDocument page) {
         page.heading(3, "Table 3.2: e against real fish");
-        page.text("0 is the same motion, 1/3 or less, √(x_l/L)/3, is none, x_l being where the shortest spine ends; so the least e alone "
-                + "names no fish: what the motion is like, where that is another or none, stands in brackets. α scales the simulated spine: as printed in the thesis it scales the "
-                + "real one, which cannot give its values. Sideways is z, as in the thesis; mean ± standard deviation over "
-                + "recorded runs. Flex 1.2.0: the same measure on one recorded run.");
-        page.table(List.of("creature", "from", "anguilliform", "carangiform", "thunniform", "least"),
+        page.text("0 is the same motion; *none* is the e of a spine that does not move, √(x_l/L)/3, x_l being where the shortest spine ends. So the "
+                + "least e alone names no fish: *like* is the nearest of those below 0.8 of none. An eel by the formula itself has an e of up to 0.04, "
+                + "since its spine does not lie about its line of best fit. α scales the simulated spine: as printed in the thesis it scales the real one, which "
+                + "cannot give its values. Sideways is z, as in the thesis; mean ± standard deviation over recorded runs. Flex 1.2.0: the same measure on one "
+                + "recorded run.");
+        page.table(List.of("creature", "from", "anguilliform", "carangiform", "thunniform", "none", "x_l/L", "like"),
                 errors(SwimKinematics::fits, true));
         page.heading(3, "The same with the body's roll taken out");
         page.text("A body that tips over bends in a plane that the thesis' measure does not look at. Here sideways is the "
                 + "body's own side.");
-        page.table(List.of("creature", "from", "anguilliform", "carangiform", "thunniform", "least"),
+        page.table(List.of("creature", "from", "anguilliform", "carangiform", "thunniform", "none", "x_l/L", "like"),
                 errors(SwimKinematics::fitsOfBody, false));
         page.heading(3, "How the bodies lie");
         page.text("At the end of the recorded runs; the swing is the largest amplitude at the end of the measured spine. "
@@ -42,26 +41,18 @@ final class RealismTables {
     }
 
     /** A row's name and its recorded runs. */
-    private record Subject(String creature, String from, List<SwimKinematics> motions) {
+    private record Recorded(String creature, String from, List<SwimKinematics> motions) {
     }
 
-    private List<Subject> subjects() {
-        List<Subject> subjects = new ArrayList<>();
-        for (ThesisData.PublishedGait gait : results.data().gaits()) {
-            for (Scheme scheme : ExperimentCatalogue.SCHEMES) {
-                String name = gait.creature() + (gait.published() != null ? "" : ", " + gait.about());
-                subjects.add(new Subject(name, "thesis' gait, " + TableFormat.name(scheme),
-                        results.motions(gait, scheme)));
+    private List<Recorded> recorded() {
+        List<Recorded> recorded = new ArrayList<>();
+        results.subjects().forEach(subject -> {
+            recorded.add(new Recorded("" + subject.creature(), subject.label() + ", " + subject.water().words(), results.motions(subject)));
+            if (!subject.isEvolved() && subject.water() == Water.FLEX) {
+                recorded.add(new Recorded("" + subject.creature(), subject.label() + ", flex, inverse mass linear", results.motionsOfInverseMass(subject)));
             }
-            subjects.add(new Subject(gait.creature() + (gait.published() != null ? "" : ", " + gait.about()),
-                    "thesis' gait, flex, inverse mass linear", results.motionsOfInverseMass(gait)));
-        }
-        for (EvolvedRun run : results.evolved()) {
-            subjects.add(new Subject("" + run.creature(), "evolved, " + TableFormat.name(run.scheme()) + ", seed "
-                    + run.seed(),
-                    results.motions(run)));
-        }
-        return subjects.stream().filter(subject -> !subject.motions().isEmpty()).toList();
+        });
+        return recorded.stream().filter(one -> !one.motions().isEmpty()).toList();
     }
 
     private List<List<String>> errors(Function<SwimKinematics, List<ModeFit>> fits, boolean withPublished) {
@@ -73,17 +64,18 @@ final class RealismTables {
                 }
                 gait.flex().stream().filter(one -> one.errors() != null).forEach(one -> rows.add(row(gait.creature()
                         + (gait.published() != null ? "" : ", " + gait.about()), "thesis' gait, Flex 1.2.0"
-                        + (one.setting().equals(ExperimentCatalogue.INVERSE_MASS) ? ", inverse mass linear" : ""),
+                        + (one.setting().equals("fluid-inverse-mass") ? ", inverse mass linear" : ""),
                         one.errors())));
             }
         }
-        for (Subject subject : subjects()) {
-            List<String> row = new ArrayList<>(List.of(subject.creature(), subject.from()));
+        for (Recorded one : recorded()) {
+            List<String> row = new ArrayList<>(List.of(one.creature(), one.from()));
             Arrays.stream(FishMode.values())
-                    .forEach(mode -> row.add(TableFormat.speed(StudyResults.error(subject.motions(), mode, fits))));
-            FishMode least = StudyResults.nearest(subject.motions(), fits);
-            Optional<FishMode> like = StudyResults.like(subject.motions(), fits);
-            row.add(least.label() + (like.isEmpty() ? " (like none)" : like.get() == least ? "" : " (like " + like.get().label() + ")"));
+                    .forEach(mode -> row.add(TableFormat.speed(StudyResults.error(one.motions(), mode, fits))));
+            double part = one.motions().stream().mapToDouble(SwimKinematics::measuredPart).average().orElseThrow();
+            row.add(TableFormat.shortNumber(Math.sqrt(part) / 3));
+            row.add(TableFormat.shortNumber(part));
+            row.add(StudyResults.like(one.motions(), fits).map(FishMode::label).orElse("none"));
             rows.add(row);
         }
         return rows;
@@ -92,16 +84,12 @@ final class RealismTables {
     private static List<String> row(String creature, String from, List<Double> errors) {
         List<String> row = new ArrayList<>(List.of(creature, from));
         errors.forEach(error -> row.add(TableFormat.number(error)));
-        int least = 0;
-        for (int i = 1; i < errors.size(); i++) {
-            least = errors.get(i) < errors.get(least) ? i : least;
-        }
-        row.add(FishMode.values()[least].label());
+        row.addAll(List.of(TableFormat.NOTHING, TableFormat.NOTHING, TableFormat.NOTHING));
         return row;
     }
 
     private List<List<String>> attitudes() {
-        return subjects().stream().map(subject -> {
+        return recorded().stream().map(subject -> {
             List<SwimKinematics> motions = subject.motions();
             return List.of(subject.creature(), subject.from(),
                     degrees(motions.stream().map(motion -> Math.toDegrees(motion.end().roll())).toList()),

@@ -1,68 +1,138 @@
 package io.natator.study.thesis;
 
-import io.natator.config.Scheme;
+import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.SwimSample;
+import io.natator.config.Json;
 import io.natator.kinematics.FishMode;
 import io.natator.kinematics.ModeFit;
 import io.natator.study.Sample;
+import io.natator.verdict.ControlVerdict;
+import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
+import java.util.Objects;
 import java.util.Optional;
 import java.util.function.Function;
 import java.util.stream.IntStream;
+import java.util.stream.Stream;
 
 /**
- * All that was found, for the tables.
+ * All that was found, for what follows from it.
  *
- * @param evolved finished evolutions
+ * @param directory    of the study
+ * @param measurements on its backend
+ * @param processor    the same again on the processor, of the central gaits
+ * @param convergence  at half the spacing
+ * @param motions      recorded
+ * @param winners      of the finished evolutions
+ * @param duration     of a measured run, in seconds
  */
-record StudyResults(ThesisData data, ExperimentCatalogue catalogue, MeasurementLog measurements,
-        KinematicsLog motions, TimingLog timings, List<EvolvedRun> evolved) {
+record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalogue, MeasurementLog measurements,
+        MeasurementLog processor, ConvergenceLog convergence, KinematicsLog motions, Winners winners, double duration) {
 
-    /** Finished evolutions of a creature in a scheme. */
-    List<EvolvedRun> evolved(int creature, Scheme scheme) {
-        return evolved.stream().filter(run -> run.creature() == creature && run.scheme() == scheme).toList();
+    /** Of a run (thesis 2.6). */
+    static final double THESIS_SECONDS = 4;
+
+    /** Finished evolutions. */
+    List<EvolvedRun> runs() {
+        return winners.runs();
     }
 
-    /** Speeds of a published gait. */
-    Sample speed(ThesisData.PublishedGait gait, Scheme scheme, String setting) {
-        return speed(catalogue.speeds(gait, scheme), setting);
+    /** Everything to be measured that is known by now: what is found adds to it. */
+    List<Experiment> experiments() {
+        List<Experiment> all = new ArrayList<>(catalogue.independent());
+        all.addAll(winners.experiments());
+        evolved().forEach(subject -> all.addAll(catalogue.all(subject)));
+        Arrays.stream(Water.values()).flatMap(water -> studied(water).stream()).forEach(subject -> all.addAll(catalogue.studies(subject)));
+        return all;
     }
 
-    /** Speeds of the best gait of one evolution. */
-    Sample speed(EvolvedRun run, String setting) {
-        return speed(catalogue.speeds(run), setting);
+    /** What is measured on the processor too: bits that can be checked anywhere, and a second backend for the winners. */
+    List<Experiment> onProcessor() {
+        return subjects().map(subject -> catalogue.of(subject, Condition.WATER))
+                .map(one -> new Experiment(one.group(), one.subject(), one.setting(), one.request(), one.first(), Math.min(2, one.starts())))
+                .toList();
     }
 
-    private Sample speed(List<Experiment> experiments, String setting) {
-        return measurements.speed(experiments.stream().filter(one -> one.setting().equals(setting)).findFirst()
-                .orElseThrow());
+    /** All gaits, the published ones of each water first. */
+    Stream<Subject> subjects() {
+        return Arrays.stream(Water.values()).flatMap(water -> Stream.concat(catalogue.published(water).stream(),
+                evolved(water).stream()));
     }
 
-    /** Over the seeds of evolution: the mean and spread of what their best gaits swim on average. */
-    Sample speedOverSeeds(int creature, Scheme scheme, String setting) {
-        return Sample.of(evolved(creature, scheme).stream().map(run -> speed(run, setting))
-                .filter(sample -> sample.count() > 0).map(Sample::mean).toList());
+    /** Winners of all evolutions that are known. */
+    List<Subject> evolved() {
+        return winners.all();
     }
 
-    /**
-     * Of the seeds, the evolution whose best gait is fastest on average, of those that swim by the rule of
-     * {@link ClaimsSection#swims} if there are any: evolution judges by a single run, so a gait that tumbles may win by
-     * luck. Null if none is measured.
-     */
-    EvolvedRun best(int creature, Scheme scheme) {
-        Comparator<EvolvedRun> bySpeed = Comparator
-                .comparingDouble(run -> speed(run, ExperimentCatalogue.FLUID).mean());
-        return evolved(creature, scheme).stream().filter(run -> speed(run, ExperimentCatalogue.FLUID).count() > 0)
-                .max(Comparator.comparing(this::swims).thenComparing(bySpeed)).orElse(null);
+    List<Subject> evolved(Water water) {
+        return evolved().stream().filter(subject -> subject.water() == water).toList();
     }
 
-    private boolean swims(EvolvedRun run) {
-        return ClaimsSection.swims(speed(run, ExperimentCatalogue.FLUID), speed(run, ExperimentCatalogue.VACUUM))
-                .equals(ClaimsSection.YES);
+    /** Gaits with which parameters are studied: a published one that swims, and the best that evolved of creatures 1 and 2. */
+    List<Subject> studied(Water water) {
+        List<Subject> studied = new ArrayList<>(List.of(Subject.of(data.gait(ExperimentCatalogue.STUDIED), water)));
+        List.of(1, 2).forEach(creature -> best(creature, water).ifPresent(studied::add));
+        return studied;
     }
 
-    /** e of the recorded runs against a mode. */
+    /** Of the seeds, the winner that is fastest by the lower of its speeds at both time steps; empty while none is measured. */
+    Optional<Subject> best(int creature, Water water) {
+        return evolved(water).stream().filter(subject -> subject.creature() == creature)
+                .filter(subject -> measurements.has(catalogue.of(subject, Condition.HALF_STEP)))
+                .max(Comparator.comparingDouble(subject -> Math.min(speed(subject, Condition.WATER).mean(),
+                        speed(subject, Condition.HALF_STEP).mean())));
+    }
+
+    /** Scene units per second over the whole time. */
+    Sample speed(Subject subject, Condition condition) {
+        return measurements.speed(catalogue.of(subject, condition), duration);
+    }
+
+    /** The speed of a gait with what it is known to. */
+    Optional<Speed> speed(Subject subject) {
+        Sample water = speed(subject, Condition.WATER);
+        return water.count() == 0 ? Optional.empty()
+                : Optional.of(Speed.of(water, speed(subject, Condition.HALF_STEP), convergence.change(catalogue.of(subject, Condition.WATER))));
+    }
+
+    /** Everything that a verdict rests on; empty while something is missing. */
+    Optional<Controls> controls(Subject subject) {
+        SwimSample water = swim(subject, Condition.WATER);
+        SwimSample resting = swim(subject, Condition.RESTING);
+        SwimSample vacuum = swim(subject, Condition.VACUUM);
+        SwimSample half = swim(subject, Condition.HALF_STEP);
+        SwimSample mirrored = swim(subject, Condition.MIRRORED);
+        if (water == null || resting == null || vacuum == null || half == null || mirrored == null) {
+            return Optional.empty();
+        }
+        SwimSample other = processor.swim(catalogue.of(subject, Condition.WATER), Water.SUBSTEPS, duration, length(subject.creature()));
+        Sample under = Sample.of(motions(subject).stream().map(SwimKinematics::underWater).filter(Objects::nonNull).toList());
+        return Optional.of(new Controls(subject.gait(), null, Json.name(subject.water().scheme()), duration, length(subject.creature()), water,
+                resting, vacuum, subject.water() == Water.FLEX ? swim(subject, Condition.NO_CLAMP) : null, half, mirrored, other,
+                other == null ? null : "cpu", under.count() == 0 ? null : under.mean()));
+    }
+
+    /** Whether a gait swims; empty while something is missing. */
+    Optional<ControlVerdict> verdict(Subject subject) {
+        return controls(subject).map(ControlVerdict::of);
+    }
+
+    private SwimSample swim(Subject subject, Condition condition) {
+        return measurements.swim(catalogue.of(subject, condition), (condition == Condition.HALF_STEP ? 2 : 1) * Water.SUBSTEPS, duration,
+                length(subject.creature()));
+    }
+
+    private Double length(int creature) {
+        double length = bodyLength(creature);
+        return Double.isFinite(length) ? length : null;
+    }
+
+    /** e of recorded runs against a mode. */
     static Sample error(List<SwimKinematics> motions, FishMode mode, Function<SwimKinematics, List<ModeFit>> fits) {
         return Sample.of(motions.stream().map(motion -> fits.apply(motion).get(mode.ordinal()).error()).toList());
     }
@@ -74,11 +144,15 @@ record StudyResults(ThesisData data, ExperimentCatalogue catalogue, MeasurementL
                 .orElseThrow();
     }
 
+    /** e as a share of that of no motion. */
+    static Sample relative(List<SwimKinematics> motions, FishMode mode, Function<SwimKinematics, List<ModeFit>> fits) {
+        return Sample.of(motions.stream().map(motion -> fits.apply(motion).get(mode.ordinal()).relative()).toList());
+    }
+
     /** Whether that mode is like them at all, by means over the runs; see {@link ModeFit#resembles}. */
     private static boolean resembles(List<SwimKinematics> motions, FishMode mode, Function<SwimKinematics, List<ModeFit>> fits) {
-        List<ModeFit> own = motions.stream().map(motion -> fits.apply(motion).get(mode.ordinal())).toList();
-        return ModeFit.resembles(Sample.of(own.stream().map(ModeFit::relative).toList()).mean(),
-                Sample.of(own.stream().map(ModeFit::alpha).toList()).mean());
+        return ModeFit.resembles(relative(motions, mode, fits).mean(),
+                Sample.of(motions.stream().map(motion -> fits.apply(motion).get(mode.ordinal()).alpha()).toList()).mean());
     }
 
     /** Of the modes that they are like at all the one with the least mean e; empty if there is none. */
@@ -87,32 +161,58 @@ record StudyResults(ThesisData data, ExperimentCatalogue catalogue, MeasurementL
                 .min(Comparator.comparingDouble(mode -> error(motions, mode, fits).mean()));
     }
 
-    /** The same in words, with e, or with the least e where they are like none; a dash without recordings. */
+    /** The same in words, with e as a share of no motion's and the part of the body that it was taken over. */
     static String likeWhich(List<SwimKinematics> motions, Function<SwimKinematics, List<ModeFit>> fits) {
         FishMode fish = like(motions, fits).orElse(nearest(motions, fits));
         return fish == null ? TableFormat.NOTHING : like(motions, fits).map(FishMode::label).orElse("none")
-                + " (" + TableFormat.number(error(motions, fish, fits).mean()) + ")";
+                + " (" + TableFormat.shortNumber(relative(motions, fish, fits).mean()) + " over "
+                + TableFormat.shortNumber(motions.stream().mapToDouble(SwimKinematics::measuredPart).average().orElse(Double.NaN)) + " of it)";
     }
 
-    /** Recorded runs of the best gait of one evolution. */
-    List<SwimKinematics> motions(EvolvedRun run) {
-        return motions.of(catalogue.speeds(run).get(0));
-    }
-
-    /** Recorded runs of a published gait. */
-    List<SwimKinematics> motions(ThesisData.PublishedGait gait, Scheme scheme) {
-        return motions.of(catalogue.speeds(gait, scheme).get(0));
+    /** Recorded runs of a gait in its water. */
+    List<SwimKinematics> motions(Subject subject) {
+        return motions.of(catalogue.of(subject, Condition.WATER));
     }
 
     /** Recorded runs of a published gait in flex, where inverse masses are linear in height. */
-    List<SwimKinematics> motionsOfInverseMass(ThesisData.PublishedGait gait) {
-        return motions.of(catalogue.speeds(gait, Scheme.FLEX).get(1));
+    List<SwimKinematics> motionsOfInverseMass(Subject subject) {
+        return motions.of(catalogue.of(subject, Condition.INVERSE_MASS));
+    }
+
+    /** What is recorded: all gaits in their water, and published ones in the tank of inverse masses. */
+    List<Experiment> recorded() {
+        List<Experiment> all = new ArrayList<>(subjects().map(subject -> catalogue.of(subject, Condition.WATER)).toList());
+        catalogue.published(Water.FLEX).forEach(subject -> all.add(catalogue.of(subject, Condition.INVERSE_MASS)));
+        return all;
     }
 
     /** Head to tail of a creature at rest, as recorded; NaN if it was not. */
     double bodyLength(int creature) {
-        return data.gaits().stream().filter(gait -> gait.creature() == creature)
-                .flatMap(gait -> ExperimentCatalogue.SCHEMES.stream().flatMap(scheme -> motions(gait, scheme).stream()))
+        return Arrays.stream(Water.values()).flatMap(water -> catalogue.published(water).stream())
+                .filter(subject -> subject.creature() == creature).flatMap(subject -> motions(subject).stream())
                 .mapToDouble(SwimKinematics::bodyLength).findFirst().orElse(Double.NaN);
+    }
+
+    /** All that evolved, in its water. */
+    List<Experiment> evolvedInWater() {
+        return evolved().stream().map(subject -> catalogue.of(subject, Condition.WATER)).toList();
+    }
+
+    /** What is drawn, by the name of its files: the published gaits in flex, and the best that evolved. */
+    Map<String, Subject> drawn() {
+        Map<String, Subject> drawn = new LinkedHashMap<>();
+        catalogue.published(Water.FLEX).forEach(subject -> drawn.put(subject.name().replace('/', '-'), subject));
+        for (Water water : Water.values()) {
+            IntStream.rangeClosed(1, 4).forEach(creature -> best(creature, water)
+                    .ifPresent(subject -> drawn.put("creature-" + creature + "-" + water.label(), subject)));
+        }
+        return drawn;
+    }
+
+    /** The fastest that evolved in open water, else in flex; empty without any. */
+    Optional<Subject> portrayed() {
+        return Stream.of(Water.OPEN_WATER, Water.FLEX).flatMap(water -> IntStream.rangeClosed(1, 4)
+                .mapToObj(creature -> best(creature, water)).flatMap(Optional::stream)
+                .max(Comparator.comparingDouble(subject -> speed(subject, Condition.WATER).mean())).stream()).findFirst();
     }
 }

@@ -24,14 +24,21 @@ import java.util.List;
  * @param end         attitude at the end, radians
  * @param largestYaw  largest turn about y on the way, radians
  * @param heights     y of the body's centre at the start and at the end
+ * @param measuredPart share of the body that a(x) and e are taken over: the shortest spine by the spine at rest
+ * @param underWater  share of the body's particles below the water's level, halfway; null without water
  */
 record SwimKinematics(@JsonProperty(required = true) String program,
         @JsonProperty(required = true) SimulationRequest request,
         double simulated, double speed, double bodyLength, double tailSwing, List<ModeFit> fits,
-        List<ModeFit> fitsOfBody, Attitude end, double largestYaw, List<Double> heights) {
+        List<ModeFit> fitsOfBody, Attitude end, double largestYaw, List<Double> heights, double measuredPart,
+        Double underWater) {
 
-    /** Measures a recorded path; the fits to real fish need a gait with a frequency. */
-    static SwimKinematics of(String program, SimulationRequest request, BodyPath path) {
+    /**
+     * Measures a recorded path; the fits to real fish need a gait with a frequency.
+     *
+     * @param underWater share of the body below the water's level, or null
+     */
+    static SwimKinematics of(String program, SimulationRequest request, BodyPath path, Double underWater) {
         SpinePath spine = path.spine();
         Swimming swimming = new Swimming(spine);
         int last = spine.frames() - 1;
@@ -45,6 +52,7 @@ record SwimKinematics(@JsonProperty(required = true) String program,
                 simulated > 0 ? (path.centre(last)[0] - path.centre(0)[0]) / simulated : 0, length,
                 upright.envelope(upright.measuredLength()) / length,
                 ModeFit.all(swimming, request.gait().frequency()), ModeFit.all(upright, request.gait().frequency()),
-                attitude.get(last), largestYaw, List.of(path.centre(0)[1], path.centre(last)[1]));
+                attitude.get(last), largestYaw, List.of(path.centre(0)[1], path.centre(last)[1]),
+                upright.measuredLength() / length, underWater);
     }
 }

@@ -1,7 +1,6 @@
 package io.natator.study.thesis;
 
 import io.natator.checkpoint.StoredRun;
-import io.natator.config.Scheme;
 import io.natator.evolution.GenerationSummary;
 import io.natator.flow.FlowField;
 import io.natator.kinematics.FishMode;
@@ -12,7 +11,6 @@ import io.natator.report.MotionPlots;
 import io.natator.report.Recording;
 import io.natator.report.ReportDocument;
 import io.natator.study.Sample;
-import java.awt.Color;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -44,16 +42,18 @@ final class ThesisFigures {
     }
 
     private void addFitness(ReportDocument page) throws IOException {
-        page.heading(3, "Fitness over generations");
+        page.heading(3, "Evolution");
+        page.text("Best of each generation, as the evolution judged it, and the population's mean; the best is what chance has favoured most.");
         for (int creature = 1; creature <= 4; creature++) {
-            XYChart chart = Charts.lines("Creature " + creature + ": best distance", "generation", "scene units");
-            for (Scheme scheme : ExperimentCatalogue.SCHEMES) {
-                for (EvolvedRun run : results.evolved(creature, scheme)) {
+            XYChart chart = Charts.lines("Creature " + creature + ": way of the best, and of the mean", "generation", "scene units");
+            for (EvolvedRun run : results.runs()) {
+                if (run.creature() == creature) {
                     List<GenerationSummary> history = StoredRun.state(run.plan().directory()).history();
-                    Charts.add(chart, TableFormat.name(scheme) + ", seed " + run.seed(),
-                            history.stream().mapToDouble(GenerationSummary::generation).toArray(),
-                            history.stream().mapToDouble(GenerationSummary::best).toArray(), scheme.ordinal(),
-                            (int) run.seed() - 1, 1.5f);
+                    double[] generations = history.stream().mapToDouble(GenerationSummary::generation).toArray();
+                    String name = run.water().words() + ", seed " + run.seed();
+                    int number = 2 * ((int) run.seed() - 1) + run.water().ordinal();
+                    Charts.add(chart, name, generations, history.stream().mapToDouble(GenerationSummary::best).toArray(), number, 2f);
+                    Charts.add(chart, name + ", mean", generations, history.stream().mapToDouble(GenerationSummary::mean).toArray(), number, 0.8f);
                 }
             }
             if (!chart.getSeriesMap().isEmpty()) {
@@ -85,72 +85,56 @@ final class ThesisFigures {
     }
 
     private static String title(String name) {
-        return name.startsWith("thesis-") ? "Published gait " + name.substring(7) + ", flex"
-                : "Best evolved, " + name.replace("-conserving", ", conserving").replace("-flex", ", flex");
+        return name.startsWith("thesis-") ? "Gait " + name.substring(7) + " of the thesis, flex"
+                : "Best evolved, " + name.replace("-flex", ", flex").replace("-open-water", ", open water");
     }
 
     private void addParameters(ReportDocument page) throws IOException {
         page.heading(3, "Parameters (4.1)");
+        page.text("Speed along the own heading by that at the scene's own value, where a gait swims there. Values are equally spaced on the axis.");
         for (Parameter parameter : Parameter.values()) {
-            XYChart chart = Charts.lines("Speed over " + parameter.label(), parameter.label() + label(parameter),
-                    "speed in fluid (scene units/s)");
-            int colour = 0;
-            for (String gait : ExperimentCatalogue.STUDIED_GAITS) {
-                for (Scheme scheme : ExperimentCatalogue.SCHEMES) {
-                    addCurve(chart, parameter, gait, scheme, colour++);
+            for (Water water : Water.values()) {
+                if (parameter.in(water).isPresent()) {
+                    addParameter(page, parameter, parameter.in(water).get(), water);
                 }
             }
-            ExperimentCatalogue.SCHEMES.forEach(scheme -> addCost(chart, parameter, scheme));
-            if (!chart.getSeriesMap().isEmpty()) {
-                String file = "4.1-" + parameter.label().replace(' ', '-');
-                page.picture(Picture.save(chart, folder.resolve(file)), "speed over " + parameter.label());
-            }
         }
     }
 
-    /** Values from 1 up over a wide range are drawn over their logarithm to base 2; no limit is left out. */
-    private static boolean logarithmic(Parameter parameter) {
-        return parameter == Parameter.SUBSTEPS || parameter == Parameter.ITERATIONS || parameter == Parameter.BODY_MASS
-                || parameter == Parameter.MAX_ACCELERATION;
+    private void addParameter(ReportDocument page, Parameter parameter, Parameter.Range range, Water water) throws IOException {
+        List<Double> values = range.values();
+        XYChart chart = Charts.lines("Speed over " + parameter.label() + ", " + water.words() + " (own value " + TableFormat.value(range.standard()) + ")",
+                parameter.label(), "share of the speed at the own value");
+        chart.getStyler().setXAxisMin(0.0).setXAxisMax(values.size() + 1.0);
+        chart.setCustomXAxisTickLabelsFormatter(x -> Math.abs(x - Math.rint(x)) < 1e-6 && x > 0.5 && x < values.size() + 0.5
+                ? TableFormat.value(values.get((int) Math.rint(x) - 1)) : "");
+        int number = 0;
+        for (Subject subject : results.studied(water)) {
+            addCurve(chart, parameter, range, subject, number++);
+        }
+        if (!chart.getSeriesMap().isEmpty()) {
+            String file = "4.1-" + (parameter.label() + " " + water.label()).replace(' ', '-');
+            page.picture(Picture.save(chart, folder.resolve(file)), "speed over " + parameter.label() + ", " + water.words());
+        }
     }
 
-    private static String label(Parameter parameter) {
-        return logarithmic(parameter) ? " (logarithm to base 2)" : "";
-    }
-
-    private void addCurve(XYChart chart, Parameter parameter, String gait, Scheme scheme, int colour) {
+    private void addCurve(XYChart chart, Parameter parameter, Parameter.Range range, Subject subject, int number) {
+        Sample usual = forward(parameter, range.standard(), subject);
+        if (!new Trend(usual, List.of()).swims()) {
+            return;
+        }
         List<double[]> points = new ArrayList<>();
-        for (double value : parameter.settings()) {
-            Sample speed = results.measurements()
-                    .speed(ExperimentTables.of(results, parameter, value, gait, scheme, false));
-            if (speed.count() > 0 && value < 1e20) {
-                points.add(new double[] {logarithmic(parameter) ? Math.log(value) / Math.log(2) : value, speed.mean(),
-                    speed.hasSpread() ? speed.standardDeviation() : 0});
+        for (int i = 0; i < range.values().size(); i++) {
+            Sample speed = forward(parameter, range.values().get(i), subject);
+            if (speed.count() > 0) {
+                points.add(new double[] {i + 1, speed.mean() / usual.mean(), speed.hasSpread() ? speed.standardDeviation() / usual.mean() : 0});
             }
         }
-        if (!points.isEmpty()) {
-            String name = String.format(Locale.ROOT, "creature %s, %s", gait.charAt(0), TableFormat.name(scheme));
-            double[] x = points.stream().mapToDouble(point -> point[0]).toArray();
-            double[] y = points.stream().mapToDouble(point -> point[1]).toArray();
-            double[] deviation = points.stream().mapToDouble(point -> point[2]).toArray();
-            Charts.addWithSpread(chart, name, x, y, deviation, colour);
-        }
+        Charts.addWithSpread(chart, ParameterClaims.name(subject), points.stream().mapToDouble(point -> point[0]).toArray(),
+                points.stream().mapToDouble(point -> point[1]).toArray(), points.stream().mapToDouble(point -> point[2]).toArray(), number);
     }
 
-    private void addCost(XYChart chart, Parameter parameter, Scheme scheme) {
-        List<double[]> points = new ArrayList<>();
-        for (double value : parameter.settings()) {
-            double cost = results.timings().of(ExperimentTables.of(results, parameter, value,
-                    ExperimentCatalogue.STUDIED_GAITS.get(0), scheme, false));
-            if (Double.isFinite(cost) && value < 1e20) {
-                points.add(new double[] {logarithmic(parameter) ? Math.log(value) / Math.log(2) : value, cost});
-            }
-        }
-        if (!points.isEmpty()) {
-            Charts.addOnTheRight(chart, "cost, " + TableFormat.name(scheme),
-                    points.stream().mapToDouble(point -> point[0]).toArray(),
-                    points.stream().mapToDouble(point -> point[1]).toArray(), "cost (core seconds per simulated second)",
-                    scheme == Scheme.FLEX ? Color.GRAY : Color.LIGHT_GRAY, 1 + scheme.ordinal());
-        }
+    private Sample forward(Parameter parameter, double value, Subject subject) {
+        return results.measurements().forward(results.catalogue().study(subject, parameter, value, false), results.duration());
     }
 }

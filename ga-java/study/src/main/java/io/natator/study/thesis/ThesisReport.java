@@ -26,9 +26,6 @@ final class ThesisReport {
     /** What a person wants said first. */
     private static final String NOTE = "note.md";
 
-    private static final String ABOUT = "P. Fajdiga's master's thesis (University of Ljubljana, 2019) evolved swimming creatures in NVIDIA "
-            + "Flex; this is the same work with Natator.";
-
     private final Path directory;
     private final StudyResults results;
     private final int asked;
@@ -39,14 +36,13 @@ final class ThesisReport {
     /**
      * A report.
      *
-     * @param directory where it goes
      * @param asked     how many evolutions were asked for
      * @param command   what the study was made by
-     * @param portrait  draws the swimmer of {@link Answers#portrayed}; null for none
+     * @param portrait  draws the swimmer of {@link StudyResults#portrayed}; null for none
      */
-    ThesisReport(Path directory, StudyResults results, int asked, Map<String, Recording> recordings, String command,
+    ThesisReport(StudyResults results, int asked, Map<String, Recording> recordings, String command,
             FirstScreen.Portrait portrait) {
-        this.directory = directory;
+        this.directory = results.directory();
         this.results = results;
         this.asked = asked;
         this.recordings = recordings;
@@ -57,16 +53,15 @@ final class ThesisReport {
     Path write() throws InterruptedException {
         ReportDocument page = new ReportDocument(directory, "The thesis, redone");
         addByHand(page, NOTE);
-        ClaimsSection claims = new ClaimsSection(results);
+        ClaimsSection claims = new ClaimsSection(results, recordings);
         addFirstScreen(page, new Answers(results, claims));
+        new MethodsSection(results).add(page);
+        new WinnersSection(results).add(page);
         claims.add(page);
+        new FlexSection(results).add(page);
+        page.heading(2, "Which fish").folded("e, and how the bodies lie", new RealismTables(results)::add);
+        page.heading(2, "Parameters, activation, two clusters").folded("all tables", new ExperimentTables(results)::add);
         page.heading(2, "Pictures").folded("all pictures", this::addPictures);
-        page.heading(2, "Tables").folded("all tables", inside -> {
-            new SpeedTables(results).add(inside);
-            new RealismTables(results).add(inside);
-            new ExperimentTables(results).add(inside);
-        });
-        new DifferencesSection(results).add(page);
         addCommentary(page);
         page.heading(2, "How it was made").list(scale());
         page.text("Generated; do not edit.");
@@ -86,12 +81,11 @@ final class ThesisReport {
                 portrait.draw(swimmer);
             }
             Path chart = answers.draw(directory.resolve("figures").resolve("answers"));
-            FirstScreen.add(page, answers.sentences(), swimmer, answers.portrayed().map(run -> "creature " + run.creature()
-                    + ", evolved in scheme " + TableFormat.name(run.scheme())).orElse("the swimmer"), answers.evidence());
+            FirstScreen.add(page, answers.sentences(), swimmer, results.portrayed().map(subject -> "creature " + subject.creature()
+                    + ", evolved in " + subject.water().words()).orElse("the swimmer"), answers.evidence());
             if (chart != null) {
-                page.picture(chart, "speeds in water with standard deviations");
+                page.picture(chart, "speeds in water with error bars");
             }
-            page.text(ABOUT);
         } catch (IOException e) {
             throw new UncheckedIOException("cannot draw: " + e.getMessage(), e);
         } catch (LinkageError e) {
@@ -101,16 +95,15 @@ final class ThesisReport {
 
     private List<String> scale() {
         List<String> items = new ArrayList<>();
-        List<EvolutionSettings> settings = results.evolved().stream()
+        List<EvolutionSettings> settings = results.runs().stream()
                 .map(run -> StoredRun.settings(run.plan().directory())).toList();
-        items.add(results.evolved().size() + " of " + asked + " evolutions are finished" + (settings.isEmpty() ? "."
-                : ": " + each(settings.stream().map(EvolutionSettings::population)) + " chromosomes, "
-                + each(settings.stream().map(EvolutionSettings::generations)) + " generations, operators "
-                + each(settings.stream().map(one -> Json.name(one.operators()))) + ", on "
+        items.add(results.runs().size() + " of " + asked + " evolutions are finished" + (settings.isEmpty() ? "."
+                : ", operators " + each(settings.stream().map(one -> Json.name(one.operators()))) + ", on "
                 + each(settings.stream().map(one -> one.backend().argument())) + "."));
-        items.add(results.measurements().size() + " evaluations measured, by the native program of SHA-256 "
-                + each(results.measurements().programs().stream()) + ".");
-        items.add(results.motions().size() + " runs recorded with all their particles.");
+        items.add(results.measurements().rows().size() + " evaluations in `measurements.jsonl`, by the native program of SHA-256 "
+                + each(results.measurements().programs().stream()) + "; " + results.processor().rows().size() + " in `processor.jsonl`, "
+                + each(results.processor().programs().stream()) + "; " + results.convergence().size() + " gaits at half the spacing in "
+                + "`convergence.jsonl`; " + results.motions().size() + " recorded motions in `motions.jsonl`.");
         return items;
     }
 
@@ -156,9 +149,9 @@ final class ThesisReport {
 
     private void addCommands(ReportDocument page) {
         page.code(command);
-        page.text("which continues where it was stopped; `--phase evolve`, `measure` and `report` do a part of it. Every "
-                + "speed is the mean of rows of `measurements.jsonl` that hold the whole request and result; every e that "
-                + "of rows of `motions.jsonl`; costs are in `costs.jsonl`. Evolved gaits are in `best.json` of the run "
+        page.text("which continues where it was stopped; `--phase evolve`, `measure` and `report` do a part of it, `--dry-run` says how long the rest "
+                + "takes, and `--phase repeat` runs some of `processor.jsonl` again and compares the bits. Every "
+                + "number above is computed from rows that hold the whole request and result. Evolved gaits are in `finalists.json` of the run "
                 + "folders, with settings and every generation's figures. Pictures are drawn from `recordings/`. Sources "
                 + "of the published and of Flex' numbers:");
         page.list(results.data().about());

@@ -1,10 +1,10 @@
 package io.natator.study.thesis;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.config.Limits;
-import io.natator.config.Scheme;
+import io.natator.config.SimulatorMode;
 import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
 import io.natator.report.RecordingFactory;
@@ -14,9 +14,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.LinkedHashMap;
 import java.util.List;
-import java.util.Locale;
 import java.util.Map;
-import java.util.Objects;
 import java.util.Optional;
 
 /**
@@ -25,71 +23,94 @@ import java.util.Optional;
  */
 public final class ThesisStudy implements AutoCloseable {
 
+    /** Runs of a gait whose motion is recorded. */
+    private static final int RECORDED = 3;
+
     private final Path directory;
     private final Double duration;
-    private final List<EvolvedRun> evolved;
-    private final ExperimentCatalogue catalogue;
-    private final ThesisData data = ThesisData.load();
-    private final MeasurementLog measurements;
-    private final KinematicsLog motions;
-    private final TimingLog timings;
+    private final StudyResults results;
 
     /**
      * Opens the study.
      *
      * @param plan     its evolutions; those that are finished are measured
-     * @param runs     of every experiment, at least 1
+     * @param starts   of every gait in its water, at least 2
      * @param duration simulated seconds, or null for the scenes' own
      */
-    public ThesisStudy(Path directory, EvolutionPlan plan, int runs, Double duration) {
-        Limits.checkCount("--runs", runs, Limits.REPETITIONS);
+    public ThesisStudy(Path directory, EvolutionPlan plan, int starts, Double duration) {
+        Limits.checkCount("--runs", starts, Limits.REPETITIONS);
         this.directory = directory;
         this.duration = duration;
-        this.evolved = plan.finished();
-        this.catalogue = new ExperimentCatalogue(data, evolved, duration, directory);
-        this.measurements = new MeasurementLog(directory, runs);
-        this.motions = new KinematicsLog(directory, runs);
-        this.timings = new TimingLog(directory);
+        ThesisData data = ThesisData.load();
+        ExperimentCatalogue catalogue = new ExperimentCatalogue(data, duration, starts);
+        MeasurementLog measurements = new MeasurementLog(directory.resolve("measurements.jsonl"));
+        this.results = new StudyResults(data, directory, catalogue, measurements, new MeasurementLog(directory.resolve("processor.jsonl")),
+                new ConvergenceLog(directory), new KinematicsLog(directory, Math.min(RECORDED, starts)),
+                new Winners(directory, catalogue, measurements, plan.finished()),
+                duration == null ? StudyResults.THESIS_SECONDS : duration);
     }
 
-    /** How many evaluations are still to be measured. */
+    /** How many evaluations are still to be measured, as far as is known: winners are known once their finalists are measured. */
     public int missingMeasurements() {
-        return measurements.missing(catalogue.all()).size();
+        return results.measurements().missing(results.experiments()).size();
     }
 
-    /** How many runs are still to be recorded or timed on the processor. */
+    /** How many gaits are still to be run at half the spacing. */
+    public int missingLevels() {
+        return results.convergence().missing(results.evolvedInWater()).size();
+    }
+
+    /** How many runs are still to be recorded, or measured on the processor. */
     public int missingRecordings() {
         long pictures = pictured().entrySet().stream().filter(picture -> recorded(picture).isEmpty()).count();
-        return motions.missing(catalogue.recorded()).size() + (int) pictures
-                + timings.missing(catalogue.timed()).size();
+        return results.motions().missing(results.recorded()).size() + (int) pictures
+                + results.processor().missing(results.onProcessor()).size();
     }
 
     /**
-     * Measures speeds.
+     * Measures speeds: first what is known, then what that has found.
      *
      * @param done called after each evaluation
      * @throws InterruptedException if the evaluator is closed; what is finished is kept
      */
     public void measure(Evaluator evaluator, ExecutionSettings execution, Runnable done) throws InterruptedException {
-        measurements.measure(catalogue.all(), evaluator, execution, done);
+        for (int before = -1, left = missingMeasurements(); left > 0 && left != before; left = missingMeasurements()) {
+            before = left;
+            results.measurements().measure(results.experiments(), evaluator, execution, done);
+        }
     }
 
     /**
-     * Records how the bodies move, makes the recordings for pictures, and times the parameter study, on the processor.
+     * Runs what evolved at half the spacing of all particles.
+     *
+     * @param done called after each gait
+     * @throws InterruptedException if the calling thread is interrupted; what is finished is kept
+     */
+    public void converge(ExecutionSettings execution, Runnable done) throws InterruptedException {
+        results.convergence().measure(results.evolvedInWater(), execution, done);
+    }
+
+    /**
+     * On the processor: measures the gaits in their water again, records how the bodies move, and makes the recordings for
+     * pictures.
      *
      * @param done called after each run
      * @throws InterruptedException if the calling thread is interrupted; what is finished is kept
      */
     public void record(ExecutionSettings execution, Runnable done) throws InterruptedException {
-        motions.record(catalogue.recorded(), execution, done);
+        ExecutionSettings processor = execution.withCommands(List.of()).withBackend(Backend.CPU).withMode(SimulatorMode.RESIDENT);
+        if (!results.processor().missing(results.onProcessor()).isEmpty()) {
+            try (Evaluator evaluator = Evaluator.open(processor)) {
+                results.processor().measure(results.onProcessor(), evaluator, processor, done);
+            }
+        }
+        results.motions().record(results.recorded(), processor, done);
         for (Map.Entry<String, SimulationRequest> picture : pictured().entrySet()) {
             if (recorded(picture).isEmpty()) {
-                double seconds = duration == null ? ExperimentCatalogue.THESIS_SECONDS : duration;
-                RecordingFactory.of(picture.getValue(), seconds / 2, execution).write(recording(picture.getKey()));
+                RecordingFactory.of(picture.getValue(), results.duration() / 2, processor).write(recording(picture.getKey()));
                 done.run();
             }
         }
-        timings.time(catalogue.timed(), execution, done);
     }
 
     private Path recording(String name) {
@@ -99,29 +120,8 @@ public final class ThesisStudy implements AutoCloseable {
     /** What is drawn, by the name of its files: the published gaits in flex, and the best that evolved. */
     private Map<String, SimulationRequest> pictured() {
         Map<String, SimulationRequest> pictured = new LinkedHashMap<>();
-        for (ThesisData.PublishedGait gait : data.gaits()) {
-            pictured.put("thesis-" + gait.name(), catalogue.speeds(gait, Scheme.FLEX).get(0).request());
-        }
-        for (EvolvedRun run : bestEvolved()) {
-            SimulationRequest request = catalogue.speeds(run).get(0).request();
-            ObjectNode on = ((ObjectNode) request.overrides()).deepCopy();
-            ((ObjectNode) on.get("stopping")).put("planeContact", false);
-            pictured.put("creature-" + run.creature() + "-" + run.scheme().name().toLowerCase(Locale.ROOT),
-                    new SimulationRequest(0, request.scene(), request.gait(), request.duration(), request.scheme(), on));
-        }
+        results.drawn().forEach((name, subject) -> pictured.put(name, Condition.WATER.of(subject, duration).withoutStops()));
         return pictured;
-    }
-
-    /** Of each creature in each scheme the best evolution that is measured. */
-    private List<EvolvedRun> bestEvolved() {
-        StudyResults results = results();
-        return evolved.stream().map(EvolvedRun::creature).distinct().sorted()
-                .flatMap(creature -> ExperimentCatalogue.SCHEMES.stream().map(scheme -> results.best(creature, scheme)))
-                .filter(Objects::nonNull).toList();
-    }
-
-    private StudyResults results() {
-        return new StudyResults(data, catalogue, measurements, motions, timings, evolved);
     }
 
     /** The recording of just this, if there is one: with more seeds another run may be the best. */
@@ -141,6 +141,19 @@ public final class ThesisStudy implements AutoCloseable {
     }
 
     /**
+     * Runs again, on the processor, some of the runs that were measured there, drawn by chance.
+     *
+     * @param count     how many
+     * @param seed      of the choice
+     * @param execution with a time limit
+     * @return of each what was found to differ, or null
+     * @throws InterruptedException if the calling thread is interrupted
+     */
+    public List<Repeated> repeat(int count, long seed, ExecutionSettings execution) throws InterruptedException {
+        return Repeated.of(results.processor().rows(), count, seed, execution);
+    }
+
+    /**
      * Writes the report on what is there.
      *
      * @param plan     the evolutions that were asked for
@@ -150,19 +163,19 @@ public final class ThesisStudy implements AutoCloseable {
      * @throws InterruptedException if the calling thread is interrupted
      */
     public Path report(EvolutionPlan plan, String command, FirstScreen.Portrait portrait) throws InterruptedException {
-        return new ThesisReport(directory, results(), plan.runs().size(), recordings(), command, portrait).write();
+        return new ThesisReport(results, plan.runs().size(), recordings(), command, portrait).write();
     }
 
-    /** The run folder whose winner the report shows; empty if nothing evolved was measured. */
-    public Optional<Path> portrayed() {
-        StudyResults results = results();
-        return new Answers(results, new ClaimsSection(results)).portrayed().map(run -> run.plan().directory());
+    /** What the report shows: the fastest that evolved in open water, in flex where nothing did; empty if nothing was measured. */
+    public Optional<SimulationRequest> portrayed() {
+        return results.portrayed().map(subject -> Condition.WATER.of(subject, duration));
     }
 
     @Override
     public void close() {
-        measurements.close();
-        motions.close();
-        timings.close();
+        results.measurements().close();
+        results.processor().close();
+        results.convergence().close();
+        results.motions().close();
     }
 }

@@ -1,0 +1,81 @@
+package io.natator.study.thesis;
+
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.Json;
+import io.natator.report.ReportDocument;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Optional;
+import java.util.stream.Collectors;
+
+/** What was asked, what was simulated, and how it was judged: what a reviewer reads before any number. */
+final class MethodsSection {
+
+    private final StudyResults results;
+
+    MethodsSection(StudyResults results) {
+        this.results = results;
+    }
+
+    void add(ReportDocument page) {
+        page.heading(2, "The question");
+        page.text("P. Fajdiga's master's thesis (*Plavajoča bitja v simulaciji Nvidia Flex*, University of Ljubljana, 2019) evolved gaits of four "
+                + "soft bodies in a tank simulated by NVIDIA Flex. It found that they swim, one of them like an eel. Do its "
+                + "gaits swim, do its bodies evolve to swim, and is it swimming or the solver?");
+        page.heading(2, "What was simulated");
+        page.list(List.of(
+                "`flex`: the thesis' tank and settings, in scheme `flex`, which agrees with NVIDIA Flex 1.2.0 ([beside Flex](../../tests/conformance/README.md)). "
+                        + "Masses of fluid particles fall from 2 at the bottom to 1/14 at the top and damping drags against the tank, so it is no "
+                        + "water, and it has neither a kinematic viscosity nor a Reynolds number.",
+                "Open water: incompressible water of one density in scheme `conserving` ([how far it is water](../water/README.md)), 6 × 1.6 × 1.6 units at "
+                        + "a spacing of 0.1; bodies of the thesis' shapes, as heavy as the water that they displace and three times as stiff. Lengths are "
+                        + "scene units, times seconds, the kinematic viscosity 0.002 units²/s: a body of 1.2 to 1.43 units at 0.1 to 0.5 units/s has a "
+                        + "Reynolds number of 60 to 350, a fish larva's.",
+                sinking()));
+        page.heading(2, "How it evolved");
+        page.text(evolutions());
+        page.heading(2, "How it was judged");
+        page.list(List.of(
+                "*Winner.* Selection by few runs collects luck. So the " + Finalists.COUNT + " best gaits of each evolution are run again from four starts that it did not "
+                        + "have, in the scene as it is for the whole 4 s, and the one that goes furthest by its mean less a standard error is the winner. What is "
+                        + "said of it comes from yet other starts.",
+                "*Start.* In open water another arrangement of the water's particles; in `flex` a shift of all particles by at most 10⁻⁴ units.",
+                "*Speed.* Way along x in the whole time by that time: a run that hits a wall early is not made faster by dividing by less.",
+                "*Error.* The largest of three: half the 95 % interval of the mean (Student's t), the change at half the time step, the change at half "
+                        + "the spacing of all particles with the body's motion kept. In `flex` the time step and the spacing are part of what the thesis "
+                        + "defines; how much they change says how much of a speed is the discretisation's.",
+                "*Swims.* Further than the same body with resting muscles by 0.05 body lengths and two standard errors; less than half as far in vacuum; at least "
+                        + "half of its way left without the acceleration clamp (`flex`), mirrored and on the processor; within half of its way at half the time "
+                        + "step; at least half of the body under water. One that only misses a control of the last four *may* swim.",
+                "*Like which fish.* The least e of the thesis (2.14 to 2.16) with the body's roll taken out, of those below 0.8 of what no motion has, "
+                        + "and over the part of the body that is measured at all times."));
+    }
+
+    private String sinking() {
+        List<Experiment> all = List.of(1, 2, 3, 4).stream().map(results.catalogue()::sinking).toList();
+        List<Double> times = all.stream().flatMap(one -> results.measurements().results(one).stream())
+                .filter(one -> "touched-plane".equals(one.stopped())).map(one -> one.simulated()).sorted().toList();
+        long runs = all.stream().mapToLong(one -> results.measurements().results(one).size()).sum();
+        return "Not the thesis' tank in scheme `conserving`: its bodies weigh 1.7 times the water that they displace" + (runs == 0 ? "."
+                : "; " + times.size() + " of " + runs + " runs of its gaits there lie on the floor" + (times.isEmpty() ? "." : " after "
+                + TableFormat.shortNumber(times.get(0)) + " to " + TableFormat.shortNumber(times.get(times.size() - 1)) + " s."));
+    }
+
+    private String evolutions() {
+        if (results.runs().isEmpty()) {
+            return "No evolution is finished.";
+        }
+        return "By the thesis' genetic algorithm: the best fifth and the roulette's choice, crossover, mutation, Gaussian mutation. "
+                + Arrays.stream(Water.values()).map(this::evolutions).flatMap(Optional::stream).collect(Collectors.joining(" "));
+    }
+
+    private Optional<String> evolutions(Water water) {
+        List<EvolutionSettings> settings = results.runs().stream().filter(run -> run.water() == water)
+                .map(run -> StoredRun.settings(run.plan().directory())).toList();
+        return settings.stream().findFirst().map(one -> "In " + water.words() + " " + settings.size() + " evolutions of " + one.population()
+                + " chromosomes over " + one.generations() + " generations, " + one.starts() + " starts for each new gait and the best judged again in every "
+                + "generation" + (one.duration() == null ? ", 4 s a run" : ", " + one.duration() + " s a run")
+                + (one.overrides() == null ? "." : ", at coarser steps (`" + Json.line(one.overrides()) + "`) than they are judged by."));
+    }
+}

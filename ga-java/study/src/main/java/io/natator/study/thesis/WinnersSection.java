@@ -1,0 +1,95 @@
+package io.natator.study.thesis;
+
+import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.SwimSample;
+import io.natator.encoding.Gait;
+import io.natator.report.ReportDocument;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.Stream;
+
+/** Every gait with its error bar, its verdict and what these rest on. */
+final class WinnersSection {
+
+    /** From here on a gene counts as being on its bound, as a share of its range. */
+    private static final double AT_BOUND = 0.02;
+
+    private final StudyResults results;
+
+    WinnersSection(StudyResults results) {
+        this.results = results;
+    }
+
+    void add(ReportDocument page) {
+        page.heading(2, "What swims");
+        page.text("Speeds in body lengths per second. Re and St: means of the runs in open water; in `flex` there are none.");
+        for (Water water : Water.values()) {
+            page.heading(3, water == Water.FLEX ? "The thesis' tank, flex" : "Open water, conserving");
+            List<Subject> subjects = Stream.concat(results.catalogue().published(water).stream(), results.evolved(water).stream())
+                    .filter(subject -> results.speed(subject).isPresent()).toList();
+            page.table(List.of("creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "Re", "St", "lasts"),
+                    subjects.stream().map(this::speeds).toList());
+            page.folded("verdicts", inside -> inside.words(List.of("creature", "gait", "verdict"), subjects.stream().map(subject -> List.of(
+                    "" + subject.creature(), subject.label(), results.verdict(subject).map(verdict -> Answers.sign(verdict) + " " + verdict.text())
+                            .orElse(TableFormat.NOTHING))).toList()));
+            page.folded("controls", inside -> inside.table(List.of("creature", "gait", "resting", "vacuum", "no clamp", "mirrored", "other water", "on the processor",
+                    "under water"), subjects.stream().map(this::controls).toList()));
+        }
+        page.folded("the gaits, and which search bounds they are on", inside -> inside.table(List.of("creature", "water", "gait", "f (1/s)", "a", "φ", "on a bound"),
+                results.subjects().filter(subject -> subject.isEvolved() || subject.water() == Water.FLEX).map(WinnersSection::gait).toList()));
+    }
+
+    private List<String> speeds(Subject subject) {
+        Speed speed = results.speed(subject).orElseThrow();
+        double length = results.bodyLength(subject.creature());
+        SwimSample water = results.controls(subject).map(Controls::water).orElse(null);
+        return List.of("" + subject.creature(), subject.label(), speed.text(length), "± " + TableFormat.shortNumber(speed.scatter() / length),
+                signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
+                TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()), figure(water == null ? null : water.reynolds()),
+                water == null || water.strouhal() == null ? TableFormat.NOTHING : TableFormat.shortNumber(water.strouhal()),
+                water == null ? TableFormat.NOTHING : String.format(Locale.ROOT, "%.0f %%", 100 * water.completed()));
+    }
+
+    private static String signed(double change) {
+        return Double.isNaN(change) ? TableFormat.NOTHING : String.format(Locale.ROOT, "%+.2f", change);
+    }
+
+    private static String figure(Double value) {
+        return value == null ? TableFormat.NOTHING : String.format(Locale.ROOT, "%.0f", value);
+    }
+
+    private List<String> controls(Subject subject) {
+        double length = results.bodyLength(subject.creature());
+        List<String> row = new ArrayList<>(List.of("" + subject.creature(), subject.label()));
+        for (Condition condition : List.of(Condition.RESTING, Condition.VACUUM, Condition.NO_CLAMP, Condition.MIRRORED, Condition.OTHER_WATER)) {
+            row.add(Condition.in(subject.water()).contains(condition) ? TableFormat.shortNumber(results.speed(subject, condition).mean() / length)
+                    : TableFormat.NOTHING);
+        }
+        Controls controls = results.controls(subject).orElse(null);
+        row.add(controls == null || controls.otherBackend() == null ? TableFormat.NOTHING
+                : TableFormat.shortNumber(controls.otherBackend().speed().mean() / length));
+        row.add(controls == null || controls.underWater() == null ? TableFormat.NOTHING
+                : String.format(Locale.ROOT, "%.0f %%", 100 * controls.underWater()));
+        return row;
+    }
+
+    private static List<String> gait(Subject subject) {
+        Gait gait = subject.gait();
+        return List.of("" + subject.creature(), subject.water().words(), subject.label(), TableFormat.number(gait.frequency()), TableFormat.list(gait.amplitude()),
+                TableFormat.list(gait.phase()), bounds(gait));
+    }
+
+    /** Which of frequency (0.5 to 2) and amplitudes (0 to 1) are on a bound of what was searched. */
+    private static String bounds(Gait gait) {
+        List<String> on = new ArrayList<>();
+        if (Math.min(gait.frequency() - 0.5, 2 - gait.frequency()) < AT_BOUND * 1.5) {
+            on.add("f");
+        }
+        long amplitudes = gait.amplitude().stream().filter(one -> Math.min(one, 1 - one) < AT_BOUND).count();
+        if (amplitudes > 0) {
+            on.add(amplitudes + " of " + gait.amplitude().size() + " a");
+        }
+        return on.isEmpty() ? TableFormat.NOTHING : String.join(", ", on);
+    }
+}
