@@ -23,10 +23,11 @@ import picocli.CommandLine.Spec;
 
 /** {@code natator reproduce}: the thesis done again, from evolution to the report. */
 @Command(name = "reproduce", mixinStandardHelpOptions = true,
-        description = {"Evolves the thesis' creatures in both schemes, measures what came out and writes the report.",
+        description = {"Evolves the thesis' creatures in its tank and in open water, measures what came out and writes the report.",
             "The same command continues where it was stopped."},
         footer = {"", "Examples:", "  natator reproduce --dry-run",
-            "  natator reproduce --phase evolve --backend cuda --compact --stop-after 500"})
+            "  natator reproduce --phase evolve --backend cuda --compact --stop-after 500",
+            "  natator reproduce --phase repeat --water flex --sample 4"})
 final class ReproduceCommand implements Callable<Integer> {
 
     /** What is to be done. */
@@ -169,7 +170,7 @@ final class ReproduceCommand implements Callable<Integer> {
     private int repeat(EvolutionPlan plan, ExecutionSettings execution, PrintWriter out) throws InterruptedException {
         Limits.checkCount("--sample", sample, Limits.REPETITIONS);
         try (ThesisStudy study = new ThesisStudy(directory, plan, runs, duration)) {
-            List<Repeated> repeated = study.repeat(sample, sampleSeed, execution);
+            List<Repeated> repeated = study.repeat(waters, sample, sampleSeed, execution);
             repeated.stream().filter(one -> !one.isSame()).forEach(one -> out.println("differs: " + Json.line(one.request()) + " ended as "
                     + one.stored() + ", now as " + one.now()));
             long same = repeated.stream().filter(Repeated::isSame).count();

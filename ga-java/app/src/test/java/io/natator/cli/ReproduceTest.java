@@ -1,13 +1,16 @@
 package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assumptions.assumeThat;
 
 import io.natator.checkpoint.StoredRun;
+import io.natator.simulator.ProgramInfo;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.time.LocalDate;
 import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.Test;
@@ -39,12 +42,13 @@ class ReproduceTest {
 
         assertThat(reproduce(options.toArray(String[]::new))).as(err.toString()).isZero();
 
-        for (String run : List.of("runs/creature-1/flex/seed-1", "runs/creature-1/conserving/seed-1")) {
+        for (String run : List.of("runs/creature-1/flex/seed-1", "runs/creature-1/open-water/seed-1")) {
             StoredRun stored = StoredRun.in(folder.resolve(run));
             assertThat(StoredRun.isFinished(folder.resolve(run))).isTrue();
             assertThat(stored.state().history()).hasSize(2);
             assertThat(stored.best().result().scheme()).isEqualTo(run.contains("flex") ? "flex" : "conserving");
             assertThat(folder.resolve(run).resolve("evaluations.jsonl")).doesNotExist();
+            assertThat(Files.readString(folder.resolve(run).resolve("finalists.json"))).contains("\"gaits\"", "\"score\"", "\"amplitude\"");
         }
         String environment = Files.readString(folder.resolve("runs/creature-1/flex/seed-1/environment.json"));
         assertThat(reproduce(options.toArray(String[]::new))).isZero();
@@ -53,7 +57,7 @@ class ReproduceTest {
 
     @Test
     void reportsOnARunOfOnesOwn() throws IOException {
-        assertThat(reproduce("--creature", "2", "--scheme", "flex", "--generations", "0", "--phase", "evolve"))
+        assertThat(reproduce("--creature", "2", "--water", "flex", "--generations", "0", "--phase", "evolve"))
                 .as(err.toString()).isZero();
         Path run = folder.resolve("runs/creature-2/flex/seed-1");
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
@@ -77,12 +81,37 @@ class ReproduceTest {
 
     @Test
     void saysHowLongItWillTakeAndDoesNothing() {
-        assertThat(reproduce("--creature", "1", "--scheme", "flex", "--generations", "100", "--dry-run")).isZero();
+        assertThat(reproduce("--creature", "1", "--water", "flex", "--generations", "100", "--dry-run")).isZero();
 
         assertThat(out.toString()).contains("1 evolutions").contains("about 684 evaluations left")
                 .contains("creature 1, flex").containsPattern("about .*, with ");
-        assertThat(out.toString()).containsPattern("\\d{4} evaluations to measure and \\d{3} runs to record or time");
+        assertThat(out.toString()).containsPattern("\\d{3,4} evaluations to measure, 0 gaits to run at half the spacing and \\d{2} runs to record");
         assertThat(folder).isEmptyDirectory();
+    }
+
+    /** What is committed is what the present program makes, by a sample that is another one every day. */
+    @Test
+    void committedRunsEndWithTheSameBits() throws IOException, InterruptedException {
+        assumeThat(ProgramInfo.of(SIMULATOR).instructionSet()).as("the others round otherwise").startsWith("avx");
+        Path committed = Path.of("../../results/thesis/processor.jsonl");
+        Files.copy(committed, folder.resolve("processor.jsonl"));
+        List<String> sample = List.of("--water", "flex", "--phase", "repeat", "--sample", "3", "--sample-seed",
+                "" + LocalDate.now().getDayOfYear(), "--runs", "8");
+
+        assertThat(repeat(sample)).as(out.toString()).isZero();
+        assertThat(out.toString()).contains("3 of 3 runs end with the same bits");
+
+        String rows = Files.readString(committed);
+        Files.writeString(folder.resolve("processor.jsonl"), rows.replaceAll("\"hash\":\"[0-9a-f]{4}", "\"hash\":\"0000"));
+        assertThat(repeat(sample)).isEqualTo(1);
+        assertThat(out.toString()).contains("differs: {", "0 of 3 runs end with the same bits");
+    }
+
+    private int repeat(List<String> options) {
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
+        List<String> all = new ArrayList<>(List.of("reproduce", "--simulator-path", SIMULATOR.toString(), "--output-dir", folder.toString()));
+        all.addAll(options);
+        return command.execute(all.toArray(String[]::new));
     }
 
     @Test

@@ -34,7 +34,7 @@ final class ActivationClaims {
 
     private Sample speed(int creature, double power, int step, Water water, boolean vacuum) {
         return results.measurements().forward(results.catalogue().potentiated(creature, power, ExperimentCatalogue.PHASE_STEPS.get(step), water,
-                vacuum), results.duration());
+                vacuum));
     }
 
     private void faster(List<Claim> claims, Water water) {
@@ -107,6 +107,6 @@ final class ActivationClaims {
     }
 
     private Sample speed(Gait gait, Water water, String setting) {
-        return results.measurements().forward(results.catalogue().twoClusters(gait, water, setting), results.duration());
+        return results.measurements().forward(results.catalogue().twoClusters(gait, water, setting));
     }
 }

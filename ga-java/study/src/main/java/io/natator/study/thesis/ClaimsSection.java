@@ -46,7 +46,7 @@ final class ClaimsSection {
         page.text("✔ for everything that was tested, ✘ for nothing of it; open: for some, or chance alone is as large. Parameters are judged "
                 + "by all their values and by each gait that swims: creature 2's with twice the published phase step, and the best that "
                 + "evolved of creatures 1 and 2. A speed differs if it differs by two standard errors and by a tenth. Speeds are "
-                + "along the body's own heading.");
+                + "along the body's own heading, while a run lasts.");
         Set<String> says = new LinkedHashSet<>();
         claims.forEach(claim -> says.add(claim.says()));
         page.words(List.of("the thesis says", "in flex", "in open water"), says.stream().map(one -> List.of(one, outcome(one, Water.FLEX),

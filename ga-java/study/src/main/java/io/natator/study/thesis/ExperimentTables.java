@@ -18,7 +18,7 @@ final class ExperimentTables {
 
     void add(ReportDocument page) {
         page.heading(3, "4.1: what each parameter does");
-        page.text("Speed along the own heading, units/s, mean ± standard deviation over four starts. The scene's own value is bold. Of runs that "
+        page.text("Speed along the own heading while a run lasts, units/s, mean ± standard deviation over four starts. The scene's own value is bold. Of runs that "
                 + "became unstable the number is given.");
         for (Parameter parameter : Parameter.values()) {
             for (Water water : Water.values()) {
@@ -60,7 +60,7 @@ final class ExperimentTables {
 
     private String cell(Experiment experiment) {
         long unstable = results.measurements().unstable(experiment);
-        Sample speed = results.measurements().forward(experiment, results.duration());
+        Sample speed = results.measurements().forward(experiment);
         return unstable == 0 ? TableFormat.speed(speed)
                 : (speed.count() == 0 ? "" : TableFormat.speed(speed) + ", ") + unstable + " unstable";
     }

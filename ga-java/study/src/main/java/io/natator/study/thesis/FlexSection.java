@@ -29,7 +29,7 @@ final class FlexSection {
         page.text(String.format(Locale.ROOT, "The published gaits in the thesis' scene, units/s over 0 to 4 s, mean ± standard deviation; Flex 1.2.0 ran five times where it has a "
                 + "deviation, else once. ± of a single run is not known, so its difference is given in units/s. Differences are in standard errors of "
                 + "both means; they agree by up to %.0f of them, or by less than %s units/s, which is more than some of these speeds. The thesis used Flex 1.1.0. All "
-                + "45 scenes that were recorded with Flex, and the unperturbed runs beside ensembles: [conformance](../../tests/conformance/README.md).", ERRORS, ROUNDING));
+                + "45 scenes that were recorded with Flex, and the unperturbed runs beside ensembles: [beside Flex](../flex-comparison/README.md).", ERRORS, ROUNDING));
         page.table(List.of("gait", "setting", "thesis", "Flex 1.2.0", "flex", "difference", "agrees by"), rows());
         page.folded("what decides the published gaits' speed in `flex`", inside -> inside.table(List.of("gait", "as stated", "no friction",
                 "no acceleration clamp", "no damping", "no viscosity", "inverse mass linear"), decisive()));

@@ -76,9 +76,10 @@ final class MeasurementLog implements AutoCloseable {
         return sample(experiment, result -> result.distance() / duration);
     }
 
-    /** The same along the body's own heading. */
-    Sample forward(Experiment experiment, double duration) {
-        return sample(experiment, result -> (result.course() == null ? result.distance() : result.course().forward()) / duration);
+    /** Speeds along the body's own heading while the runs lasted, scene units per second. */
+    Sample forward(Experiment experiment) {
+        return sample(experiment, result -> result.simulated() > 0
+                ? (result.course() == null ? result.distance() : result.course().forward()) / result.simulated() : 0);
     }
 
     private Sample sample(Experiment experiment, ToDoubleFunction<SimulationResult> value) {

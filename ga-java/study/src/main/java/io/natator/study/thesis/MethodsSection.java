@@ -25,7 +25,7 @@ final class MethodsSection {
                 + "gaits swim, do its bodies evolve to swim, and is it swimming or the solver?");
         page.heading(2, "What was simulated");
         page.list(List.of(
-                "`flex`: the thesis' tank and settings, in scheme `flex`, which agrees with NVIDIA Flex 1.2.0 ([beside Flex](../../tests/conformance/README.md)). "
+                "`flex`: the thesis' tank and settings, in scheme `flex`, which agrees with NVIDIA Flex 1.2.0 ([574 experiments](../../tests/conformance/README.md), [whole swims](../flex-comparison/README.md)). "
                         + "Masses of fluid particles fall from 2 at the bottom to 1/14 at the top and damping drags against the tank, so it is no "
                         + "water, and it has neither a kinematic viscosity nor a Reynolds number.",
                 "Open water: incompressible water of one density in scheme `conserving` ([how far it is water](../water/README.md)), 6 × 1.6 × 1.6 units at "

@@ -76,7 +76,7 @@ final class ParameterClaims {
     }
 
     private Sample forward(Subject subject, Parameter parameter, double value, boolean vacuum) {
-        return results.measurements().forward(results.catalogue().study(subject, parameter, value, vacuum), results.duration());
+        return results.measurements().forward(results.catalogue().study(subject, parameter, value, vacuum));
     }
 
     /** Whether runs blow up at the lowest value. */

@@ -2,6 +2,7 @@ package io.natator.study.thesis;
 
 import io.natator.config.Scheme;
 import io.natator.study.Sample;
+import java.math.BigDecimal;
 import java.util.List;
 import java.util.Locale;
 import java.util.stream.Collectors;
@@ -45,6 +46,6 @@ final class TableFormat {
 
     /** A parameter's value: whole where it is, and no limit where it is as good as none. */
     static String value(double value) {
-        return value >= 1e20 ? "none" : value == Math.rint(value) ? "" + (long) value : "" + value;
+        return value >= 1e20 ? "none" : value == Math.rint(value) ? "" + (long) value : BigDecimal.valueOf(value).toPlainString();
     }
 }

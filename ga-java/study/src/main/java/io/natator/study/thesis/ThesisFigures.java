@@ -135,6 +135,6 @@ final class ThesisFigures {
     }
 
     private Sample forward(Parameter parameter, double value, Subject subject) {
-        return results.measurements().forward(results.catalogue().study(subject, parameter, value, false), results.duration());
+        return results.measurements().forward(results.catalogue().study(subject, parameter, value, false));
     }
 }

@@ -143,14 +143,16 @@ public final class ThesisStudy implements AutoCloseable {
     /**
      * Runs again, on the processor, some of the runs that were measured there, drawn by chance.
      *
+     * @param waters    in which
      * @param count     how many
      * @param seed      of the choice
      * @param execution with a time limit
      * @return of each what was found to differ, or null
      * @throws InterruptedException if the calling thread is interrupted
      */
-    public List<Repeated> repeat(int count, long seed, ExecutionSettings execution) throws InterruptedException {
-        return Repeated.of(results.processor().rows(), count, seed, execution);
+    public List<Repeated> repeat(List<Water> waters, int count, long seed, ExecutionSettings execution) throws InterruptedException {
+        return Repeated.of(results.processor().rows().stream().filter(row -> waters.stream()
+                .anyMatch(water -> water.scheme() == row.request().scheme())).toList(), count, seed, execution);
     }
 
     /**

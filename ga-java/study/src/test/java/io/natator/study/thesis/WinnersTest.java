@@ -1,0 +1,122 @@
+package io.natator.study.thesis;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+import io.natator.config.EncodingKind;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.config.Json;
+import io.natator.encoding.Gait;
+import io.natator.evolution.ToySimulator;
+import io.natator.run.PlannedRun;
+import io.natator.simulator.Evaluator;
+import io.natator.simulator.FakeSimulator;
+import io.natator.simulator.WorkerPool;
+import io.natator.verdict.Verdict;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.Optional;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+/** Who wins, and what is said of it, with swimmers that swim by a formula and luck. */
+class WinnersTest {
+
+    private static final double DURATION = 4;
+    private static final Gait LUCKY = gait(0.5);
+    private static final Gait GOOD = gait(1.2);
+
+    @TempDir
+    private Path folder;
+    private final ThesisData data = ThesisData.load();
+    private final ExperimentCatalogue catalogue = new ExperimentCatalogue(data, null, 4);
+    private EvolvedRun run;
+
+    private static Gait gait(double frequency) {
+        return new Gait(frequency, List.of(0.6, 0.6), List.of(0.0, 0.3));
+    }
+
+    /** What evolution took for the best is worse than another of its finalists. */
+    @BeforeEach
+    void evolve() throws IOException {
+        Path directory = folder.resolve("runs/creature-1/flex/seed-1");
+        Files.createDirectories(directory);
+        Files.writeString(directory.resolve("finalists.json"), Json.document(new Finalists(List.of(new Finalists.Finalist(LUCKY, 2.9, 1),
+                new Finalists.Finalist(GOOD, 0.8, 5)))));
+        run = new EvolvedRun(1, Water.FLEX, 1, new PlannedRun(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2), directory));
+    }
+
+    private void measure(MeasurementLog log, List<Experiment> experiments) throws IOException, InterruptedException {
+        Path fake = folder.resolve("fake-simulator.sh");
+        ExecutionSettings execution = new ExecutionSettings(Files.exists(fake) ? fake : FakeSimulator.in(folder), 2, Duration.ofMinutes(1));
+        try (Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+            log.measure(experiments, evaluator, execution, () -> { });
+        }
+    }
+
+    @Test
+    void theWinnerIsWhoGoesFurthestFromStartsThatEvolutionDidNotHave() throws IOException, InterruptedException {
+        try (MeasurementLog log = new MeasurementLog(folder.resolve("measurements.jsonl"))) {
+            Winners winners = new Winners(folder, catalogue, log, List.of(run));
+            measure(log, winners.experiments().subList(0, 1));
+            assertThat(winners.all()).as("with a finalist missing").isEmpty();
+
+            measure(log, winners.experiments());
+
+            assertThat(winners.all()).singleElement().satisfies(winner -> {
+                assertThat(winner.gait()).isEqualTo(GOOD);
+                assertThat(winner.name()).isEqualTo("runs/creature-1/flex/seed-1");
+                assertThat(winner.isEvolved()).isTrue();
+            });
+            assertThat(winners.experiments()).flatExtracting(one -> one.runs().stream().map(request -> request.start()).toList())
+                    .doesNotContainAnyElementsOf(catalogue.of(winners.all().get(0), Condition.WATER).runs().stream()
+                            .map(request -> request.start()).toList());
+        }
+    }
+
+    /** The formula does not know muscles at rest, so what rests swims worse only by its amplitudes; vacuum it knows. */
+    @Test
+    void aWinnerIsJudgedByAllControls() throws IOException, InterruptedException {
+        try (MeasurementLog log = new MeasurementLog(folder.resolve("measurements.jsonl"));
+                MeasurementLog processor = new MeasurementLog(folder.resolve("processor.jsonl"));
+                ConvergenceLog convergence = new ConvergenceLog(folder); KinematicsLog motions = new KinematicsLog(folder, 2)) {
+            Winners winners = new Winners(folder, catalogue, log, List.of(run));
+            StudyResults results = new StudyResults(data, folder, catalogue, log, processor, convergence, motions, winners, DURATION);
+            measure(log, winners.experiments());
+            assertThat(results.verdict(winners.all().get(0))).as("nothing but finalists measured").isEmpty();
+
+            measure(log, results.experiments());
+            measure(log, results.experiments());
+
+            Subject winner = winners.all().get(0);
+            assertThat(results.best(1, Water.FLEX)).isEqualTo(Optional.of(winner));
+            assertThat(results.best(2, Water.FLEX)).isEmpty();
+            assertThat(results.studied(Water.FLEX)).hasSize(2).contains(winner);
+            assertThat(results.speed(winner, Condition.VACUUM).mean()).isCloseTo(0.2 / DURATION, within(1e-9));
+            assertThat(results.speed(winner, Condition.WATER).mean()).isCloseTo(0.5 / DURATION, within(0.1));
+            assertThat(results.controls(winner).orElseThrow().clampOff()).isNotNull();
+            assertThat(results.verdict(winner).orElseThrow().kind()).isNotEqualTo(Verdict.Kind.DOES_NOT_SWIM);
+            assertThat(results.measurements().missing(results.experiments())).isEmpty();
+        }
+    }
+
+    @Test
+    void conditionsChangeWhatTheyAreNamedAfterAndNothingElse() {
+        Subject subject = ExperimentCatalogue.subject(run, GOOD, folder);
+
+        assertThat(Condition.RESTING.of(subject, null).gait().amplitude()).containsOnly(0.0);
+        assertThat(Condition.HALF_STEP.of(subject, null).overrides().at("/solver/substeps").intValue()).isEqualTo(8);
+        assertThat(Condition.NO_CLAMP.of(subject, null).overrides().at("/solver/maxAcceleration").doubleValue()).isGreaterThan(1e38);
+        assertThat(Condition.OTHER_WATER.of(subject, null).scene()).isEqualTo("open-water/creature-1");
+        assertThat(Condition.VACUUM.of(subject, null).overrides().get("fluid").isNull()).isTrue();
+        assertThat(Condition.WATER.of(subject, null).overrides().at("/stopping/planeContact").booleanValue()).isTrue();
+        assertThat(Condition.WATER.of(Subject.of(data.gait("1"), Water.FLEX), null).overrides().at("/stopping/planeContact").booleanValue())
+                .as("a published gait runs on, as it did with Flex").isFalse();
+        assertThat(Condition.in(Water.OPEN_WATER)).doesNotContain(Condition.NO_CLAMP, Condition.INVERSE_MASS);
+    }
+}
