@@ -4,6 +4,7 @@ import java.awt.BasicStroke;
 import java.awt.Color;
 import java.awt.Graphics2D;
 import java.awt.image.BufferedImage;
+import java.util.List;
 import java.util.function.Consumer;
 import org.knowm.xchart.XYChart;
 import org.knowm.xchart.XYChartBuilder;
@@ -69,6 +70,17 @@ public final class Charts {
             double shown = chart.getScreenYFromChart(-reach) - chart.getScreenYFromChart(reach);
             height += (int) Math.round(2 * reach * scale - shown);
         }
+    }
+
+    /** Gives the places 1, 2, … of the horizontal axis names instead of numbers. */
+    public static void name(XYChart chart, List<String> names) {
+        chart.getStyler().setXAxisMin(0.0).setXAxisMax(names.size() + 1.0);
+        chart.setCustomXAxisTickLabelsFormatter(x -> {
+            int place = (int) Math.rint(x);
+            // Equal labels make the axis look for other places, so what is to be blank is so in many ways.
+            return Math.abs(x - place) < 1e-6 && place >= 1 && place <= names.size() ? names.get(place - 1)
+                    : " ".repeat(1 + (int) Math.rint(10 * Math.abs(x)));
+        });
     }
 
     /** One of eight colours. */

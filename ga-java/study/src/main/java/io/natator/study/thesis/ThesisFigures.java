@@ -102,12 +102,9 @@ final class ThesisFigures {
     }
 
     private void addParameter(ReportDocument page, Parameter parameter, Parameter.Range range, Water water) throws IOException {
-        List<Double> values = range.values();
         XYChart chart = Charts.lines("Speed over " + parameter.label() + ", " + water.words() + " (own value " + TableFormat.value(range.standard()) + ")",
                 parameter.label(), "share of the speed at the own value");
-        chart.getStyler().setXAxisMin(0.0).setXAxisMax(values.size() + 1.0);
-        chart.setCustomXAxisTickLabelsFormatter(x -> Math.abs(x - Math.rint(x)) < 1e-6 && x > 0.5 && x < values.size() + 0.5
-                ? TableFormat.value(values.get((int) Math.rint(x) - 1)) : "");
+        Charts.name(chart, range.values().stream().map(TableFormat::value).toList());
         int number = 0;
         for (Subject subject : results.studied(water)) {
             addCurve(chart, parameter, range, subject, number++);

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""Recomputes numbers of results/thesis/README.md from its raw files: python3 results/thesis/recompute.py [--entries N] [--seed S]
+
+Draws N entries (50; 0 for all) by chance from the tables of speeds, works each out anew from measurements.jsonl,
+convergence.jsonl, motions.jsonl and finalists.json, with nothing of Natator's own code, and compares what is printed. Exit status 1 if any differs.
+"""
+import argparse
+import collections
+import json
+import math
+import pathlib
+import random
+import re
+import statistics
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SECONDS = 4.0
+# Student's t at 97.5 %, by degrees of freedom.
+STUDENT = {1: 12.7062, 2: 4.30265, 3: 3.18245, 4: 2.77645, 5: 2.57058, 6: 2.44691, 7: 2.36462, 8: 2.30600, 9: 2.26216}
+STOPPING = {"flex": "thesis", "open-water": "open-water"}
+
+
+def lines(name):
+    with open(HERE / name, encoding="utf-8") as file:
+        return [json.loads(line) for line in file]
+
+
+def canonical(value):
+    """Numbers as numbers: 8 and 8.0 are the same."""
+    if isinstance(value, dict):
+        return tuple(sorted((key, canonical(one)) for key, one in value.items()))
+    if isinstance(value, list):
+        return tuple(canonical(one) for one in value)
+    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+class Study:
+    """All rows, found by what was asked for and by start."""
+
+    def __init__(self):
+        self.rows = collections.defaultdict(dict)
+        for row in lines("measurements.jsonl"):
+            request = row["request"]
+            self.rows[self.key(request)][request.get("start")] = row["result"]
+        self.change = {self.key(row["request"]): row["answer"]["levels"] for row in lines("convergence.jsonl")}
+        self.length = {}
+        for row in lines("motions.jsonl"):
+            self.length.setdefault(row["request"]["scene"].split("/")[1], row["bodyLength"])
+        data = json.loads((ROOT / "ga-java/study/src/main/resources/io/natator/study/thesis/thesis.json").read_text(encoding="utf-8"))
+        self.published = data["gaits"]
+
+    @staticmethod
+    def key(request):
+        return canonical([request["scene"], request["gait"], request["scheme"], request.get("overrides", {})])
+
+    def ask(self, water, creature, gait, ends, change=None):
+        overrides = {"stopping": {"planeContact": ends, "noProgressAfter": 0}}
+        for name, part in (change or {}).items():
+            overrides[name] = {**overrides.get(name, {}), **part}
+        return self.key({"scene": f"{STOPPING[water]}/creature-{creature}", "gait": gait,
+                         "scheme": "flex" if water == "flex" else "conserving", "overrides": overrides})
+
+    def results(self, key, first=1, last=1000):
+        return [result for start, result in sorted(self.rows[key].items(), key=lambda one: one[0]) if first <= start <= last]
+
+    def subjects(self, water):
+        """(creature, label, gait, whether a plane ends its runs) in the order of the page."""
+        for gait in self.published:
+            label = "thesis' gait" + ("" if gait["about"].startswith("as published") else ", " + gait["about"])
+            yield gait["creature"], label, gait["gait"], False
+        for folder in sorted((HERE / "runs").glob(f"creature-*/{water}/seed-*")):
+            creature, seed = int(folder.parts[-3][-1]), folder.name[5:]
+            gaits = [one["gait"] for one in json.loads((folder / "finalists.json").read_text(encoding="utf-8"))["gaits"]]
+            yield creature, f"evolved, seed {seed}", max(gaits, key=lambda gait: self.sure(water, creature, gait)), True
+
+    def sure(self, water, creature, gait):
+        ways = [way(one) for one in self.results(self.ask(water, creature, gait, True), 1001, 2000)]
+        return statistics.mean(ways) - statistics.stdev(ways) / math.sqrt(len(ways))
+
+
+def way(result):
+    return result["distance"] if result["status"] == "ok" else 0.0
+
+
+def shown(value, digits=2, sign=False):
+    text = f"{value:+.{digits}f}" if sign else f"{value:.{digits}f}"
+    return text if sign or float(text) != 0 else text.lstrip("-")
+
+
+def speeds(study):
+    """(where, what it should be) of the tables of speeds."""
+    for water in STOPPING:
+        for creature, label, gait, ends in study.subjects(water):
+            length = study.length[f"creature-{creature}"]
+            key = study.ask(water, creature, gait, ends)
+            water_speeds = [one["distance"] / SECONDS for one in study.results(key) if one["status"] == "ok"]
+            half = [one["distance"] / SECONDS for one in study.results(study.ask(water, creature, gait, ends, {"solver": {"substeps": 8}}))
+                    if one["status"] == "ok"]
+            mean = statistics.mean(water_speeds)
+            scatter = STUDENT[len(water_speeds) - 1] * statistics.stdev(water_speeds) / math.sqrt(len(water_speeds))
+            step = statistics.mean(half) - mean
+            levels = {one["level"]: one["speed"]["mean"] for one in study.change.get(key, [])}
+            spacing = levels["spacing/2"] - levels["base"] if "spacing/2" in levels else None
+            error = max(scatter, abs(step), abs(spacing or 0))
+            where = (water, str(creature), label)
+            yield where + (2,), f"{shown(mean / length)} ± {shown(error / length)}"
+            yield where + (3,), f"± {shown(scatter / length)}"
+            yield where + (4,), shown(step / length, sign=True)
+            yield where + (5,), "–" if spacing is None else shown(spacing / length, sign=True)
+            yield where + (6,), shown(mean / length / gait["frequency"])
+
+
+def page_speeds(page):
+    """The same as printed."""
+    for water, heading in (("flex", "### The thesis' tank, flex"), ("open-water", "### Open water, conserving")):
+        section = page.split(heading)[1].split("<details>")[0]
+        for line in section.splitlines():
+            fields = [field.strip() for field in line.strip("|").split("|")]
+            if re.fullmatch(r"[1-4]", fields[0]):
+                for column in range(2, 7):
+                    yield (water, fields[0], fields[1], column), fields[column]
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--entries", type=int, default=50)
+    options.add_argument("--seed", type=int, default=None)
+    asked = options.parse_args()
+    printed = dict(page_speeds((HERE / "README.md").read_text(encoding="utf-8")))
+    computed = dict(speeds(Study()))
+    wrong = [f"{where}: computed, but not on the page" for where in computed.keys() - printed.keys()]
+    wrong += [f"{where}: on the page, but not in the data" for where in printed.keys() - computed.keys()]
+    both = sorted(computed.keys() & printed.keys())
+    drawn = both if asked.entries == 0 else random.Random(asked.seed).sample(both, min(asked.entries, len(both)))
+    wrong += [f"{where}: the page has {printed[where]}, the data give {computed[where]}" for where in drawn if printed[where] != computed[where]]
+    for line in wrong:
+        print(line, file=sys.stderr)
+    print(f"{len(drawn)} of {len(both)} entries recomputed, {len(wrong)} differ")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
