@@ -140,8 +140,8 @@ export class GlLightMap {
   static CODE = `
     float lightAt(sampler2D map, vec4 tank, vec3 place) {
       vec2 at = (place.xz - tank.xy) / (tank.zw - tank.xy);
-      if (at.x < 0.0 || at.y < 0.0 || at.x > 1.0 || at.y > 1.0) return 1.0;
-      vec4 texel = texture2D(map, at);
+      if (at.x < 0.0 || at.y < 0.0 || at.x > 1.0 || at.y > 1.0) { return 1.0; }
+      vec4 texel = texture(map, at);
       return texel.r * ${MOST.toFixed(2)} * (1.0 - 0.55 * texel.g);
     }`;
 
