@@ -48,8 +48,13 @@ abstract class ViewBrowserTest extends BrowserTest {
 
     /** Opens the page and waits until it swims. */
     void open(ViewServer on) {
+        open(on, "");
+    }
+
+    /** Likewise, at an address that says more. */
+    void open(ViewServer on, String more) {
         server = on;
-        page.navigate(server.address().toString());
+        page.navigate(server.address() + more);
         awaitSwimming();
     }
 

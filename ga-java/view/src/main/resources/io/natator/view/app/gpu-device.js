@@ -1,5 +1,8 @@
 /** The graphics card as WebGPU knows it, asked for once and shared by all pictures. */
 
+/** After its loss a card needs a while before anything can be drawn with it. */
+const RECOVERY_MS = 1000;
+
 const listeners = new Set();
 let device = null;
 let isAsked = false;
@@ -17,7 +20,7 @@ async function ask() {
       console.warn(`without WebGPU: ${why}`);
       device = null;
       found.destroy();
-      listeners.forEach(one => one());
+      setTimeout(() => listeners.forEach(one => one()), RECOVERY_MS);
     }
   };
   found.lost.then(({message}) => lose(message));

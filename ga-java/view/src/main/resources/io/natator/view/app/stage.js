@@ -24,6 +24,12 @@ export const DEFAULT_LOOK = {
 /** Ways of drawing, each tried if the one before fails. */
 const DRAWINGS = ['webgpu', 'webgl', 'plain'];
 
+/** The part of a look that the address asks for: `?drawing=webgl`. */
+export function lookOfAddress() {
+  const drawing = new URLSearchParams(location.search).get('drawing');
+  return DRAWINGS.includes(drawing) ? {drawing} : {};
+}
+
 /** Drawings of the screen after which a picture that rests is refined: drawn again with all its pixels, and more samples. */
 const REST = 10;
 
