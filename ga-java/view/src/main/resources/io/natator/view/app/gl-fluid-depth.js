@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import {ADDING, shader} from './gl-shader.js';
-import {SHAPE_NUMBERS} from './water-shape.js';
+import {SHAPE_NUMBERS} from './water-numbers.js';
 
 const VERTEX = `
   in vec4 centre;

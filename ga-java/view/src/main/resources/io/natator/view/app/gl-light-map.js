@@ -1,7 +1,7 @@
 /** Light that falls through the water onto what is below it: gathered and spread by waves, and held back by bodies. */
 
 import * as THREE from 'three';
-import {SHAPE_NUMBERS} from './water-shape.js';
+import {SHAPE_NUMBERS} from './water-numbers.js';
 
 /** Width of a cell in spacings of the water, and most cells along a side. */
 const CELL = 0.5;
