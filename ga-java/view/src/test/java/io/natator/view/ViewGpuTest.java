@@ -5,8 +5,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.microsoft.playwright.Download;
 import java.awt.image.BufferedImage;
 import java.io.IOException;
-import java.net.URLEncoder;
-import java.nio.charset.StandardCharsets;
 import java.util.concurrent.TimeUnit;
 import javax.imageio.ImageIO;
 import org.junit.jupiter.api.Test;
@@ -31,9 +29,6 @@ class ViewGpuTest extends ViewBrowserTest {
               return window.device;
             };""";
 
-    /** An address at which the picture has few pixels and, however slow it is, keeps them and its way to be drawn. */
-    private static final String SMALL = "#" + URLEncoder.encode("{\"look\":{\"quality\":\"0.6\"}}", StandardCharsets.UTF_8);
-
     /** The refined picture: its samples lie in the same places whatever draws. */
     private BufferedImage refined(String drawing, String name) {
         get("drawing").selectOption(drawing);
@@ -57,8 +52,8 @@ class ViewGpuTest extends ViewBrowserTest {
     /** Water and skin, and then all that they hide: particles of both, joints, muscles, lines. */
     @Test
     void itIsThatOfWebGl() {
-        page.setViewportSize(800, 560);
-        open(water, SMALL);
+        useSmallWindow();
+        open(water, FEW_PIXELS);
         get("run").click();
         for (String shown : new String[] {"surface", "spheres"}) {
             choose("water-" + shown);
@@ -75,8 +70,8 @@ class ViewGpuTest extends ViewBrowserTest {
     @Test
     void aCardIsUsedUntilItIsLost() throws IOException {
         page.addInitScript(CARD);
-        page.setViewportSize(800, 560);
-        open(water, SMALL);
+        useSmallWindow();
+        open(water, FEW_PIXELS);
         await("natator.drawing() === 'WebGPU'");
         get("run").click();
         Download download = page.waitForDownload(() -> get("picture-save").click());

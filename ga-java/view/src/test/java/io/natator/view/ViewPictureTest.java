@@ -39,19 +39,27 @@ class ViewPictureTest extends ViewBrowserTest {
     @ParameterizedTest
     @CsvSource({"webgl, WebGL", "plain, processor"})
     void bothWaysOfDrawingShowIt(String drawing, String name) {
-        open(water);
+        useSmallWindow();
+        open(water, FEW_PIXELS);
         get("run").click();
         get("drawing").selectOption(drawing);
         choose("water-none");
-        BufferedImage without = stillPicture(get("picture-a"));
+        BufferedImage without = restingPicture();
         assertThat(page.evaluate("() => natator.drawing()")).isEqualTo(name);
         for (String shown : List.of("spheres", "surface")) {
             choose("water-" + shown);
-            BufferedImage with = stillPicture(get("picture-a"));
+            BufferedImage with = restingPicture();
             keepPicture("ViewPictureTest-" + drawing + "-" + shown);
             assertThat(colours(with)).as("colours of %s", shown).isGreaterThan(LEAST_COLOURS);
             assertThat(difference(without, with)).as("share of %s", shown).isGreaterThan(0.2);
         }
+    }
+
+    /** What is seen of a picture that nothing changes any more, from its first sample on: those to come only smooth it. */
+    private BufferedImage restingPicture() {
+        awaitDrawings(3);
+        await("natator.samples() > 0");
+        return picture(get("picture-a"));
     }
 
     /**
@@ -103,6 +111,7 @@ class ViewPictureTest extends ViewBrowserTest {
 
     @Test
     void aPausedPictureGetsAllItsDetail() {
+        useSmallWindow();
         open(water);
         get("drawing").selectOption("webgl");
         page.evaluate(SLOW_AND_WATCHED);
@@ -113,8 +122,7 @@ class ViewPictureTest extends ViewBrowserTest {
         await("natator.share() === 1");
         page.evaluate("() => { window.isQuick = true; }");
         await("natator.samples() >= 4");
-        BufferedImage still = stillPicture(get("picture-a"));
         assertThat(number("natator.share()")).isOne();
-        assertThat(colours(still)).isGreaterThan(LEAST_COLOURS);
+        assertThat(colours(picture(get("picture-a")))).isGreaterThan(LEAST_COLOURS);
     }
 }
