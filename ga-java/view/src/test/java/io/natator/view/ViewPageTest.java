@@ -131,6 +131,7 @@ class ViewPageTest extends ViewBrowserTest {
         page.keyboard().press("Escape");
         assertThat(get("run")).isVisible();
         get("about-open").click();
+        assertThat(get("about")).isVisible();
         assertThat(get("about")).containsText("What still moves forwards does so by an error");
     }
 
