@@ -42,13 +42,15 @@ function rewrite(text, textures) {
   for (const map of maps) {
     result = result.replace(new RegExp(`(?<!sampler2D )\\b${map}\\b`, 'g'), `${map}, ${map}_sampler`);
   }
-  const parameter = one => one.trim().replace(/^sampler2D (\w+)$/, '$1: texture_2d<f32>, $1_sampler: sampler').replace(/^(\w+) (\w+)$/, '$2: $1');
+  const parameter = one => one.trim().replace(/^sampler2D (\w+)$/, '$1: texture_2d<f32>, $1_sampler: sampler')
+      .replace(/^(\w+) (\w+)$/, '$2: $1');
   result = result.replace(new RegExp(`\\b(void|${TYPES}) (\\w+)\\(([^)]*)\\) *\\{`, 'g'), (all, type, name, parameters) => {
     const list = parameters.trim() === '' ? '' : parameters.split(',').map(parameter).join(', ');
     return `fn ${name}(${list}) ${type === 'void' ? '' : `-> ${type} `}{`;
   });
   // Of the first level: WebGPU chooses a level only where all pixels come along.
-  return result.replace(/\btexture\(/g, 'textureSampleBaseClampToEdge(').replace(new RegExp(`\\bconst (${TYPES}) (\\w+) *=`, 'g'), 'const $2: $1 =')
+  return result.replace(/\btexture\(/g, 'textureSampleBaseClampToEdge(')
+      .replace(new RegExp(`\\bconst (${TYPES}) (\\w+) *=`, 'g'), 'const $2: $1 =')
       .replace(new RegExp(`\\b(${TYPES}) (\\w+) *(=|;)`, 'g'), 'var $2: $1 $3');
 }
 
@@ -113,12 +115,12 @@ ${varyings.map(({name, type, isFlat}, i) => `  @location(${i})${isFlat ? ' @inte
 }
 
 function vertexModule(text, uniforms, attributes, varyings, isPoints) {
+  const reads = attributes.map(({name, type}, i) => `@location(${i}) ${name}_read: ${type}, `).join('');
   return `${globals(uniforms)}${globals(attributes)}${globals(varyings)}
 var<private> gl_Position: vec4f;
 var<private> gl_PointSize: f32;
 ${text}
-@vertex fn begin(${attributes.map(({name, type}, i) => `@location(${i}) ${name}_read: ${type}, `).join('')}@builtin(vertex_index) corner_index: u32)
-    -> Varyings {
+@vertex fn begin(${reads}@builtin(vertex_index) corner_index: u32) -> Varyings {
 ${uniforms.map(({name}) => `  ${name} = uniforms.${name};\n`).join('')}${attributes.map(({name}) => `  ${name} = ${name}_read;\n`).join('')}
   main();
   var made: Varyings;

@@ -26,7 +26,8 @@ export class Waterline {
   /** How many beads there can be; no more are added. */
   static most(walls, spacing) {
     const [width, , length] = walls.max.map((high, axis) => high - walls.min[axis]);
-    return [width, length].every(side => side < ENDLESS) ? 2 * (Math.ceil(width / (STEP * spacing)) + Math.ceil(length / (STEP * spacing)) + 2) : 0;
+    const isTank = width < ENDLESS && length < ENDLESS;
+    return isTank ? 2 * (cellsOf(width, spacing) + cellsOf(length, spacing)) : 0;
   }
 
   /**
@@ -51,7 +52,7 @@ export class Waterline {
   }
 
   #line(numbers, count, begin, across, along, wall, low, high, spacing) {
-    const cells = Math.ceil((high - low) / (STEP * spacing)) + 1;
+    const cells = cellsOf(high - low, spacing);
     if (this.#heights.length < cells) {
       this.#heights = new Float32Array(cells);
       this.#other = new Float32Array(cells);
@@ -98,6 +99,10 @@ export class Waterline {
       this.#other = from;
     }
   }
+}
+
+function cellsOf(length, spacing) {
+  return Math.ceil(length / (STEP * spacing)) + 1;
 }
 
 /** The height beside one, where it is of the same water. */
