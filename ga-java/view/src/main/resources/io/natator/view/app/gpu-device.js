@@ -43,7 +43,8 @@ export function gpuDevice(isChosen) {
   return isSoftware && !isChosen ? null : device;
 }
 
-/** Calls `listener()` when `gpuDevice` has another answer. */
+/** Calls `listener()` when `gpuDevice` has another answer, until what this returns is called. */
 export function onGpuChange(listener) {
   listeners.add(listener);
+  return () => listeners.delete(listener);
 }

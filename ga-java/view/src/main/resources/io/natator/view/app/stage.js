@@ -54,6 +54,7 @@ export class Stage {
   #last = 0;
   #isNew = true;
   #isChoosing = false;
+  #forgetGpu;
   #rested = 0;
   #samples = 0;
   #isTooSlow = false;
@@ -66,7 +67,7 @@ export class Stage {
     this.#host = host;
     this.rig = new CameraRig(host);
     this.#field.onRange = range => this.onRange(range);
-    onGpuChange(() => {
+    this.#forgetGpu = onGpuChange(() => {
       this.#isChoosing = true;
       this.#isNew = true;
     });
@@ -210,6 +211,13 @@ export class Stage {
       return 'webgpu';
     }
     return isCard || drawing === 'webgl' || drawing === 'webgpu' ? 'webgl' : 'plain';
+  }
+
+  /** Frees what it drew with. It is drawn no more. */
+  close() {
+    this.#forgetGpu();
+    this.#picture?.dispose();
+    this.#picture = null;
   }
 
   #choosePicture() {
