@@ -191,7 +191,8 @@ class ModulesTest extends BrowserTest {
     @Test
     void waterIsFlatAtItsSurfaceAndRoundAtItsWalls() {
         Object shapes = with("water-shape.js", """
-                ({WaterShapes, SHAPE_NUMBERS}) => {
+                async ({WaterShapes}) => {
+                  const {SHAPE_NUMBERS} = await import('/app/water-numbers.js');
                   const count = 12 * 6 * 12 + 1;
                   const position = new Float32Array(3 * count);
                   for (let i = 0; i + 1 < count; i++) {
@@ -214,6 +215,56 @@ class ModulesTest extends BrowserTest {
                 }""");
 
         assertThat(shapes).as("flat on top, alike along both walls, nothing inside, a ball at the wall, small alone")
+                .isEqualTo("[true,true,true,true,true]");
+    }
+
+    /** Balls of a surface whose heights vary by chance, at a wall; the rough line is that of the balls where the wall cuts them. */
+    @Test
+    void waterEndsAtAWallInASmoothLine() {
+        Object told = with("waterline.js", """
+                ({Waterline}) => {
+                  const spacing = 0.1;
+                  const size = 12;
+                  const walls = {min: [0, 0, 0], max: [1, 1e9, 4]};
+                  const shapes = [];
+                  for (let i = 0, seed = 1; i < 40; i++) {
+                    seed = seed * 16807 % 2147483647;
+                    const height = 0.5 + 0.02 * Math.sin(i / 6) + 0.03 * seed / 2147483647;
+                    shapes.push([0.05, height, 0.05 + 0.1 * i, 0, 0.009, 0.004, 0.009, 0, 0, 0, 0, 1]);
+                  }
+                  const splash = [0.02, 0.9, 2, 0, 0.001, 0.001, 0.001, 0, 0, 0, 0, 0];
+                  const count = shapes.push(splash);
+                  const numbers = new Float32Array(size * (count + Waterline.most(walls, spacing)));
+                  numbers.set(shapes.flat());
+                  const topAt = (z, first, end) => {
+                    let top = 0;
+                    for (let at = size * first; at < size * end; at += size) {
+                      const share = 1 - numbers[at] ** 2 / numbers[at + 4] - (z - numbers[at + 2]) ** 2 / numbers[at + 6];
+                      top = Math.max(top, share > 0 ? numbers[at + 1] + Math.sqrt(numbers[at + 5] * share) : 0);
+                    }
+                    return top;
+                  };
+                  const roughness = (first, end) => {
+                    let sum = 0;
+                    for (let z = 0.4; z < 3.6; z += 0.05) {
+                      sum += Math.abs(topAt(z - 0.05, first, end) - 2 * topAt(z, first, end) + topAt(z + 0.05, first, end));
+                    }
+                    return sum;
+                  };
+                  const before = roughness(0, count - 1);
+                  const all = new Waterline().add(numbers, count, walls, spacing);
+                  const after = roughness(count, all);
+                  let highest = 0;
+                  let farthest = 0;
+                  for (let z = 0.4; z < 3.6; z += 0.05) {
+                    highest = Math.max(highest, topAt(z, count, all));
+                    farthest = Math.max(farthest, topAt(z, 0, count - 1) - topAt(z, count, all));
+                  }
+                  const endless = new Waterline().add(numbers, count, {min: [-1e9, 0, -1e9], max: [1e9, 1e9, 1e9]}, spacing);
+                  return JSON.stringify([after < 0.2 * before, highest < 0.64, farthest < 0.02, endless === count, all <= numbers.length / size]);
+                }""");
+
+        assertThat(told).as("smooth, not as high as a splash, nowhere far below; none without walls; no more than promised")
                 .isEqualTo("[true,true,true,true,true]");
     }
 

@@ -115,8 +115,10 @@ class SharedPageTest extends BrowserTest {
         page.navigate(file.toUri().toString());
         await("window.natator && natator.time() > 0.1");
 
+        assertThat(get("about")).isHidden();
         page.keyboard().press("a");
 
+        assertThat(get("about")).isVisible();
         assertThat(get("about")).containsText("plays it again");
         assertThat(get("about")).not().containsText("while you watch");
         page.keyboard().press("Escape");

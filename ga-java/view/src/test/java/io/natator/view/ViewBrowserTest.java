@@ -7,6 +7,8 @@ import com.microsoft.playwright.Locator;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.net.URI;
+import java.net.URLEncoder;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
@@ -15,6 +17,9 @@ import org.junit.jupiter.api.io.TempDir;
 
 /** Tests of the page of {@code natator view} in a real browser, with the real simulator. */
 abstract class ViewBrowserTest extends BrowserTest {
+
+    /** What makes the address one at which a picture has few pixels and, however slow it is, keeps them and its way to be drawn. */
+    static final String FEW_PIXELS = "#" + URLEncoder.encode("{\"look\":{\"quality\":\"0.5\"}}", StandardCharsets.UTF_8);
 
     @TempDir
     private static Path folder;
@@ -46,10 +51,20 @@ abstract class ViewBrowserTest extends BrowserTest {
         return address.getScheme().matches("blob|data") || server.address().getAuthority().equals(address.getAuthority());
     }
 
+    /** A window of a third of the pixels, for what takes long and is no matter of size: the processor draws them all. */
+    void useSmallWindow() {
+        page.setViewportSize(800, 480);
+    }
+
     /** Opens the page and waits until it swims. */
     void open(ViewServer on) {
+        open(on, "");
+    }
+
+    /** Likewise, at an address that says more. */
+    void open(ViewServer on, String more) {
         server = on;
-        page.navigate(server.address().toString());
+        page.navigate(server.address() + more);
         awaitSwimming();
     }
 

@@ -14,8 +14,6 @@ import java.util.concurrent.TimeUnit;
 import javax.imageio.ImageIO;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
-import org.junit.jupiter.params.ParameterizedTest;
-import org.junit.jupiter.params.provider.CsvSource;
 
 /** What is around the picture, and what becomes of both when a simulator or the page ends. */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
@@ -23,6 +21,7 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void pauseHoldsStill() {
+        useSmallWindow();
         open(vacuum);
         get("run").click();
         assertThat(get("run")).hasText("Run");
@@ -40,6 +39,7 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void aReloadReconnects() throws InterruptedException {
+        useSmallWindow();
         open(vacuum);
         ProcessHandle before = ViewFixture.simulator();
 
@@ -52,6 +52,7 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void aKilledSimulatorIsReportedAndGoesOn() {
+        useSmallWindow();
         open(vacuum);
         await("natator.frame() > 60");
         // Slowly from here on, so that the next one is seen at its start.
@@ -67,6 +68,7 @@ class ViewPageTest extends ViewBrowserTest {
 
     @Test
     void oneThatIsLostForGoodIsStartedAgainByAButton() throws InterruptedException {
+        useSmallWindow();
         open(vacuum);
         for (int i = 0; i < 4; i++) {
             ViewFixture.await("a simulator", () -> ViewFixture.simulators(ProcessHandle.current()).size() == 1);
@@ -86,12 +88,18 @@ class ViewPageTest extends ViewBrowserTest {
     }
 
     /** Nothing is cut off, and nothing has to be scrolled for. */
-    @ParameterizedTest
-    @CsvSource({"1400, 900", "1280, 720", "1920, 1080"})
-    void allOfItFitsTheWindow(int width, int height) {
-        page.setViewportSize(width, height);
+    @Test
+    void allOfItFitsTheWindow() {
         open(vacuum);
         await("document.querySelector('[data-chart=envelope]').textContent !== ''");
+        fits(1400, 900);
+        fits(1280, 720);
+        fits(1920, 1080);
+    }
+
+    private void fits(int width, int height) {
+        page.setViewportSize(width, height);
+        awaitDrawings(3);
 
         assertThat(number("document.documentElement.scrollHeight")).isLessThanOrEqualTo(height);
         assertThat(number("document.documentElement.scrollWidth")).isLessThanOrEqualTo(width);
@@ -123,11 +131,13 @@ class ViewPageTest extends ViewBrowserTest {
         page.keyboard().press("Escape");
         assertThat(get("run")).isVisible();
         get("about-open").click();
+        assertThat(get("about")).isVisible();
         assertThat(get("about")).containsText("What still moves forwards does so by an error");
     }
 
     @Test
     void picturesAndFilmsAreSaved() throws IOException {
+        useSmallWindow();
         open(vacuum);
 
         Download picture = page.waitForDownload(() -> get("picture-save").click());

@@ -38,6 +38,7 @@ class ViewRunsTest extends ViewBrowserTest {
 
     @Test
     void theGenerationsOfARunAreWatched() throws IOException {
+        useSmallWindow();
         open(vacuum);
 
         get("chart-fitness").focus();
@@ -149,6 +150,7 @@ class ViewRunsTest extends ViewBrowserTest {
 
     @Test
     void twoSwimSideBySide() {
+        useSmallWindow();
         open(vacuum);
 
         get("compare").click();
@@ -213,6 +215,7 @@ class ViewRunsTest extends ViewBrowserTest {
     /** One swims in water, which takes longer; the other one waits. */
     @Test
     void twoSwimInStep() {
+        useSmallWindow();
         open(vacuum);
         get("compare").click();
         await("natator.views[1].frame() > 5");

@@ -1,16 +1,17 @@
 /** Bodies: a skin, or spheres coloured by cluster with joints marked. */
 
 import * as THREE from 'three';
+import {shader} from './gl-shader.js';
 import {GlSkin} from './gl-skin.js';
 import {BODY_RADIUS, bodySpacing, solidKinds, solids} from './scene.js';
 
 const VERTEX = `
-  attribute vec3 tint;
-  attribute float joint;
+  in vec3 tint;
+  in float joint;
   uniform float radius;
   uniform float pixelsPerUnit;
-  varying vec3 colour;
-  varying float ring;
+  out vec3 colour;
+  out float ring;
   void main() {
     vec4 eye = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * eye;
@@ -20,15 +21,16 @@ const VERTEX = `
   }`;
 
 const FRAGMENT = `
-  varying vec3 colour;
-  varying float ring;
+  in vec3 colour;
+  in float ring;
+  out vec4 shown;
   void main() {
     vec2 side = gl_PointCoord * 2.0 - 1.0;
     float square = dot(side, side);
-    if (square > 1.0) discard;
+    if (square > 1.0) { discard; }
     float light = 0.55 + 0.5 * sqrt(1.0 - square) - 0.2 * side.y - 0.1 * side.x;
-    vec3 shown = mix(colour, vec3(1.0), ring * step(square, 0.22));
-    gl_FragColor = vec4(shown * light, 1.0);
+    vec3 lit = mix(colour, vec3(1.0), ring * step(square, 0.22));
+    shown = vec4(lit * light, 1.0);
   }`;
 
 /** One mesh, or one point per particle. */
@@ -37,10 +39,7 @@ export class GlBody {
   #isSkin = true;
   #position = null;
   #skin = new GlSkin();
-  #material = new THREE.ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT,
-    uniforms: {radius: {value: 1}, pixelsPerUnit: {value: 1}},
-  });
+  #material = shader(VERTEX, FRAGMENT, {radius: 1, pixelsPerUnit: 1});
 
   /** What to add to a scene of three.js. */
   object = new THREE.Group();

@@ -1,7 +1,8 @@
 /** Depth of the nearest water, and its foam: each shape (water-shape.js) as an ellipsoid that rays are cast at, cut off at the walls. */
 
 import * as THREE from 'three';
-import {SHAPE_NUMBERS} from './water-shape.js';
+import {ADDING, shader} from './gl-shader.js';
+import {SHAPE_NUMBERS} from './water-numbers.js';
 
 const VERTEX = `
   in vec4 centre;
@@ -13,7 +14,7 @@ const VERTEX = `
   flat out vec3 second;
   flat out vec3 third;
   void main() {
-    mat3 turn = mat3(viewMatrix);
+    mat3 turn = rotation(viewMatrix);
     mat3 shape = mat3(squares.x, products.x, products.y, products.x, squares.y, products.z, products.y, products.z, squares.z);
     shape = turn * shape * transpose(turn);
     middle = (viewMatrix * vec4(centre.xyz, 1.0)).xyz;
@@ -25,11 +26,10 @@ const VERTEX = `
     third = inverted[2];
     ray = vec3(middle.xy + position.xy * reach, middle.z);
     gl_Position = projectionMatrix * vec4(ray, 1.0);
-    if (middle.z > -0.02) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    if (middle.z > -0.02) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); }
   }`;
 
 const FRAGMENT = `
-  precision highp float;
   uniform vec3 low;
   uniform vec3 high;
   uniform mat4 projectionMatrix;
@@ -39,7 +39,7 @@ const FRAGMENT = `
   flat in vec3 first;
   flat in vec3 second;
   flat in vec3 third;
-  layout(location = 0) out vec4 inverseDepth;
+  out vec4 inverseDepth;
   void main() {
     mat3 inverted = mat3(first, second, third);
     vec3 turned = inverted * ray;
@@ -47,23 +47,23 @@ const FRAGMENT = `
     float b = dot(middle, turned);
     float c = dot(middle, inverted * middle) - 1.0;
     float square = b * b - a * c;
-    if (square < 0.0) discard;
+    if (square < 0.0) { discard; }
     float root = sqrt(square);
     float enter = (b - root) / a;
     float leave = (b + root) / a;
     // The walls of the tank: water ends there, flat.
-    vec3 along = transpose(mat3(viewMatrix)) * ray;
+    vec3 along = transpose(rotation(viewMatrix)) * ray;
     vec3 one = (low - cameraPosition) / along;
     vec3 other = (high - cameraPosition) / along;
     vec3 before = min(one, other);
     vec3 after = max(one, other);
     float inside = max(max(before.x, before.y), max(before.z, nearest / -ray.z));
     float outside = min(after.x, min(after.y, after.z));
-    float isCut = enter < inside ? 1.0 : 0.0;
+    float isCut = select(0.0, 1.0, enter < inside);
     enter = max(enter, inside);
-    if (enter > min(leave, outside)) discard;
+    if (enter > min(leave, outside)) { discard; }
     float depth = enter * -ray.z;
-    if (depth < 0.02) discard;
+    if (depth < 0.02) { discard; }
     vec2 clip = vec2(projectionMatrix[2][2] * -depth + projectionMatrix[3][2], depth);
     gl_FragDepth = 0.5 + 0.5 * clip.x / clip.y;
     inverseDepth = vec4(1.0 / depth, isCut, 0.0, 1.0);
@@ -81,22 +81,21 @@ const FOAM_VERTEX = `
     depth = -eye.z;
     foam = squares.w;
     side = position.xy;
-    gl_Position = foam > 0.0 ? projectionMatrix * (eye + vec4(radius * position.xy, 0.0, 0.0)) : vec4(2.0, 2.0, 2.0, 1.0);
+    gl_Position = select(vec4(2.0, 2.0, 2.0, 1.0), projectionMatrix * (eye + vec4(radius * position.xy, 0.0, 0.0)), foam > 0.0);
   }`;
 
 const FOAM_FRAGMENT = `
-  precision highp float;
   uniform sampler2D front;
   uniform vec2 size;
   uniform float radius;
   in vec2 side;
   in float foam;
   in float depth;
-  layout(location = 0) out vec4 added;
+  out vec4 added;
   void main() {
     float share = max(0.0, 1.0 - dot(side, side));
     float nearest = texture(front, gl_FragCoord.xy / size).r;
-    if (nearest <= 0.0 || depth - 1.0 / nearest > 1.5 * radius) discard;
+    if (nearest <= 0.0 || depth - 1.0 / nearest > 1.5 * radius) { discard; }
     added = vec4(0.0, 0.0, foam * share, 0.0);
   }`;
 
@@ -110,17 +109,8 @@ export class GlFluidDepth {
   #buffer = null;
   #capacity = 0;
   #clear = new THREE.Color(0);
-  #material = new THREE.ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT, glslVersion: THREE.GLSL3, blending: THREE.NoBlending,
-    uniforms: {low: {value: new THREE.Vector3()}, high: {value: new THREE.Vector3()}, nearest: {value: 0}},
-  });
-
-  #foam = new THREE.ShaderMaterial({
-    vertexShader: FOAM_VERTEX, fragmentShader: FOAM_FRAGMENT, glslVersion: THREE.GLSL3, transparent: true,
-    blending: THREE.CustomBlending, blendEquation: THREE.AddEquation, blendSrc: THREE.OneFactor, blendDst: THREE.OneFactor,
-    blendSrcAlpha: THREE.OneFactor, blendDstAlpha: THREE.OneFactor, depthTest: false, depthWrite: false,
-    uniforms: {front: {value: null}, size: {value: new THREE.Vector2()}, radius: {value: 1}},
-  });
+  #material = shader(VERTEX, FRAGMENT, {low: new THREE.Vector3(), high: new THREE.Vector3(), nearest: 0}, {blending: THREE.NoBlending});
+  #foam = shader(FOAM_VERTEX, FOAM_FRAGMENT, {front: null, size: new THREE.Vector2(), radius: 1}, ADDING);
 
   /** Brings shapes (`WaterShapes`) to the GPU. */
   update(shapes) {

@@ -43,23 +43,23 @@ const FRAGMENT = `
   float depthOf(vec2 at) { return depthIn(behindDepth, at); }
   /** With the edges of the tank, which no ray is to stop at. */
   float edgeDepth(vec2 at) { return min(depthOf(at), depthIn(bareDepth, at)); }
-  vec3 linear(vec3 colour) { return pow(max(colour, 0.0), vec3(2.2)); }
-  vec3 screen(vec3 colour) { return pow(max(colour, 0.0), vec3(1.0 / 2.2)); }
+  vec3 linear(vec3 colour) { return pow(max(colour, vec3(0.0)), vec3(2.2)); }
+  vec3 screen(vec3 colour) { return pow(max(colour, vec3(0.0)), vec3(1.0 / 2.2)); }
   /** Slope of 1 / depth along a step; at an edge, and where a wall begins, that of one side. */
   float slope(vec2 along, vec2 here) {
     vec2 after = texture(front, place + along).rg;
     vec2 before = texture(front, place - along).rg;
-    float up = after.r > 0.0 && after.g == here.g ? after.r - here.r : 1e3;
-    float down = before.r > 0.0 && before.g == here.g ? here.r - before.r : 1e3;
-    float best = abs(up) < abs(down) ? up : down;
+    float up = select(1e3, after.r - here.r, after.r > 0.0 && after.g == here.g);
+    float down = select(1e3, here.r - before.r, before.r > 0.0 && before.g == here.g);
+    float best = select(down, up, abs(up) < abs(down));
     // Even where it is smooth, one-sided where an edge is near, and softly from one to the other.
     float rough = abs(up - down) / (0.25 * spacing * here.r * here.r);
-    return abs(best) > 1e2 ? 0.0 : mix(0.5 * (up + down), best, clamp(rough, 0.0, 1.0));
+    return select(mix(0.5 * (up + down), best, clamp(rough, 0.0, 1.0)), 0.0, abs(best) > 1e2);
   }
   float random(vec3 at) { return fract(sin(dot(at, vec3(12.9898, 78.233, 37.719))) * 43758.5453); }
   float noise(vec3 at) {
     vec3 cell = floor(at);
-    vec3 share = smoothstep(0.0, 1.0, at - cell);
+    vec3 share = smoothstep(vec3(0.0), vec3(1.0), at - cell);
     vec4 back = vec4(random(cell), random(cell + vec3(1, 0, 0)), random(cell + vec3(0, 1, 0)), random(cell + vec3(1, 1, 0)));
     cell.z += 1.0;
     vec4 front_ = vec4(random(cell), random(cell + vec3(1, 0, 0)), random(cell + vec3(0, 1, 0)), random(cell + vec3(1, 1, 0)));
@@ -67,19 +67,19 @@ const FRAGMENT = `
     return mix(mix(both.x, both.y, share.x), mix(both.z, both.w, share.x), share.y);
   }
   vec2 seenAt(vec3 at) { return (at.xy / -at.z / tangent - shift) * 0.5 + 0.5; }
-  float isBefore(float depth, float here) { return depth * here < 1.003 ? 1.0 : 0.0; }
+  float isBefore(float depth, float here) { return select(0.0, 1.0, depth * here < 1.003); }
   void main() {
     vec3 plain = texture(behind, place).rgb;
     vec2 water = texture(front, place).rg;
     float here = water.r;
     shown = vec4(plain, 1.0);
-    if (here <= 0.0) return;
+    if (here <= 0.0) { return; }
     // How much of the pixel is before the water: edges and thin lines have many depths and only one is known.
     float before = isBefore(edgeDepth(place), here) * 2.0 + isBefore(edgeDepth(place + vec2(step_.x, 0.0)), here)
         + isBefore(edgeDepth(place - vec2(step_.x, 0.0)), here) + isBefore(edgeDepth(place + vec2(0.0, step_.y)), here)
         + isBefore(edgeDepth(place - vec2(0.0, step_.y)), here);
     before = min(1.0, before / 5.0);
-    if (before == 1.0) return;
+    if (before == 1.0) { return; }
     float depth = 1.0 / here;
     vec2 device = place * 2.0 - 1.0 + shift;
     vec2 grow = vec2(slope(vec2(step_.x, 0.0), water), slope(vec2(0.0, step_.y), water)) / (2.0 * step_);
@@ -87,16 +87,16 @@ const FRAGMENT = `
     vec3 normal = normalize(vec3(-grow / tangent, here - dot(device, grow)));
     vec3 eye = vec3(device * tangent, -1.0) * depth;
     vec3 view = normalize(eye);
-    if (dot(normal, view) > -0.02) normal = normalize(normal - view * (dot(normal, view) + 0.02));
+    if (dot(normal, view) > -0.02) { normal = normalize(normal - view * (dot(normal, view) + 0.02)); }
     vec4 splat = texture(volume, place);
     float thickness = splat.r;
     // Refraction: along the bent ray to what it hits, or to where it leaves the tank; spray ends with its own thickness.
     vec3 bent = refract(view, normal, 1.0 / 1.333);
-    vec3 from = (toWorld * vec4(eye, 1.0)).xyz;
-    vec3 along = mat3(toWorld) * bent;
-    vec3 exits = max((low - from) / along, (high - from) / along);
+    vec3 begin_ = (toWorld * vec4(eye, 1.0)).xyz;
+    vec3 along = rotation(toWorld) * bent;
+    vec3 exits = max((low - begin_) / along, (high - begin_) / along);
     float leave = max(0.0, min(exits.x, min(exits.y, exits.z)));
-    float reach = leave < 1e3 ? mix(thickness, leave, smoothstep(1.0, 3.0, thickness / spacing)) : thickness;
+    float reach = select(thickness, mix(thickness, leave, smoothstep(1.0, 3.0, thickness / spacing)), leave < 1e3);
     vec2 there = place;
     float path = reach;
     float stride = reach / float(STEPS);
@@ -106,7 +106,7 @@ const FRAGMENT = `
       float far = stride * float(i);
       vec3 at = eye + bent * far;
       vec2 next = seenAt(at);
-      if (at.z > -0.02 || next != clamp(next, 0.0, 1.0)) break;
+      if (at.z > -0.02 || differ(next, clamp(next, vec2(0.0), vec2(1.0)))) { break; }
       bool isBefore_ = -at.z <= depthOf(next);
       if (!isBefore_ && wasBefore) {
         // It went through something, or behind it: the first only if it comes close.
@@ -114,7 +114,7 @@ const FRAGMENT = `
         for (int k = 0; k < 6; k++) {
           float middle = 0.5 * (back + far);
           vec3 half_ = eye + bent * middle;
-          if (-half_.z > depthOf(seenAt(half_))) far = middle; else back = middle;
+          if (-half_.z > depthOf(seenAt(half_))) { far = middle; } else { back = middle; }
         }
         vec3 found = eye + bent * far;
         vec2 hit = seenAt(found);
@@ -129,17 +129,17 @@ const FRAGMENT = `
     }
     // Else it sees the tank alone: what a body hides from here it may not hide from the bent ray.
     vec2 last = clamp(seenAt(eye + bent * reach), step_, 1.0 - step_);
-    vec3 through = linear(isHit ? texture(behind, there).rgb : texture(bare, last).rgb);
+    vec3 through = linear(select(texture(bare, last).rgb, texture(behind, there).rgb, isHit));
     // Absorption by Beer and Lambert: red first; and what the water itself sends back.
-    float tint = splat.a > 1e-4 ? splat.g / splat.a : 0.0;
+    float tint = select(0.0, splat.g / splat.a, splat.a > 1e-4);
     vec3 body = mix(linear(deep), linear(texture(scale, vec2(tint * 0.996 + 0.002, 0.5)).rgb), tinted);
     vec3 clear = exp(-density * path * mix(vec3(1.7, 0.6, 0.42), vec3(1.4), tinted * 0.75));
-    vec3 world = normalize(mat3(toWorld) * normal);
+    vec3 world = normalize(rotation(toWorld) * normal);
     float lit = 0.62 + 0.38 * max(0.0, dot(world, lamp));
     vec3 colour = through * clear + body * lit * (1.0 - exp(-density * path * mix(0.9, 1.5, tinted)));
     // Fresnel by Schlick, and a mirrored sky.
     vec3 mirrored = reflect(view, normal);
-    vec3 away = normalize(mat3(toWorld) * mirrored);
+    vec3 away = normalize(rotation(toWorld) * mirrored);
     float fresnel = 0.02 + 0.98 * pow(1.0 - clamp(-dot(view, normal), 0.0, 1.0), 5.0);
     vec3 sky = linear(skyOf(away));
     colour = mix(colour, sky, fresnel);

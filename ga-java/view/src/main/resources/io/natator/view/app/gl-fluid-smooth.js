@@ -18,7 +18,7 @@ const FRAGMENT = `
     smoothed = texture(source, place);
     float here = smoothed.r;
     // What is cut off by a wall is flat, and its edge sharp.
-    if (here <= 0.0 || smoothed.g > 0.0) return;
+    if (here <= 0.0 || smoothed.g > 0.0) { return; }
     float width = range * here * here;
     float low = here - width;
     float high = here + width;
@@ -35,7 +35,7 @@ const FRAGMENT = `
       open_ *= 1.0 - max(first.g, second.g);
       // Not all at once: a sharp end would be seen as a line.
       open_ *= smoothstep(-1.0, 0.0, (farther - low) / width);
-      float weight = open_ * (i == 1 ? 0.25 : 0.0625);
+      float weight = open_ * select(0.0625, 0.25, i == 1);
       one = min(one, high);
       other = min(other, high);
       sum += weight * (one + other);

@@ -2,6 +2,7 @@
 
 import * as THREE from 'three';
 import {Pass} from './gl-pass.js';
+import {ADDING, shader} from './gl-shader.js';
 
 const VERTEX = `
   in float value;
@@ -19,7 +20,6 @@ const VERTEX = `
 
 /** Length of water along the ray through a soft ball whose volume is the particle's; see van der Laan and others, 2009. */
 const FRAGMENT = `
-  precision highp float;
   uniform sampler2D front;
   uniform vec2 size;
   uniform vec2 range;
@@ -27,15 +27,15 @@ const FRAGMENT = `
   uniform float radius;
   in float distance_;
   in float shade;
-  layout(location = 0) out vec4 added;
+  out vec4 added;
   void main() {
     vec2 side = gl_PointCoord * 2.0 - 1.0;
     float square = dot(side, side);
-    if (square > 1.0) discard;
+    if (square > 1.0) { discard; }
     vec2 place = gl_FragCoord.xy / size;
     float share = (1.0 - square) * (1.0 - square);
     float nearest = texture(front, place).r;
-    float weight = nearest <= 0.0 ? 0.0 : share * exp(-max(0.0, distance_ * nearest - 1.0) / (nearest * radius));
+    float weight = select(0.0, share * exp(-max(0.0, distance_ * nearest - 1.0) / (nearest * radius)), nearest > 0.0);
     float tint = clamp((shade - range.x) / (range.y - range.x), 0.0, 1.0);
     added = vec4(peak * share, weight * tint, 0.0, weight);
   }`;
@@ -44,13 +44,9 @@ const BLUR = `
   uniform sampler2D source;
   uniform vec2 along;
   out vec4 blurred;
+  vec4 both(float far) { return texture(source, place + far * along) + texture(source, place - far * along); }
   void main() {
-    vec4 sum = 0.2 * texture(source, place);
-    float weight[3] = float[3](0.2, 0.13, 0.07);
-    for (int i = 1; i <= 3; i++) {
-      sum += weight[i - 1] * (texture(source, place + float(i) * along) + texture(source, place - float(i) * along));
-    }
-    blurred = sum;
+    blurred = 0.2 * (texture(source, place) + both(1.0)) + 0.13 * both(2.0) + 0.07 * both(3.0);
   }`;
 
 /** Radius of a soft ball, in spacings. */
@@ -62,15 +58,8 @@ export class GlFluidVolume {
   #points = null;
   #clear = new THREE.Color(0);
   #blur = new Pass(BLUR, {source: null, along: new THREE.Vector2()});
-  #material = new THREE.ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT, glslVersion: THREE.GLSL3, transparent: true,
-    blending: THREE.CustomBlending, blendEquation: THREE.AddEquation, blendSrc: THREE.OneFactor, blendDst: THREE.OneFactor,
-    blendSrcAlpha: THREE.OneFactor, blendDstAlpha: THREE.OneFactor, depthTest: false, depthWrite: false,
-    uniforms: {
-      front: {value: null}, size: {value: new THREE.Vector2()},
-      range: {value: new THREE.Vector2()}, peak: {value: 1}, radius: {value: 1}, pixelsPerUnit: {value: 1},
-    },
-  });
+  #material = shader(VERTEX, FRAGMENT,
+      {front: null, size: new THREE.Vector2(), range: new THREE.Vector2(), peak: 1, radius: 1, pixelsPerUnit: 1}, ADDING);
 
   /** Draws the points of this geometry (`PlaceBuffer`) from now on. */
   setScene(scene, geometry) {

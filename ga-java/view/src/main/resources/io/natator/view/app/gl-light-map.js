@@ -1,7 +1,7 @@
 /** Light that falls through the water onto what is below it: gathered and spread by waves, and held back by bodies. */
 
 import * as THREE from 'three';
-import {SHAPE_NUMBERS} from './water-shape.js';
+import {SHAPE_NUMBERS} from './water-numbers.js';
 
 /** Width of a cell in spacings of the water, and most cells along a side. */
 const CELL = 0.5;
@@ -140,8 +140,8 @@ export class GlLightMap {
   static CODE = `
     float lightAt(sampler2D map, vec4 tank, vec3 place) {
       vec2 at = (place.xz - tank.xy) / (tank.zw - tank.xy);
-      if (at.x < 0.0 || at.y < 0.0 || at.x > 1.0 || at.y > 1.0) return 1.0;
-      vec4 texel = texture2D(map, at);
+      if (at.x < 0.0 || at.y < 0.0 || at.x > 1.0 || at.y > 1.0) { return 1.0; }
+      vec4 texel = texture(map, at);
       return texel.r * ${MOST.toFixed(2)} * (1.0 - 0.55 * texel.g);
     }`;
 

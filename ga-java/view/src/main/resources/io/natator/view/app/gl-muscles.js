@@ -3,33 +3,34 @@
 import * as THREE from 'three';
 import {SCALES, scaleBytes} from './colours.js';
 import {MUSCLE_WIDTH, bodySpacing, distinctMuscles, muscleChange} from './scene.js';
+import {shader} from './gl-shader.js';
 import {scaleTexture} from './gl-spheres.js';
 
 const VERTEX = `
-  attribute vec3 start;
-  attribute vec3 end;
-  attribute float change;
+  in vec3 start;
+  in vec3 end;
+  in float change;
   uniform float width;
   uniform sampler2D scale;
-  varying vec3 colour;
-  varying float across;
+  out vec3 colour;
+  out float across;
   void main() {
     vec4 a = modelViewMatrix * vec4(start, 1.0);
     vec4 b = modelViewMatrix * vec4(end, 1.0);
     vec2 along = b.xy / -b.z - a.xy / -a.z;
     vec2 side = vec2(-along.y, along.x) / max(length(along), 1e-6);
     vec4 eye = mix(a, b, position.x);
-    eye.xy += width * position.y * side;
-    gl_Position = projectionMatrix * eye;
-    colour = texture2D(scale, vec2(0.5 + 0.498 * change, 0.5)).rgb;
+    gl_Position = projectionMatrix * (eye + vec4(width * position.y * side, 0.0, 0.0));
+    colour = texture(scale, vec2(0.5 + 0.498 * change, 0.5)).rgb;
     across = position.y;
   }`;
 
 const FRAGMENT = `
-  varying vec3 colour;
-  varying float across;
+  in vec3 colour;
+  in float across;
+  out vec4 shown;
   void main() {
-    gl_FragColor = vec4(colour * (1.0 - 0.35 * across * across), 1.0);
+    shown = vec4(colour * (1.0 - 0.35 * across * across), 1.0);
   }`;
 
 /** One ribbon for each pair of particles that muscles join, seen through the body. */
@@ -39,10 +40,8 @@ export class GlMuscles {
   #end;
   #change;
   #mesh = null;
-  #material = new THREE.ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide, depthTest: false, depthWrite: false,
-    uniforms: {width: {value: 1}, scale: {value: scaleTexture(scaleBytes(SCALES.diverging))}},
-  });
+  #material = shader(VERTEX, FRAGMENT, {width: 1, scale: scaleTexture(scaleBytes(SCALES.diverging))},
+      {side: THREE.DoubleSide, depthTest: false, depthWrite: false});
 
   /** What to add to a scene of three.js. */
   object = new THREE.Group();

@@ -1,6 +1,7 @@
 /** Passes over the whole screen: a fragment shader that reads textures and writes a target. */
 
 import * as THREE from 'three';
+import {shader} from './gl-shader.js';
 
 const VERTEX = `
   out vec2 place;
@@ -15,17 +16,14 @@ const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2));
 quad.frustumCulled = false;
 world.add(quad);
 
-/** One fragment shader (GLSL ES 3) with `in vec2 place`, 0 to 1 over the target; `uniforms` are its own, by name. */
+/** One fragment shader (see gl-shader.js) with `in vec2 place`, 0 to 1 over the target; `uniforms` are its own, by name. */
 export class Pass {
   #material;
 
   /** `blending` is one of three.js; none unless given. */
   constructor(fragmentShader, values, blending = THREE.NoBlending) {
-    this.#material = new THREE.ShaderMaterial({
-      vertexShader: VERTEX, fragmentShader: `precision highp float;\nin vec2 place;\n${fragmentShader}`,
-      uniforms: Object.fromEntries(Object.entries(values).map(([name, value]) => [name, {value}])),
-      glslVersion: THREE.GLSL3, blending, transparent: blending !== THREE.NoBlending, depthTest: false, depthWrite: false,
-    });
+    this.#material = shader(VERTEX, `\nin vec2 place;\n${fragmentShader}`, values,
+        {blending, transparent: blending !== THREE.NoBlending, depthTest: false, depthWrite: false});
   }
 
   get uniforms() {

@@ -1,7 +1,6 @@
-/** Draws with WebGL, through three.js. */
+/** Draws with the graphics card: a scene of three.js, and water over it. */
 
 import * as THREE from 'three';
-import {Fence} from './gl-fence.js';
 import {GlBody} from './gl-body.js';
 import {GlLightMap} from './gl-light-map.js';
 import {GlMuscles} from './gl-muscles.js';
@@ -23,33 +22,12 @@ const PLAIN_SHARE = 0.65;
 /** Samples of a picture that rests. */
 const SAMPLES = 16;
 
-/** Names of what draws without a graphics card. */
-const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
-
-let known = null;
-
-/** Whether WebGL is there and a graphics card behind it. */
-export function hasGraphicsCard() {
-  known ??= findGraphicsCard();
-  return known;
-}
-
-function findGraphicsCard() {
-  const context = document.createElement('canvas').getContext('webgl2');
-  if (context === null) {
-    return false;
-  }
-  const info = context.getExtension('WEBGL_debug_renderer_info');
-  const name = info === null ? '' : context.getParameter(info.UNMASKED_RENDERER_WEBGL);
-  context.getExtension('WEBGL_lose_context')?.loseContext();
-  return !SOFTWARE.test(name);
-}
-
 /** The direction to the lamp of bodies; what water mirrors lies opposite, where glints are seen. */
 const LAMP = new THREE.Vector3(-0.3, 0.85, 0.5).normalize();
 
-/** One canvas; throws where there is no WebGL. The same methods as `PlainPicture`. */
+/** One canvas. The same methods as `PlainPicture`. */
 export class GlPicture {
+  #drawing;
   #renderer;
   #world = new THREE.Scene();
   #water;
@@ -71,13 +49,11 @@ export class GlPicture {
   #scene = null;
   #solids = [];
   #map;
-  #fence;
 
-  constructor(canvas, trace, field) {
-    this.#renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false, powerPreference: 'high-performance'});
-    this.#renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
-    this.#renderer.autoClear = false;
-    this.#fence = new Fence(this.#renderer.getContext());
+  /** `drawing` is what draws: a `WebGlDrawing` or a `WebGpuDrawing`. */
+  constructor(drawing, trace, field) {
+    this.#drawing = drawing;
+    this.#renderer = drawing.renderer;
     this.#water = new GlWater(field);
     this.#map = new GlLightMap(LAMP);
     this.#tank.light = this.#map.texture;
@@ -88,7 +64,7 @@ export class GlPicture {
 
   /** What draws, for people. */
   get name() {
-    return 'WebGL';
+    return this.#drawing.name;
   }
 
   setScene(scene) {
@@ -142,14 +118,13 @@ export class GlPicture {
 
   /** Whether the card still draws. */
   get isBusy() {
-    return this.#fence.isBusy;
+    return this.#drawing.isBusy;
   }
 
   /** Draws a frame; water nearer than `from` is left out. */
   draw(frame, camera, from) {
     this.#last = () => this.#render(frame, camera, from, null);
-    this.#last();
-    this.#fence.set();
+    this.show();
   }
 
   /** Draws another sample of a picture that rests, moved by less than a pixel, and shows the mean of those so far. */
@@ -161,13 +136,13 @@ export class GlPicture {
     camera.clearViewOffset();
     this.#refined.add(this.#renderer, sample);
     this.#last = () => this.#refined.show(this.#renderer);
-    this.#last();
-    this.#fence.set();
+    this.show();
   }
 
   /** Makes the canvas hold what was drawn last, until the browser shows it. */
   show() {
     this.#last();
+    this.#drawing.finish();
   }
 
   #render(frame, camera, from, to) {
@@ -205,7 +180,6 @@ export class GlPicture {
     this.#water.dispose();
     this.#body.dispose();
     this.#map.dispose();
-    this.#renderer.dispose();
-    this.#renderer.forceContextLoss();
+    this.#drawing.dispose();
   }
 }

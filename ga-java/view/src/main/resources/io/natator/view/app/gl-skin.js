@@ -3,18 +3,19 @@
 import * as THREE from 'three';
 import {BodySkin} from './body-skin.js';
 import {SCALES, scaleBytes} from './colours.js';
+import {shader} from './gl-shader.js';
 import {scaleTexture} from './gl-spheres.js';
 import {MuscleColours} from './muscle-colours.js';
 import {bodySpacing, solidKinds} from './scene.js';
 import {SkinMotion} from './skin.js';
 
 const VERTEX = `
-  attribute vec3 tint;
-  attribute float change;
-  varying vec3 colour;
-  varying float muscle;
-  varying vec3 facing;
-  varying vec3 place;
+  in vec3 tint;
+  in float change;
+  out vec3 colour;
+  out float muscle;
+  out vec3 facing;
+  out vec3 place;
   void main() {
     vec4 eye = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * eye;
@@ -28,22 +29,23 @@ const FRAGMENT = `
   uniform sampler2D scale;
   uniform float muscles;
   uniform vec3 lamp;
-  varying vec3 colour;
-  varying float muscle;
-  varying vec3 facing;
-  varying vec3 place;
+  in vec3 colour;
+  in float muscle;
+  in vec3 facing;
+  in vec3 place;
+  out vec4 shown;
   void main() {
     vec3 normal = normalize(facing);
     vec3 view = normalize(-place);
     vec3 light = normalize((viewMatrix * vec4(lamp, 0.0)).xyz);
     vec3 up = (viewMatrix * vec4(0.0, 1.0, 0.0, 0.0)).xyz;
-    vec3 base = mix(colour, texture2D(scale, vec2(0.5 + 0.498 * muscle, 0.5)).rgb, muscles);
+    vec3 base = mix(colour, texture(scale, vec2(0.5 + 0.498 * muscle, 0.5)).rgb, muscles);
     float round_ = 0.5 + 0.5 * dot(normal, light);
     float sky = 0.5 + 0.5 * dot(normal, up);
     vec3 lit = base * (0.4 + 0.2 * sky + 0.48 * round_ * round_);
     float gloss = pow(max(0.0, dot(normal, normalize(light + view))), 38.0);
     float rim = pow(1.0 - max(0.0, dot(normal, view)), 3.0);
-    gl_FragColor = vec4(lit + 0.2 * gloss + 0.14 * rim * mix(base, vec3(1.0), 0.5), 1.0);
+    shown = vec4(lit + 0.2 * gloss + 0.14 * rim * mix(base, vec3(1.0), 0.5), 1.0);
   }`;
 
 /** One mesh; it is built with the first frame of a scene. */
@@ -51,13 +53,8 @@ export class GlSkin {
   #scene = null;
   #motion = null;
   #muscles = null;
-  #material = new THREE.ShaderMaterial({
-    vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide,
-    uniforms: {
-      scale: {value: scaleTexture(scaleBytes(SCALES.diverging))}, muscles: {value: 1},
-      lamp: {value: new THREE.Vector3(0, 1, 0)},
-    },
-  });
+  #material = shader(VERTEX, FRAGMENT,
+      {scale: scaleTexture(scaleBytes(SCALES.diverging)), muscles: 1, lamp: new THREE.Vector3(0, 1, 0)}, {side: THREE.DoubleSide});
 
   /** What to add to a scene of three.js. */
   object = new THREE.Mesh(new THREE.BufferGeometry(), this.#material);

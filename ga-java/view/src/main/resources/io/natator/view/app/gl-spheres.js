@@ -1,30 +1,32 @@
 /** Particles as shaded discs that look like spheres: one point each, no geometry. */
 
 import * as THREE from 'three';
+import {shader} from './gl-shader.js';
 
 const VERTEX = `
-  attribute float value;
+  in float value;
   uniform float radius;
   uniform float pixelsPerUnit;
   uniform sampler2D scale;
   uniform vec2 range;
-  varying vec3 colour;
+  out vec3 colour;
   void main() {
     vec4 eye = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * eye;
     gl_PointSize = max(1.0, 2.0 * radius * pixelsPerUnit / -eye.z);
-    colour = texture2D(scale, vec2((value - range.x) / (range.y - range.x) * 0.996 + 0.002, 0.5)).rgb;
+    colour = texture(scale, vec2((value - range.x) / (range.y - range.x) * 0.996 + 0.002, 0.5)).rgb;
   }`;
 
 const FRAGMENT = `
   uniform float opacity;
-  varying vec3 colour;
+  in vec3 colour;
+  out vec4 shown;
   void main() {
     vec2 side = gl_PointCoord * 2.0 - 1.0;
     float square = dot(side, side);
-    if (square > 1.0) discard;
+    if (square > 1.0) { discard; }
     float light = 0.62 + 0.42 * sqrt(1.0 - square) - 0.16 * side.y - 0.08 * side.x;
-    gl_FragColor = vec4(colour * light, opacity);
+    shown = vec4(colour * light, opacity);
   }`;
 
 /** A texture of a colour scale, for `scale`. */
@@ -66,16 +68,6 @@ export class PlaceBuffer {
 
 /** Material of spheres; `uniforms.scale`, `range`, `radius`, `pixelsPerUnit` and `opacity` can be changed. */
 export function sphereMaterial(scale, radius, opacity) {
-  return new THREE.ShaderMaterial({
-    vertexShader: VERTEX,
-    fragmentShader: FRAGMENT,
-    uniforms: {
-      scale: {value: scale},
-      range: {value: new THREE.Vector2(0, 1)},
-      radius: {value: radius},
-      pixelsPerUnit: {value: 1},
-      opacity: {value: opacity},
-    },
-    transparent: opacity < 1,
-  });
+  return shader(VERTEX, FRAGMENT, {scale, range: new THREE.Vector2(0, 1), radius, pixelsPerUnit: 1, opacity},
+      {transparent: opacity < 1});
 }

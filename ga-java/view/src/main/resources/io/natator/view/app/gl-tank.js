@@ -2,10 +2,11 @@
 
 import * as THREE from 'three';
 import {GlLightMap} from './gl-light-map.js';
+import {shader} from './gl-shader.js';
 import {MARK_SPACING, tankLines} from './scene.js';
 
 const FLOOR_VERTEX = `
-  varying vec3 place;
+  out vec3 place;
   void main() {
     place = position;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
@@ -20,31 +21,36 @@ const FLOOR_FRAGMENT = `
   uniform float spacing;
   uniform float reach;
   uniform sampler2D map;
-  varying vec3 place;
+  in vec3 place;
+  out vec4 shown;
   ${GlLightMap.CODE}
   void main() {
     vec2 beyond = max(tank.xy - place.xz, place.xz - tank.zw);
-    float off = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0);
+    float off = length(max(beyond, vec2(0.0))) + min(max(beyond.x, beyond.y), 0.0);
     vec2 cell = place.xz / spacing;
     vec2 line = abs(fract(cell - 0.5) - 0.5) / (fwidth(cell) * 1.2);
     float mark = (1.0 - min(min(line.x, line.y), 1.0)) * step(off, 0.0);
     vec3 colour = mix(floor_, marks, mark);
     colour *= lightAt(map, tank, place);
     colour *= 1.0 - 0.16 * exp(-max(off, 0.0) * 5.0) * step(0.0, off);
-    gl_FragColor = vec4(mix(colour, background, smoothstep(0.0, reach, off)), 1.0);
+    shown = vec4(mix(colour, background, smoothstep(0.0, reach, off)), 1.0);
   }`;
+
+const EDGE_VERTEX = `
+  void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
+
+const EDGE_FRAGMENT = `
+  uniform vec3 ink;
+  out vec4 shown;
+  void main() { shown = vec4(ink, 1.0); }`;
 
 /** A box without a lid, drawn as lines over a floor. */
 export class GlTank {
-  #floor = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
-    vertexShader: FLOOR_VERTEX, fragmentShader: FLOOR_FRAGMENT, side: THREE.DoubleSide,
-    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4,
-    uniforms: {
-      floor_: {value: new THREE.Color()}, marks: {value: new THREE.Color()}, background: {value: new THREE.Color()},
-      tank: {value: new THREE.Vector4()}, spacing: {value: MARK_SPACING}, reach: {value: 1}, map: {value: null},
-    },
-  }));
-  #edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
+  #floor = new THREE.Mesh(new THREE.BufferGeometry(), shader(FLOOR_VERTEX, FLOOR_FRAGMENT, {
+    floor_: new THREE.Color(), marks: new THREE.Color(), background: new THREE.Color(), tank: new THREE.Vector4(),
+    spacing: MARK_SPACING, reach: 1, map: null,
+  }, {side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4}));
+  #edges = new THREE.LineSegments(new THREE.BufferGeometry(), shader(EDGE_VERTEX, EDGE_FRAGMENT, {ink: new THREE.Color()}));
 
   /** What to add to a scene of three.js. */
   object = new THREE.Group();
@@ -85,7 +91,7 @@ export class GlTank {
     uniforms.floor_.value.set(floor);
     uniforms.marks.value.set(marks);
     uniforms.background.value.set(background);
-    this.#edges.material.color.set(edges);
+    this.#edges.material.uniforms.ink.value.set(edges);
   }
 }
 

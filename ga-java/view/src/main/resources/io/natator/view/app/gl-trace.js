@@ -1,6 +1,7 @@
 /** The spine's trace as thin lines. */
 
 import * as THREE from 'three';
+import {shader} from './gl-shader.js';
 import {HEAD_PLACES, SPINES} from './trace.js';
 
 /** Strength of faint lines. */
@@ -13,22 +14,19 @@ export class GlTrace {
   #slices = -1;
   #spines = null;
   #head = null;
-  #material = new THREE.ShaderMaterial({
-    vertexShader: `
-      attribute float strength;
-      varying float alpha;
+  #material = shader(`
+      in float strength;
+      out float alpha;
       void main() {
         alpha = strength;
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-      }`,
-    fragmentShader: `
+      }`, `
       uniform vec3 ink;
       uniform float share;
-      varying float alpha;
-      void main() { gl_FragColor = vec4(ink, share * alpha); }`,
-    uniforms: {ink: {value: new THREE.Color()}, share: {value: 1}},
-    transparent: true, depthTest: false, depthWrite: false,
-  });
+      in float alpha;
+      out vec4 shown;
+      void main() { shown = vec4(ink, share * alpha); }`,
+      {ink: new THREE.Color(), share: 1}, {transparent: true, depthTest: false, depthWrite: false});
 
   /** What to add to a scene of three.js. */
   object = new THREE.Group();

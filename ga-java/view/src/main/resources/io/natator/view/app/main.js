@@ -16,7 +16,7 @@ import {RunBrowser} from './runs.js';
 import {download, fileName, gaitText, sceneText} from './save.js';
 import {contents} from './scene.js';
 import {SolverControls, withoutSettings} from './solver.js';
-import {DEFAULT_LOOK} from './stage.js';
+import {DEFAULT_LOOK, lookOfAddress} from './stage.js';
 import {isSamePatch} from './swimmer.js';
 import {Theme} from './theme.js';
 import {View} from './view.js';
@@ -50,7 +50,7 @@ class Page {
 
   constructor(setup, memory) {
     this.#setup = setup;
-    this.#look = new LookControls({...DEFAULT_LOOK, ...memory.look}, () => this.#lookChanged());
+    this.#look = new LookControls({...DEFAULT_LOOK, ...memory.look, ...lookOfAddress()}, () => this.#lookChanged());
     this.#charts = new LiveCharts(setup.modes);
     this.#theme = new Theme(memory.theme ?? 'auto', () => this.#themeChanged());
     this.#gait = new GaitControls(gait => this.#view.setGait(gait));

@@ -1,22 +1,34 @@
-/** A picture of one scene: which frame, from where, how fine; drawn with WebGL or without. */
+/** A picture of one scene: which frame, from where, how fine; drawn with WebGPU, with WebGL or without. */
 
 import * as THREE from 'three';
 import {CameraRig} from './cameras.js';
 import {FieldValues} from './fields.js';
-import {GlPicture, hasGraphicsCard} from './gl-picture.js';
+import {GlPicture} from './gl-picture.js';
+import {gpuDevice, onGpuChange} from './gpu-device.js';
 import {PlainPicture} from './plain-picture.js';
 import {Quality} from './quality.js';
 import {centreOf, tankBounds} from './scene.js';
 import {SpineTrace} from './trace.js';
+import {WebGlDrawing, hasGraphicsCard} from './webgl-drawing.js';
+import {WebGpuDrawing} from './webgpu-drawing.js';
 
 /**
  * What can be chosen: water spheres, surface or none; body skin or particles; colour speed, density, mass or none; drawing
- * auto, webgl or plain.
+ * auto, webgpu, webgl or plain.
  */
 export const DEFAULT_LOOK = {
   water: hasGraphicsCard() ? 'surface' : 'spheres', body: 'skin', colour: 'speed', opacity: 0.55, cut: false, muscles: true, trace: true, quality: 'auto',
   drawing: 'auto',
 };
+
+/** Ways of drawing, each tried if the one before fails. */
+const DRAWINGS = ['webgpu', 'webgl', 'plain'];
+
+/** The part of a look that the address asks for: `?drawing=webgl`. */
+export function lookOfAddress() {
+  const drawing = new URLSearchParams(location.search).get('drawing');
+  return DRAWINGS.includes(drawing) ? {drawing} : {};
+}
 
 /** Drawings of the screen after which a picture that rests is refined: drawn again with all its pixels, and more samples. */
 const REST = 10;
@@ -41,6 +53,8 @@ export class Stage {
   #centre = [0, 0, 0];
   #last = 0;
   #isNew = true;
+  #isChoosing = false;
+  #forgetGpu;
   #rested = 0;
   #samples = 0;
   #isTooSlow = false;
@@ -53,6 +67,10 @@ export class Stage {
     this.#host = host;
     this.rig = new CameraRig(host);
     this.#field.onRange = range => this.onRange(range);
+    this.#forgetGpu = onGpuChange(() => {
+      this.#isChoosing = true;
+      this.#isNew = true;
+    });
     new ResizeObserver(() => {
       this.#isNew = true;
     }).observe(host);
@@ -77,7 +95,7 @@ export class Stage {
     return this.#samples;
   }
 
-  /** What draws: WebGL or processor. */
+  /** What draws: WebGPU, WebGL or processor. */
   get drawing() {
     return this.#picture?.name ?? '';
   }
@@ -132,6 +150,9 @@ export class Stage {
     if (this.#frame === null || this.#host.clientWidth === 0 || this.#host.clientHeight === 0) {
       return false;
     }
+    if (this.#isChoosing) {
+      this.#choosePicture();
+    }
     const {body} = this.#scene;
     this.rig.setBody(body.length > 0 ? centreOf(body, this.#frame.position, this.#centre) : null);
     this.rig.update(seconds, this.#host.clientWidth / this.#host.clientHeight);
@@ -164,7 +185,7 @@ export class Stage {
     if (this.#look.quality === 'auto' && this.#quality.drawn(now / 1000, milliseconds)) {
       this.#isNew = true;
     }
-    if (this.#quality.isHopeless && this.#look.drawing === 'auto' && this.#drawing === 'webgl') {
+    if (this.#quality.isHopeless && this.#look.drawing === 'auto' && this.#drawing !== 'plain') {
       this.#isTooSlow = true;
       this.#quality = new Quality();
       this.#choosePicture();
@@ -182,21 +203,38 @@ export class Stage {
     }
   }
 
+  /** The way to draw that the look and this machine ask for. */
+  #wantedDrawing() {
+    const {drawing} = this.#look;
+    const isCard = drawing === 'auto' && hasGraphicsCard() && !this.#isTooSlow;
+    if ((isCard || drawing === 'webgpu') && gpuDevice(drawing === 'webgpu') !== null) {
+      return 'webgpu';
+    }
+    return isCard || drawing === 'webgl' || drawing === 'webgpu' ? 'webgl' : 'plain';
+  }
+
+  /** Frees what it drew with. It is drawn no more. */
+  close() {
+    this.#forgetGpu();
+    this.#picture?.dispose();
+    this.#picture = null;
+  }
+
   #choosePicture() {
-    const wanted = this.#look.drawing === 'auto' ? hasGraphicsCard() && !this.#isTooSlow ? 'webgl' : 'plain' : this.#look.drawing;
+    this.#isChoosing = false;
+    const wanted = this.#wantedDrawing();
     if (this.#picture !== null && wanted === this.#drawing) {
       return;
     }
     this.#picture?.dispose();
-    const canvas = document.createElement('canvas');
-    this.#host.replaceChildren(canvas);
+    this.#picture = null;
     this.#drawing = wanted;
-    try {
-      this.#picture = new (wanted === 'webgl' ? GlPicture : PlainPicture)(canvas, this.#trace, this.#field);
-    } catch (error) {
-      console.warn(`without WebGL: ${error.message}`);
-      this.#host.replaceChildren(canvas.cloneNode());
-      this.#picture = new PlainPicture(this.#host.firstChild, this.#trace, this.#field);
+    for (const way of DRAWINGS.slice(DRAWINGS.indexOf(wanted))) {
+      try {
+        this.#picture ??= this.#newPicture(way);
+      } catch (error) {
+        console.warn(`without ${way}: ${error.message}`);
+      }
     }
     this.#share = 0;
     this.#picture.setLook(this.#look);
@@ -209,6 +247,16 @@ export class Stage {
     if (this.#bounds !== null) {
       this.#picture.setBounds(this.#bounds);
     }
+  }
+
+  #newPicture(way) {
+    const canvas = document.createElement('canvas');
+    this.#host.replaceChildren(canvas);
+    if (way === 'plain') {
+      return new PlainPicture(canvas, this.#trace, this.#field);
+    }
+    const drawing = way === 'webgpu' ? new WebGpuDrawing(canvas, gpuDevice(true)) : new WebGlDrawing(canvas);
+    return new GlPicture(drawing, this.#trace, this.#field);
   }
 
   /** Gives the canvas the size and detail that hold now. */

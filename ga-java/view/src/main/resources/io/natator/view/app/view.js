@@ -225,6 +225,7 @@ export class View {
 
   /** Ends the connection and with it the simulator. */
   close() {
+    this.stage.close();
     this.#connection.close();
   }
 

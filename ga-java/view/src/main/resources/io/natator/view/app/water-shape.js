@@ -4,8 +4,8 @@
  * Kernels, 2013), moved towards the mean of its neighbours. Spray is small balls.
  */
 
-/** Numbers of each shape: centre x, y, z, value; xx, yy, zz of its matrix, foam; xy, xz, yz of its matrix, and 0. */
-export const SHAPE_NUMBERS = 12;
+import {SHAPE_NUMBERS} from './water-numbers.js';
+import {Waterline} from './waterline.js';
 
 /** Radius of a ball, in spacings of particles. */
 const RADIUS = 0.95;
@@ -41,6 +41,7 @@ export class WaterShapes {
   #sorted = new Uint32Array(0);
   #cellOf = new Int32Array(0);
   #places = new Float32Array(0);
+  #line = new Waterline();
 
   /** `SHAPE_NUMBERS` for each shape: its surface is where (x - centre)^T S^-1 (x - centre) = 1 with its matrix S. */
   numbers = new Float32Array(0);
@@ -68,8 +69,9 @@ export class WaterShapes {
    * @param {{min: number[], max: number[]}} walls neighbours that are missing beyond these make no free surface
    */
   update(position, velocity, first, chosen, count, values, walls) {
-    if (this.numbers.length < SHAPE_NUMBERS * count) {
-      this.numbers = new Float32Array(SHAPE_NUMBERS * count);
+    const most = count + Waterline.most(walls, this.#spacing);
+    if (this.numbers.length < SHAPE_NUMBERS * most) {
+      this.numbers = new Float32Array(SHAPE_NUMBERS * most);
       this.#sorted = new Uint32Array(count);
       this.#cellOf = new Int32Array(count);
       this.#places = new Float32Array(3 * count);
@@ -88,10 +90,12 @@ export class WaterShapes {
           this.#ellipsoid(position, velocity, particle, this.#cellOf[i], at, walls.min, walls.max);
         } else {
           this.#ball(position, particle, at, RADIUS * this.#spacing);
+          this.numbers[at + 11] = side - 1;
         }
         this.numbers[at + 3] = values[chosen[i]];
       }
     }
+    this.count = this.#line.add(this.numbers, this.count, walls, this.#spacing);
   }
 
   /** Sorts particles by cell: those of cell c are `#sorted` from `#end[c - 1]` to before `#end[c]`. */
@@ -301,6 +305,7 @@ export class WaterShapes {
     const d = scale * xy;
     const e = scale * xz;
     const f = scale * yz;
+    numbers[at + 11] = whole === 1 ? 1 : 0;
     numbers[at + 4] = a * a + d * d + e * e;
     numbers[at + 5] = b * b + d * d + f * f;
     numbers[at + 6] = c * c + e * e + f * f;
