@@ -26,12 +26,13 @@ record Experiment(String group, String subject, String setting, SimulationReques
     }
 
     /**
-     * Runs to be recorded; the recorder of paths takes a shift of the start, no number.
+     * Runs to be recorded, for their whole time; the recorder of paths takes a shift of the start, no number.
      *
      * @param count how many
      */
     List<SimulationRequest> recordings(int count) {
-        return IntStream.rangeClosed(1, count).mapToObj(seed -> new SimulationRequest(0, request.scene(), request.gait(), request.duration(),
-                request.scheme(), request.overrides(), new Perturbation(SHIFT, seed))).toList();
+        SimulationRequest whole = request.withoutStops();
+        return IntStream.rangeClosed(1, count).mapToObj(seed -> new SimulationRequest(0, whole.scene(), whole.gait(), whole.duration(),
+                whole.scheme(), whole.overrides(), new Perturbation(SHIFT, seed))).toList();
     }
 }

@@ -126,7 +126,7 @@ final class ThesisReport {
     /** What a person wrote, marked as such. */
     private void addCommentary(ReportDocument page) {
         if (Files.exists(directory.resolve(COMMENTARY))) {
-            page.heading(2, "Commentary");
+            page.heading(2, "Discussion and limitations");
             page.text("Written by hand, from `" + COMMENTARY + "`; everything else on this page is computed.");
             addByHand(page, COMMENTARY);
         }
