@@ -22,7 +22,7 @@ TankEnds tank_ends(const std::vector<Plane>& planes, int axis) {
     for (const Plane& plane : planes) {
         if (!stands_across(plane, axis)) continue;
         if (plane.normal[axis] > 0)
-            ends.low.push_back(-plane.offset);
+            ends.low.push_back(0 - plane.offset);  // not -0
         else
             ends.high.push_back(plane.offset);
     }
