@@ -16,10 +16,14 @@ namespace {
     throw InputError("scene " + quoted(scene.name) + ": movingTank: " + what);
 }
 
+/// Then there is no end that it would have to be kept from.
+bool is_periodic(const Scene& scene, int axis) {
+    return std::any_of(scene.periodic.begin(), scene.periodic.end(),
+                       [axis](const PeriodicAxis& periodic) { return periodic.axis == axis; });
+}
+
 /// Where the two planes across an axis stand.
 std::pair<double, double> walls_across(const Scene& scene, int axis) {
-    for (const PeriodicAxis& periodic : scene.periodic)
-        if (periodic.axis == axis) refuse(scene, std::string("the tank is periodic along ") + name_of_axis(axis) + "; must have ends there");
     const TankEnds ends = tank_ends(scene.planes, axis);
     if (!ends.one_each()) refuse(scene, "planes: " + one_each_needed(ends, axis));
     return {ends.low.front(), ends.high.front()};
@@ -36,7 +40,7 @@ TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(mode
     const Eigen::Vector3d centre = rest_centre(model);
     const double reach = model.body.length / 2 + tank_.step + 2 * model.parameters.kernelSupport * model.parameters.fluidRestDistance;
     for (const int axis : {0, 2}) {
-        if (axis == 2 && !tank_.along_z) continue;
+        if ((axis == 2 && !tank_.along_z) || is_periodic(scene, axis)) continue;
         const auto [low, high] = walls_across(scene, axis);
         const double room = std::min(centre[axis] - low, high - centre[axis]);
         if (room < reach) {
