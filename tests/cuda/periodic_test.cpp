@@ -4,6 +4,7 @@
 #include "../native/bare_particles.h"
 #include "../native/periodic_models.h"
 #include "gpu_test.h"
+#include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
