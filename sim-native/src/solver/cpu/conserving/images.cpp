@@ -9,17 +9,20 @@ template <class Real>
 Images<Real>::Images(const Model& model) {
     for (const physics::Border<Real>& border : borders_of<Real>(model))
         borders_.push_back({eigen(border.surface.normal), border.surface.offset, border.shift});
+    next_.assign(borders_.size(), -1);
 }
 
 template <class Real>
 int Images<Real>::turned(int turn, int border) {
-    const auto [place, made] = next_.try_emplace({turn, border}, static_cast<int>(matrices_.size()));
-    if (made) {
-        const Border& by = borders_[border];
+    const std::size_t place = turn * borders_.size() + border;
+    if (next_[place] < 0) {
+        next_[place] = static_cast<int>(matrices_.size());
+        const auto& [normal, offset, shift] = borders_[border];
         const Matrix before = matrices_[turn];
-        matrices_.push_back(by.shift > 0 ? before : (Matrix::Identity() - 2 * by.normal * by.normal.transpose()) * before);
+        matrices_.push_back(shift > 0 ? before : (Matrix::Identity() - 2 * normal * normal.transpose()) * before);
+        next_.resize(next_.size() + borders_.size(), -1);
     }
-    return place->second;
+    return next_[place];
 }
 
 /// One border after the other, each of what is there by then.

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "natator/model.h"
@@ -45,7 +43,7 @@ private:
 
     std::vector<Border> borders_;
     std::vector<Matrix> matrices_{Matrix::Identity()};
-    std::map<std::pair<int, int>, int> next_;  ///< (turn, border) -> turn
+    std::vector<int> next_;  ///< of turn and border, at turn * borders + border: the turn of both, -1 before it is there
     std::vector<Image> images_;
 };
 
