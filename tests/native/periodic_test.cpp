@@ -1,11 +1,13 @@
 // Periodic tanks: what leaves at one end comes in at the other, and nothing can tell where the ends are.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "bare_particles.h"
 #include "evaluate/settled_state_key.h"
+#include "io/stream.h"
 #include "model/fit_to_water.h"
 #include "natator/evaluate.h"
 #include "natator/live.h"
@@ -296,6 +298,34 @@ TEST(Periodic, AStreamIsWhatAnEvaluationIs) {
     while (live.frames() < whole.frames) ASSERT_TRUE(live.frame());
     EXPECT_EQ(hash_text(state_hash(live.state())), hash_text(whole.hash));
     EXPECT_NEAR(live.distance(), whole.distance, 1e-9);
+}
+
+/// A frame tells the water around the swimmer, wherever that is: the same places but for whole lengths of the tank.
+TEST(Periodic, AStreamTellsTheWaterAroundTheSwimmer) {
+    LiveSimulation<float> live({"pool/creature-1", in_round_tank().dump(), tail_beat});
+    for (int k = 0; k < 6; ++k) ASSERT_TRUE(live.frame());
+    const Model& model = live.model();
+    const std::string message = stream_frame(live, {});
+    const std::size_t first = 8 + 72 + 4 * static_cast<std::size_t>(model.actuators);
+    ASSERT_EQ(message.size(), first + 12 * static_cast<std::size_t>(model.particles()));
+    const double centre = mean_x(model.body, live.state());
+    int moved = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        float told = 0;
+        std::memcpy(&told, &message[first + 12 * static_cast<std::size_t>(i)], sizeof told);
+        const double x = static_cast<double>(live.state().position[i].x()), lengths = (static_cast<double>(told) - x) / 2;
+        if (!model.is_fluid(i)) {
+            ASSERT_EQ(told, live.state().position[i].x());
+            continue;
+        }
+        ASSERT_LE(std::abs(static_cast<double>(told) - centre), 1 + 1e-6);
+        ASSERT_NEAR(lengths, std::round(lengths), 1e-6);
+        moved += std::abs(lengths) > 0.5;
+    }
+    EXPECT_GT(moved, 100);  // the swimmer's middle is not the tank's
+    const auto head = stream_scene(live, {});
+    EXPECT_EQ(head.at("periodic"), json::parse(R"({"x": [0, 2]})"));
+    EXPECT_EQ(head.at("planes").size(), 3u);
 }
 
 /// Where the ends are is part of the key of a settled start.
