@@ -76,7 +76,8 @@ ordered_json describe_skin(const Creature& creature, const Model& model) {
 std::string describe_periodic(const Scene& scene) {
     std::ostringstream text;
     for (const PeriodicAxis& periodic : scene.periodic)
-        text << (text.tellp() > 0 ? ", " : "") << name_of_axis(periodic.axis) << " from " << periodic.low << " to " << periodic.high;
+        text << (text.tellp() > 0 ? ", " : "") << name_of_axis(periodic.axis) << " from " << periodic.low << " to "
+             << periodic.high;
     return text.str();
 }
 

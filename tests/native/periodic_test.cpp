@@ -94,7 +94,8 @@ TEST(Periodic, TheEndsCanNotBeTold) {
         const Model model = stirred_periodic_water(axes);
         for (std::size_t k = 0; k < axes.size(); ++k) {
             const double half = model.periodic[k].length() / 2;
-            const State<double> here = after_frames<double>(model, 6), there = after_frames<double>(moved_on(model, k, half), 6);
+            const State<double> here = after_frames<double>(model, 6);
+            const State<double> there = after_frames<double>(moved_on(model, k, half), 6);
             EXPECT_LE(largest_difference(model, here, there, half * Eigen::Vector3d::Unit(axes[k])), 1e-10) << axes[k];
             EXPECT_GT(largest_difference(model, initial_state<double>(model), here, {0, 0, 0}), 0.05);
         }
@@ -211,7 +212,8 @@ TEST(Periodic, WhatABodyFeelsIsTheSameAtTheSeam) {
         Model model = cube_through_periodic_water(x);
         Body& body = model.body;
         body.particles = model.clusters.front().particles;
-        for (int k = 0; k < 3; ++k) body.slices.emplace_back(body.particles.begin() + 9 * k, body.particles.begin() + 9 * k + 9);
+        for (auto slice = body.particles.begin(); slice != body.particles.end(); slice += 9)
+            body.slices.emplace_back(slice, slice + 9);
         body.length = 0.3;
         const State<double> state = after_frames<double>(model, 6);
         const Sensing sensing{.flow = {{0, SkinPlace::Side::left}, {2, SkinPlace::Side::above}}, .within = 0.3};
@@ -265,7 +267,7 @@ Scene round_tank(const json& overrides = json::object()) {
     return load_scene("pool/creature-1", in_round_tank(overrides));
 }
 
-const Gait tail_beat{2, {0.8, 1}, {0, 0.75}, 1};
+const Gait round_beat{2, {0.8, 1}, {0, 0.75}, 1};
 
 TEST(Periodic, DistanceIsCountedAlongTheWay) {
     const Scene scene = round_tank();
@@ -283,7 +285,7 @@ TEST(Periodic, DistanceIsCountedAlongTheWay) {
         begun = true;
         last = mean;
     };
-    const Evaluation swim = evaluate(scene, tail_beat, options);
+    const Evaluation swim = evaluate(scene, round_beat, options);
     EXPECT_EQ(swim.stopped, StopReason::completed);
     EXPECT_NEAR(swim.distance, last - first, 1e-9);
     EXPECT_GT(swim.distance, 0.02);
@@ -293,8 +295,8 @@ TEST(Periodic, DistanceIsCountedAlongTheWay) {
 
 TEST(Periodic, AStreamIsWhatAnEvaluationIs) {
     const json overrides = in_round_tank({{"duration", 0.25}});
-    const Evaluation whole = evaluate(load_scene("pool/creature-1", overrides), tail_beat);
-    LiveSimulation<float> live({"pool/creature-1", overrides.dump(), tail_beat});
+    const Evaluation whole = evaluate(load_scene("pool/creature-1", overrides), round_beat);
+    LiveSimulation<float> live({"pool/creature-1", overrides.dump(), round_beat});
     while (live.frames() < whole.frames) ASSERT_TRUE(live.frame());
     EXPECT_EQ(hash_text(state_hash(live.state())), hash_text(whole.hash));
     EXPECT_NEAR(live.distance(), whole.distance, 1e-9);
@@ -302,7 +304,7 @@ TEST(Periodic, AStreamIsWhatAnEvaluationIs) {
 
 /// A frame tells the water around the swimmer, wherever that is: the same places but for whole lengths of the tank.
 TEST(Periodic, AStreamTellsTheWaterAroundTheSwimmer) {
-    LiveSimulation<float> live({"pool/creature-1", in_round_tank().dump(), tail_beat});
+    LiveSimulation<float> live({"pool/creature-1", in_round_tank().dump(), round_beat});
     for (int k = 0; k < 6; ++k) ASSERT_TRUE(live.frame());
     const Model& model = live.model();
     const std::string message = stream_frame(live, {});
@@ -330,7 +332,8 @@ TEST(Periodic, AStreamTellsTheWaterAroundTheSwimmer) {
 
 /// Where the ends are is part of the key of a settled start.
 TEST(Periodic, TheEndsBelongToASettledStart) {
-    const Model model = build_model(round_tank()), longer = build_model(round_tank({{"planes", {{0, 1, 0, 0}, {1, 0, 0, 0}, {-1, 0, 0, 2.05}, {0, 0, 1, 0}, {0, 0, -1, 1}}}}));
+    const json planes = {{0, 1, 0, 0}, {1, 0, 0, 0}, {-1, 0, 0, 2.05}, {0, 0, 1, 0}, {0, 0, -1, 1}};
+    const Model model = build_model(round_tank()), longer = build_model(round_tank({{"planes", planes}}));
     ASSERT_EQ(model.position, longer.position);
     EXPECT_FALSE(settled_state_key(model, {}, 4) == settled_state_key(longer, {}, 4));
     EXPECT_TRUE(settled_state_key(model, {}, 4) == settled_state_key(build_model(round_tank()), {}, 4));
@@ -348,7 +351,7 @@ TEST(Periodic, WithoutWaterNothingIsLeftToBePeriodic) {
     overrides["fluid"] = nullptr;
     const Scene scene = load_scene("pool/creature-1", overrides);
     EXPECT_TRUE(scene.periodic.empty());
-    EXPECT_LE(std::abs(evaluate(scene, tail_beat).distance), 1e-5);
+    EXPECT_LE(std::abs(evaluate(scene, round_beat).distance), 1e-5);
 }
 
 class BadPeriodic : public testing::TestWithParam<BadInput> {};
@@ -387,7 +390,7 @@ TEST(Periodic, AMovingTankMovesAlongAxesThatHaveEnds) {
     const auto swim = [](const json& moving) {
         json overrides = in_round_tank({{"duration", 0.25}});
         if (!moving.is_null()) overrides["movingTank"] = moving;
-        return evaluate(load_scene("pool/creature-1", overrides), tail_beat);
+        return evaluate(load_scene("pool/creature-1", overrides), round_beat);
     };
     const Evaluation still = swim(nullptr), flowing = swim({{"step", 0.001}, {"current", {-0.4, 0, 0.2}}});
     EXPECT_EQ(still.hash, flowing.hash);
@@ -398,7 +401,7 @@ TEST(Periodic, AMovingTankMovesAlongAxesThatHaveEnds) {
     json overrides = {{"periodic", {"z"}}, {"movingTank", {{"along", "xz"}, {"step", 0.0005}}}, {"fluid", {{"count", {40, 8, 18}}}},
                       {"planes", {{0, 1, 0, 0}, {1, 0, 0, 0}, {-1, 0, 0, 4}, {0, 0, 1, 0}, {0, 0, -1, 1.8}}},
                       {"creature", {{"rearCentre", {1.4, 0.4, 0.9}}}}, {"duration", 0.25}, {"settling", {{"updates", 2}}}};
-    EXPECT_GT(evaluate(load_scene("pool/creature-1", overrides), tail_beat).renewal->times, 0);
+    EXPECT_GT(evaluate(load_scene("pool/creature-1", overrides), round_beat).renewal->times, 0);
 }
 
 }  // namespace

@@ -147,7 +147,8 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     check_frames(scene, place);
     check_water(scene, place);
     if (has(document, "periodic"))
-        scene.periodic = fields::read_periodic(document.at("periodic"), place.key("periodic"), scene.fluid.has_value(), scene.planes);
+        scene.periodic = fields::read_periodic(document.at("periodic"), place.key("periodic"), scene.fluid.has_value(),
+                                               scene.planes);
     return scene;
 }
 

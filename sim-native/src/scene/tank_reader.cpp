@@ -22,11 +22,13 @@ MovingTank read_moving_tank(const json& value, const Place& place) {
 std::vector<PeriodicAxis> read_periodic(const json& value, const Place& place, bool water, std::vector<Plane>& planes) {
     if (!value.is_array()) refuse(place, value, "an array of axes, \"x\" or \"z\"");
     std::vector<PeriodicAxis> all;
+    std::vector<int> named;
     for (std::size_t i = 0; i < value.size(); ++i) {
         const Place at = place.item(i);
         const int axis = read_choice<int>(value[i], at, {{"x", 0}, {"z", 2}});
-        if (std::find(value.begin(), value.begin() + static_cast<std::ptrdiff_t>(i), value[i]) != value.begin() + static_cast<std::ptrdiff_t>(i))
+        if (std::any_of(named.begin(), named.end(), [axis](int other) { return other == axis; }))
             refuse(at, value[i], "named once");
+        named.push_back(axis);
         const TankEnds ends = tank_ends(planes, axis);
         if (!water && ends.none()) continue;
         if (!ends.one_each()) refuse(at, value[i], "an axis with walls to do without: " + one_each_needed(ends, axis));
