@@ -27,11 +27,7 @@ template <class Real>
 std::vector<physics::Border<Real>> borders_of(const Model& model) {
     std::vector<physics::Border<Real>> borders;
     for (const physics::Seam<Real>& seam : seams_of<Real>(model)) {
-        const auto towards = [&](Real direction) {
-            physics::Vec3<Real> normal{};
-            physics::along(normal, seam.axis) = direction;
-            return normal;
-        };
+        const auto towards = [&](Real direction) { return with(physics::Vec3<Real>{}, seam.axis, direction); };
         borders.push_back({{towards(1), -seam.low}, seam.length});
         borders.push_back({{towards(-1), seam.low + seam.length}, seam.length});
     }

@@ -39,19 +39,23 @@ NATATOR_HD R to_tank(const Seam<R>& seam, R x) {
 }
 
 template <class R>
-NATATOR_HD R& along(Vec3<R>& v, int axis) {
+NATATOR_HD R along(const Vec3<R>& v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+/// v with another value along an axis.
+template <class R>
+NATATOR_HD Vec3<R> with(const Vec3<R>& v, int axis, R value) {
+    return {axis == 0 ? value : v.x, axis == 1 ? value : v.y, axis == 2 ? value : v.z};
 }
 
 template <class R>
-NATATOR_HD Vec3<R> to_tank(const Seam<R>& seam, Vec3<R> x) {
-    along(x, seam.axis) = to_tank(seam, along(x, seam.axis));
-    return x;
+NATATOR_HD Vec3<R> to_tank(const Seam<R>& seam, const Vec3<R>& x) {
+    return with(x, seam.axis, to_tank(seam, along(x, seam.axis)));
 }
 
 /// Water itself is put back only where it has left.
 template <class R>
-NATATOR_HD Vec3<R> wrapped(const Seam<R>& seam, Vec3<R> x) {
+NATATOR_HD Vec3<R> wrapped(const Seam<R>& seam, const Vec3<R>& x) {
     return in_tank(seam, along(x, seam.axis)) ? x : to_tank(seam, x);
 }
 
