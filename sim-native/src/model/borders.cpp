@@ -29,7 +29,8 @@ std::vector<physics::Border<Real>> borders_of(const Model& model) {
     for (const physics::Seam<Real>& seam : seams_of<Real>(model)) {
         const auto towards = [&](Real direction) { return with(physics::Vec3<Real>{}, seam.axis, direction); };
         borders.push_back({{towards(1), -seam.low}, seam.length});
-        borders.push_back({{towards(-1), seam.low + seam.length}, seam.length});
+        // What is at the very end is the image of what is at the other, and has none itself.
+        borders.push_back({{towards(-1), seam.low + seam.length - seam.grain}, seam.length});
     }
     for (const Plane& plane : model.planes) {
         const auto& n = plane.normal;
