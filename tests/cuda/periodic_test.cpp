@@ -18,7 +18,10 @@ class GpuPeriodic : public OnGpu<> {};
 /// Ghosts through an end, through two, and through an end and a wall.
 TEST_F(GpuPeriodic, CornersAreTheCpus) {
     for (const std::vector<int>& axes : {std::vector<int>{0}, {2}, {0, 2}}) {
-        const Model model = stirred_periodic_water(axes);
+        Model model = stirred_periodic_water(axes);
+        for (const PeriodicAxis& axis : model.periodic)  // some on the very seam: they are there but once
+            for (Eigen::Vector3d& x : model.position)
+                if (std::abs(x[axis.axis] - axis.low) < 0.04) x[axis.axis] = axis.low;
         Solver<double> cpu(model);
         GpuSolver<double> gpu(model);
         State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu;
