@@ -17,6 +17,7 @@
 #include "natator/version.h"
 #include "natator/wave_gait.h"
 #include "scene/scene_json.h"
+#include "scene/tank_ends.h"
 
 namespace natator::cli {
 namespace {
@@ -72,6 +73,14 @@ ordered_json describe_skin(const Creature& creature, const Model& model) {
     return text.str();
 }
 
+std::string describe_periodic(const Scene& scene) {
+    std::ostringstream text;
+    for (const PeriodicAxis& periodic : scene.periodic)
+        text << (text.tellp() > 0 ? ", " : "") << name_of_axis(periodic.axis) << " from " << periodic.low << " to "
+             << periodic.high;
+    return text.str();
+}
+
 ordered_json describe_scene(const Scene& scene) {
     const Model model = build_model(scene);
     const SwimRecord tasks(scene, model);  // refuses a moving tank and goals that can't be
@@ -95,6 +104,7 @@ ordered_json describe_scene(const Scene& scene) {
     info["springs"] = model.springs.size();
     info["clusters"] = model.clusters.size();
     info["planes"] = model.planes.size();
+    if (!scene.periodic.empty()) info["periodic"] = describe_periodic(scene);
     if (scene.moving_tank) info["movingTank"] = scene.moving_tank->along_z ? "along x and z" : "along x";
     if (!scene.goals.empty()) {
         info["goals"] = ordered_json::array();

@@ -52,7 +52,7 @@ TEST(SceneTest, AllNamedScenesAreThere) {
         "goals/cruise",             "goals/hold",               "goals/reach",
         "goals/turn",
         "open-water/creature-1",    "open-water/creature-2",    "open-water/creature-3",
-        "open-water/creature-4",    "open-water/eel",           "open-water/ray",           "open-water/tadpole",
+        "open-water/creature-4",    "open-water/eel",           "open-water/periodic",      "open-water/ray",           "open-water/tadpole",
         "open-water/tuna",          "open-water/water",         "pool/creature-1",
         "pool/creature-2",          "pool/creature-3",          "pool/creature-4",
         "pool/eel",                 "pool/ray",                 "pool/tadpole",             "pool/tuna",

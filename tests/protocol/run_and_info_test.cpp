@@ -69,6 +69,17 @@ TEST(InfoTest, SaysWhatIsFittedToTheWater) {
     EXPECT_EQ(fitted.at("madeHeavier"), fitted.at("bodyParticles"));
 }
 
+TEST(InfoTest, TellsOfAxesThatHaveNoEnds) {
+    const Outcome outcome = run_simulator({"info", "open-water/periodic", "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json info = json::parse(outcome.out);
+    EXPECT_EQ(info.at("periodic"), "x from 0 to 2.4");
+    EXPECT_EQ(info.at("planes"), 3);
+    const Outcome refused = run_simulator({"run", "open-water/periodic", "--scheme", "flex"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("periodic: scheme = \"flex\": must be \"conserving\""), std::string::npos) << refused.err;
+}
+
 TEST(InfoTest, TellsOfTheMeshAndTheWaysABodyBends) {
     const Outcome outcome = run_simulator({"info", "pool/ray", "--json", "--overrides", R"({"creature":{"bend":"both","joint":"line"}})"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

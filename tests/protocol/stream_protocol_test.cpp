@@ -40,6 +40,7 @@ TEST(StreamTest, TheSceneIsComplete) {
                                             "solidRestDistance",
                                             "fluidRestDistance",
                                             "planes",
+                                            "periodic",
                                             "fields",
                                             "particles",
                                             "mass",

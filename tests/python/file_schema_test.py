@@ -49,7 +49,7 @@ SCENES = {
                        "digest": "DIGEST"},
                       {"shape": "mesh", "centre": [5, 1, 1], "file": HOOP, "length": 0.3}]},
     "a profile of numbers in a moving tank": {
-        "base": "pool/water", "movingTank": {"along": "xz", "step": 0.4, "current": [0.1, 0, -0.1]},
+        "base": "pool/water", "periodic": ["x"], "movingTank": {"along": "xz", "step": 0.4, "current": [0.1, 0, -0.1]},
         "creature": {"profile": {"length": 1.2, "height": 0.3, "width": 0.2, "joints": [0.3, 0.5]}, "bend": ["sideways"]}},
     "a profile of curves": {
         "base": "pool/water", "creature": {
@@ -62,7 +62,7 @@ SCENES = {
                      "digest": "DIGEST"}}},
     "a mesh by its length": {
         "base": "pool/water", "creature": {"mesh": {"file": "ray.obj", "length": 1.2, "joints": [0.3, 0.5]}}},
-    "nothing": {"base": "pool/eel", "fluid": None, "creature": None, "movingTank": None},
+    "nothing": {"base": "pool/eel", "fluid": None, "creature": None, "movingTank": None, "periodic": None},
 }
 
 

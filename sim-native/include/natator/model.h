@@ -70,6 +70,7 @@ struct Model {
     std::vector<Eigen::Vector3d> rest_position;  ///< for self_collide_filter; empty if no particle has it
 
     std::vector<Plane> planes;
+    std::vector<PeriodicAxis> periodic;  ///< at most one an axis; all planes are along them
     std::vector<Spring> springs;
     std::vector<Cluster> clusters;
     std::vector<Muscle> muscles;

@@ -192,6 +192,7 @@ struct Scene {
     double time_step = 1.0 / 60;   ///< one frame, s
     SolverParameters solver;
     std::vector<Plane> planes;
+    std::vector<PeriodicAxis> periodic;  ///< axes that have no ends; no planes stand across them
     std::optional<FluidBlock> fluid;
     std::optional<Creature> creature;
     Settling settling;

@@ -40,14 +40,22 @@ Grid grid_over(const Model& model, double search_distance) {
     return grid;
 }
 
-/// Of particles in the planes that they are nearer to than `distance`, as scheme `conserving` has them: as if how near one is to
-/// a plane did not depend on the others.
+/// Of particles in the planes and ends of periodic axes that they are nearer to than `distance`, as scheme `conserving` has
+/// them: as if how near one is to a plane did not depend on the others.
 double images_at_start(const Model& model, double distance) {
     const double particles = model.particles();
     double with_images = particles;
     for (const Plane& plane : model.planes) {
         double near = 0;
         for (const Eigen::Vector3d& place : model.position) near += plane.distance(place) < distance ? 1 : 0;
+        with_images *= 1 + near / particles;
+    }
+    for (const PeriodicAxis& periodic : model.periodic) {
+        double near = 0;
+        for (const Eigen::Vector3d& place : model.position) {
+            const double at = place[periodic.axis];
+            near += (at - periodic.low < distance ? 1 : 0) + (periodic.high - at < distance ? 1 : 0);
+        }
         with_images *= 1 + near / particles;
     }
     return with_images - particles;

@@ -7,30 +7,26 @@
 #include "io/strict_json.h"
 #include "natator/error.h"
 #include "natator/pose.h"
+#include "scene/tank_ends.h"
 
 namespace natator {
 namespace {
-
-constexpr double square = 1e-9;  // 1 - |cosine| of what stands across an axis
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& what) {
     throw InputError("scene " + quoted(scene.name) + ": movingTank: " + what);
 }
 
-const char* name_of(int axis) { return axis == 0 ? "x" : "z"; }
+/// Then there is no end that it would have to be kept from.
+bool is_periodic(const Scene& scene, int axis) {
+    return std::any_of(scene.periodic.begin(), scene.periodic.end(),
+                       [axis](const PeriodicAxis& periodic) { return periodic.axis == axis; });
+}
 
 /// Where the two planes across an axis stand.
 std::pair<double, double> walls_across(const Scene& scene, int axis) {
-    std::vector<double> low, high;
-    for (const Plane& plane : scene.planes) {
-        if (plane.normal[axis] > 1 - square) low.push_back(-plane.offset);
-        if (plane.normal[axis] < square - 1) high.push_back(plane.offset);
-    }
-    if (low.size() != 1 || high.size() != 1)
-        refuse(scene, std::string("planes: needs one plane at each end of the tank along ") + name_of(axis) + ", found " +
-                          std::to_string(low.size()) + " at the low end and " + std::to_string(high.size()) +
-                          " at the high end");
-    return {low.front(), high.front()};
+    const TankEnds ends = tank_ends(scene.planes, axis);
+    if (!ends.one_each()) refuse(scene, "planes: " + one_each_needed(ends, axis));
+    return {ends.low.front(), ends.high.front()};
 }
 
 }  // namespace
@@ -44,12 +40,12 @@ TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(mode
     const Eigen::Vector3d centre = rest_centre(model);
     const double reach = model.body.length / 2 + tank_.step + 2 * model.parameters.kernelSupport * model.parameters.fluidRestDistance;
     for (const int axis : {0, 2}) {
-        if (axis == 2 && !tank_.along_z) continue;
+        if ((axis == 2 && !tank_.along_z) || is_periodic(scene, axis)) continue;
         const auto [low, high] = walls_across(scene, axis);
         const double room = std::min(centre[axis] - low, high - centre[axis]);
         if (room < reach) {
             std::ostringstream text;
-            text << "the body's centre is " << room << " from the nearer end of the tank along " << name_of(axis)
+            text << "the body's centre is " << room << " from the nearer end of the tank along " << name_of_axis(axis)
                  << "; must be at least " << reach << " (half the body, a step and two kernel radii)";
             refuse(scene, text.str());
         }

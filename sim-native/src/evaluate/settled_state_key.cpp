@@ -88,6 +88,11 @@ std::string settled_state_key(const Model& model, const Settling& settling, int 
         key.add(plane.normal);
         key.add(plane.offset);
     }
+    for (const PeriodicAxis& periodic : model.periodic) {
+        key.add(periodic.axis);
+        key.add(periodic.low);
+        key.add(periodic.high);
+    }
     for (const Spring& spring : model.springs) {
         key.add(spring.a);
         key.add(spring.b);

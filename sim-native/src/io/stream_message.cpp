@@ -6,12 +6,15 @@
 #include "io/protocol.h"
 #include "io/stream.h"
 #include "io/strict_json.h"
+#include "model/borders.h"
 #include "model/skin_weights.h"
 #include "natator/instruction_set.h"
 #include "natator/measure.h"
 #include "natator/momentum.h"
+#include "natator/pose.h"
 #include "natator/version.h"
 #include "scene/scene_json.h"
+#include "scene/tank_ends.h"
 
 namespace natator {
 namespace {
@@ -64,6 +67,28 @@ ordered_json planes_json(const Model& model) {
     for (const Plane& plane : model.planes)
         planes.push_back({plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset});
     return planes;
+}
+
+/// {"x": [low, high]} of the axes that have no ends.
+ordered_json periodic_json(const Model& model) {
+    ordered_json periodic = ordered_json::object();
+    for (const PeriodicAxis& axis : model.periodic) periodic[name_of_axis(axis.axis)] = {axis.low, axis.high};
+    return periodic;
+}
+
+/// All places; of the water in a periodic tank, which is as well so many lengths of the tank away, those around the swimmer.
+template <class Real>
+std::vector<Vector3<Real>> places_around_body(const Model& model, const State<Real>& state) {
+    std::vector<Vector3<Real>> places = state.position;
+    if (model.periodic.empty() || model.body.particles.empty()) return places;
+    const Eigen::Vector3d centre = mean_place(body_places_in_tank(model.body, state));
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i)) continue;
+        const Eigen::Vector3d way = shortest_way(model, places[i].template cast<double>() - centre);
+        for (const PeriodicAxis& axis : model.periodic)
+            places[i][axis.axis] = static_cast<Real>(centre[axis.axis] + way[axis.axis]);
+    }
+    return places;
 }
 
 ordered_json fields_json(const stream::Fields& fields) {
@@ -190,6 +215,7 @@ ordered_json stream_scene(const LiveSimulation<Real>& simulation, const stream::
     body["solidRestDistance"] = solver.solidRestDistance;
     body["fluidRestDistance"] = solver.fluidRestDistance;
     body["planes"] = planes_json(model);
+    body["periodic"] = periodic_json(model);
     body["fields"] = fields_json(head.fields);
     body["particles"] = model.particles();
     body["mass"] = masses_json(model);
@@ -237,7 +263,7 @@ std::string stream_frame(LiveSimulation<Real>& simulation, const stream::FrameHe
                                                       errors.density_error_mean, errors.density_error_max});
     message.add(std::uint32_t{0});
     message.add_numbers(simulation.driven());
-    if (head.fields.position) message.add_vectors(state.position);
+    if (head.fields.position) message.add_vectors(places_around_body(model, state));
     if (head.fields.velocity) message.add_vectors(state.velocity);
     if (head.fields.density) message.add_numbers(densities);
     return message.finish();

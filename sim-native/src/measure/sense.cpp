@@ -2,8 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
+#include "model/borders.h"
 #include "natator/error.h"
 #include "natator/pose.h"
 #include "physics/constants.h"
@@ -127,12 +129,16 @@ void feel_water(const Model& model, const State<Real>& state, double within, std
     for (const Probe& probe : probes) reach.extend(probe.place);
     reach.min().array() -= within;
     reach.max().array() += within;
+    for (const PeriodicAxis& periodic : model.periodic) {  // water comes from all around
+        reach.min()[periodic.axis] = -std::numeric_limits<double>::infinity();
+        reach.max()[periodic.axis] = std::numeric_limits<double>::infinity();
+    }
     for (int i = 0; i < model.particles(); ++i) {
         if (!model.is_fluid(i)) continue;
         const Eigen::Vector3d place = state.position[i].template cast<double>();
         if (!reach.contains(place)) continue;
         for (Probe& probe : probes) {
-            const double part = (place - probe.place).squaredNorm() / (within * within);
+            const double part = shortest_way(model, place - probe.place).squaredNorm() / (within * within);
             if (part >= 1) continue;
             const double weight = (1 - part) * (1 - part) * (1 - part);
             probe.water += weight * state.velocity[i].template cast<double>();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "borders.h"
 #include "physics/dfsph.h"
 #include "water_volumes.h"
 
@@ -24,10 +25,9 @@ void raise_light_solids(Model& model) {
             model.inverse_mass[i] = std::min(model.inverse_mass[i], 1 / (least_density * density * volumes[i]));
 }
 
-/// Of the fluid along gravity, length.
-double depth(const Model& model) {
+/// Of the fluid along a direction, length.
+double depth(const Model& model, const Eigen::Vector3d& down) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    const Eigen::Vector3d down = model.parameters.gravity.normalized();
     for (int i = 0; i < model.particles(); ++i) {
         if (!model.is_fluid(i)) continue;
         low = std::min(low, down.dot(model.position[i]));
@@ -38,13 +38,16 @@ double depth(const Model& model) {
 
 void raise_substeps(Model& model) {
     SolverParameters& p = model.parameters;
-    const double gravity = p.gravity.norm() * std::max(1.0, std::abs(p.buoyancy));
+    const double weight = std::max(1.0, std::abs(p.buoyancy)), gravity = p.gravity.norm() * weight;
     if (!(gravity > 0)) return;
     const double spacing = p.fluidRestDistance;
     const double passes = physics::divergence_passes + p.numIterations;
-    const double held = most_weight * passes * spacing * spacing / (gravity * std::max(depth(model), spacing));
-    const double for_depth = std::min(std::sqrt(held * physics::most_excess), held * fastest_expansion(p));
-    const double longest = std::min(std::sqrt(longest_fall * spacing / gravity), for_depth);
+    double longest = std::sqrt(longest_fall * spacing / gravity);
+    if (const Eigen::Vector3d down = gravity_on_walls(model); !down.isZero(0)) {
+        const double height = std::max(depth(model, down.normalized()), spacing);
+        const double held = most_weight * passes * spacing * spacing / (down.norm() * weight * height);
+        longest = std::min({longest, std::sqrt(held * physics::most_excess), held * fastest_expansion(p)});
+    }
     constexpr double rounding = 1e-9;
     p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));
 }

@@ -13,7 +13,14 @@ class Clearing {
 public:
     Clearing(const FluidBlock& block, const Model& model) : block_(block) {
         closed_.resize(static_cast<std::size_t>(block.count.x()) * block.count.y() * block.count.z());
-        for (const Eigen::Vector3d& solid : model.position) close_around(solid);
+        std::vector<Eigen::Vector3d> solids = model.position;
+        for (const PeriodicAxis& periodic : model.periodic) {  // also through the ends
+            const std::size_t count = solids.size();
+            for (const double way : {-periodic.length(), periodic.length()})
+                for (std::size_t i = 0; i < count; ++i)
+                    solids.push_back(solids[i] + way * Eigen::Vector3d::Unit(periodic.axis));
+        }
+        for (const Eigen::Vector3d& solid : solids) close_around(solid);
     }
 
     bool closed(int x, int y, int z) const { return closed_[index(x, y, z)]; }

@@ -15,6 +15,7 @@
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "obstacles.h"
+#include "periodic.h"
 #include "refine_body.h"
 
 namespace natator {
@@ -126,6 +127,7 @@ Model empty_model(const Scene& scene) {
     model.parameters = scene.solver;
     model.time_step = scene.time_step;
     model.planes = scene.planes;
+    model.periodic = scene.periodic;
     return model;
 }
 
@@ -163,6 +165,7 @@ Model build_model(const Scene& scene) {
         add_fluid(*scene.fluid, model);
     }
     check_inside_tank(scene, model);
+    check_periodic(scene, model);
     if (scene.scheme == Scheme::conserving && scene.fluid) {
         disorder_fluid(std::min(scene.fluid->spacing, scene.solver.fluidRestDistance), model, scene.fluid->disorder);
         fit_to_water(model);

@@ -118,7 +118,7 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     Scene scene;
     scene.name = name;
     fields::read_object(document, place, scene_fields(),
-                        {"scheme", "solver", "planes", "fluid", "creature", "settling", "stopping", "movingTank", "goals",
+                        {"scheme", "solver", "planes", "periodic", "fluid", "creature", "settling", "stopping", "movingTank", "goals",
                          "companions", "obstacles"},
                         scene);
     if (document.contains("scheme")) {
@@ -146,6 +146,9 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));
     check_frames(scene, place);
     check_water(scene, place);
+    if (has(document, "periodic"))
+        scene.periodic = fields::read_periodic(document.at("periodic"), place.key("periodic"), scene.fluid.has_value(),
+                                               scene.planes);
     return scene;
 }
 

@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "readers.h"
+#include "tank_ends.h"
 
 namespace natator::fields {
 
@@ -14,6 +17,28 @@ MovingTank read_moving_tank(const json& value, const Place& place) {
     if (tank.current.y() != 0)
         refuse(place.key("current").item(1), value.at("current")[1], "0: a current is horizontal");
     return tank;
+}
+
+std::vector<PeriodicAxis> read_periodic(const json& value, const Place& place, bool water, std::vector<Plane>& planes) {
+    if (!value.is_array()) refuse(place, value, "an array of axes, \"x\" or \"z\"");
+    std::vector<PeriodicAxis> all;
+    std::vector<int> named;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const Place at = place.item(i);
+        const int axis = read_choice<int>(value[i], at, {{"x", 0}, {"z", 2}});
+        if (std::any_of(named.begin(), named.end(), [axis](int other) { return other == axis; }))
+            refuse(at, value[i], "named once");
+        named.push_back(axis);
+        const TankEnds ends = tank_ends(planes, axis);
+        if (!water && ends.none()) continue;
+        if (!ends.one_each()) refuse(at, value[i], "an axis with walls to do without: " + one_each_needed(ends, axis));
+        if (!(ends.high.front() > ends.low.front()))
+            refuse(at, value[i], "an axis whose low end is below its high end");
+        std::erase_if(planes, [axis](const Plane& plane) { return stands_across(plane, axis); });
+        all.push_back({axis, ends.low.front(), ends.high.front()});
+    }
+    std::sort(all.begin(), all.end(), [](const PeriodicAxis& a, const PeriodicAxis& b) { return a.axis < b.axis; });
+    return all;
 }
 
 }  // namespace natator::fields

@@ -4,10 +4,11 @@
 #include <bit>
 #include <limits>
 
+#include "model/borders.h"
+#include "model/water_volumes.h"
 #include "natator/error.h"
 #include "physics/effects.h"
 #include "solver/cpu/cell_grid.h"
-#include "model/water_volumes.h"
 #include "solver/cpu/conserving/solids.h"
 #include "solver/cpu/substep.h"
 
@@ -112,18 +113,22 @@ DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
 
 namespace {
 
-/// `mirror` behind `first`.
+/// `border` behind `first`.
 template <class Real>
-Reflection<Real> reflected(const Reflection<Real>& first, const physics::PlaneSurface<Real>& mirror) {
-    const Vec3<Real>& n = mirror.normal;
+GhostMap<Real> through(const GhostMap<Real>& first, const physics::Border<Real>& border) {
+    const Vec3<Real>& n = border.surface.normal;
     const Real component[3] = {n.x, n.y, n.z};
-    Quad<Real> along{0, 0, 0, mirror.offset};
+    GhostMap<Real> both = first;
+    if (border.shift > 0) {
+        for (int k = 0; k < 3; ++k) both.row[k].w += border.shift * component[k];
+        return both;
+    }
+    Quad<Real> along{0, 0, 0, border.surface.offset};
     for (int k = 0; k < 3; ++k) {
         const Quad<Real>& row = first.row[k];
         const Real part = component[k];
         along = {along.x + part * row.x, along.y + part * row.y, along.z + part * row.z, along.w + part * row.w};
     }
-    Reflection<Real> both = first;
     for (int k = 0; k < 3; ++k) {
         Quad<Real>& row = both.row[k];
         const Real twice = 2 * component[k];
@@ -157,19 +162,26 @@ void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
     for (int i = 0; i < model.particles(); ++i) volume[number_of_[i]] = static_cast<Real>(volumes[i]);
     water.volume = keep(volume_, volume);
 
-    std::vector<Reflection<Real>> reflections(std::size_t(1) << view_.planes);
-    reflections[0] = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-    for (int planes = 1; planes < 1 << view_.planes; ++planes) {
-        const int last = std::bit_width(static_cast<unsigned>(planes)) - 1;
-        reflections[planes] = reflected(reflections[planes ^ 1 << last], view_.plane[last].surface);
+    const std::vector<physics::Seam<Real>> seams = seams_of<Real>(model);
+    const std::vector<physics::Border<Real>> borders = borders_of<Real>(model);
+    water.weight_on_walls = vec3<Real>(model.parameters.buoyancy * gravity_on_walls(model));
+    water.seams = static_cast<int>(seams.size());
+    water.borders = static_cast<int>(borders.size());
+    std::copy(seams.begin(), seams.end(), water.seam);
+    std::copy(borders.begin(), borders.end(), water.border);
+    std::vector<GhostMap<Real>> ghost_maps(std::size_t(1) << borders.size());
+    ghost_maps[0] = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    for (std::size_t set = 1; set < ghost_maps.size(); ++set) {
+        const int last = std::bit_width(set) - 1;
+        ghost_maps[set] = through(ghost_maps[set ^ std::size_t(1) << last], borders[last]);
     }
-    water.reflection = keep(reflection_, reflections);
+    water.ghost_map = keep(ghost_map_, ghost_maps);
     water.most_copies = 1;
-    for (int k = 0; k < view_.planes; ++k) {
-        const physics::PlaneSurface<Real>& plane = view_.plane[k].surface;
+    for (std::size_t k = 0; k < borders.size(); ++k) {
+        const physics::PlaneSurface<Real>& plane = borders[k].surface;
         bool faces = false;  // one of those before: a particle may be near both
-        for (int e = 0; e < k; ++e) {
-            const physics::PlaneSurface<Real>& other = view_.plane[e].surface;
+        for (std::size_t e = 0; e < k; ++e) {
+            const physics::PlaneSurface<Real>& other = borders[e].surface;
             if (!(dot(other.normal, plane.normal) < 0)) continue;
             faces = true;
             if (plane.offset + other.offset < 2 * water.radius) water.most_copies *= 2;
@@ -273,6 +285,11 @@ GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, R
         for (const Plane& plane : model.planes) {
             if (plane.normal[axis] == 1) low[axis] = std::max(low[axis] - view_.radius, Real(-plane.offset));
             if (plane.normal[axis] == -1) high[axis] = std::min(high[axis] + 100 * view_.radius, Real(plane.offset));
+        }
+        for (const PeriodicAxis& periodic : model.periodic) {
+            if (periodic.axis != axis) continue;
+            low[axis] = static_cast<Real>(periodic.low);
+            high[axis] = static_cast<Real>(periodic.high);
         }
         low[axis] -= margin;
         high[axis] += margin;

@@ -31,14 +31,15 @@ private:
     void set_conserving(const Model& model);
     void upload_solids(const Model& model);
     void set_water(const Model& model, int most_cells);
-    /// Over the box of the start positions, extended to the planes that face an axis, and by `margin` then.
+    /// Over the box of the start positions, extended to the planes that face an axis, and by `margin` then; along a periodic
+    /// axis over the tank.
     GridView<Real> grid_over(const Model& model, Real distance, Real margin, int most_cells) const;
     int cells_on_chip(const Model& model) const;
 
     ModelView<Real> view_{};
     std::vector<int> number_of_, particle_of_;
     DeviceBuffer<Real> inverse_mass_, member_mass_, volume_;
-    DeviceBuffer<Reflection<Real>> reflection_;
+    DeviceBuffer<GhostMap<Real>> ghost_map_;
     DeviceBuffer<std::uint32_t> phase_;
     DeviceBuffer<Vec3<Real>> rest_position_, offset_;
     DeviceBuffer<SpringView<Real>> spring_;

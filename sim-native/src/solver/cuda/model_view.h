@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "natator/plan.h"
+#include "physics/border.h"
 #include "physics/dfsph.h"
-#include "physics/plane.h"
 #include "physics/spring.h"
 #include "physics/velocity.h"
 #include "vec3.cuh"
@@ -78,14 +78,17 @@ struct Share {
 
 inline constexpr int most_planes = 16;
 
-/// x -> turn x + shift: one or more mirrors, one behind the other.
+/// x -> turn x + shift: through one or more borders, one behind the other.
 template <class Real>
-struct Reflection {
+struct GhostMap {
     Quad<Real> row[3];  ///< of the turn; w: of the shift
 };
 
-/// The water of scheme `conserving`. Mirrors are planes without friction: what is beyond is the ghost of what is before them.
-/// A ghost is known by its particle and the set of planes that it was reflected at, in their order: bit k for plane k.
+inline constexpr int most_borders = 6, most_borders_at_once = 3;
+inline constexpr int most_slot_bits = 26;   ///< the rest of 32 bits is a set of borders
+
+/// The water of scheme `conserving`. What is beyond its borders is the ghost of what is before them. A ghost is known by its
+/// particle and the set of borders that it went through, in their order: bit k for border k.
 template <class Real>
 struct WaterModel {
     Real radius, spacing, at_spacing, softening, dynamic_viscosity;
@@ -94,12 +97,14 @@ struct WaterModel {
     Real effect_radius, cohesion_strength, cohesion_slope;  ///< of physics/water_effects.h
     physics::WendlandKernel<Real> kernel;
     GridView<Real> grid;
-    const Real* volume;                  ///< by particle
-    const Reflection<Real>* reflection;  ///< by set of planes
+    const Real* volume;          ///< by particle
+    Vec3<Real> weight_on_walls;  ///< gravity of the fluid along axes that have ends, length/s^2
+    int seams, borders;
+    physics::Seam<Real> seam[2];
+    physics::Border<Real> border[most_borders];  ///< see borders_of
+    const GhostMap<Real>* ghost_map;             ///< by set of borders
     int most_copies;                     ///< of a particle: itself and its ghosts
 };
-inline constexpr int most_mirrors = 6, most_mirrors_at_once = 3;
-inline constexpr int most_slot_bits = 26;   ///< the rest of 32 bits is a set of planes
 
 /// A Model in device memory. Particles are numbered anew: first the fluid, then the solids, each in the Model's order.
 template <class Real>

@@ -59,6 +59,8 @@ public:
 private:
     template <class Push>
     void push_solids(const Push& push);
+    /// Water that has left a periodic tank comes in at the other end.
+    void wrap_fluid();
     void put_before_planes();
     void find_plane_contacts();
     Real contact_depth(int i, int j) const;
@@ -83,6 +85,7 @@ private:
     }
 
     std::optional<Water<Real>> water_;
+    std::vector<physics::Seam<Real>> seams_;
     Real overlap_push_ = 0;            ///< how far a substep may push overlaps apart, length
     Vector3Array<Real> base_;          ///< predicted positions by slot
     Vector3Array<Real> displacement_;  ///< from base_ to the present position, apart so that it is not rounded to it

@@ -17,7 +17,7 @@ void ConservingStages<Real>::push_solids(const Push& push) {
 template <class Real>
 void ConservingStages<Real>::solve_density_constraint() {
     push_solids([this] {
-        if (!ws_.solid_ids.empty()) water_->mirror_velocities();
+        if (!ws_.solid_ids.empty()) water_->give_images_velocities();
         water_->push_apart(*this->team_);
     });
 }

@@ -21,6 +21,13 @@ Real ConservingStages<Real>::wall_distance(int particle) const {
 }
 
 template <class Real>
+void ConservingStages<Real>::wrap_fluid() {
+    for (const physics::Seam<Real>& seam : seams_)
+        for (const int i : ws_.fluid_ids)
+            if (inverse_mass_[i] > 0) state_->position[i] = eigen(wrapped(seam, vec3(state_->position[i])));
+}
+
+template <class Real>
 void ConservingStages<Real>::put_before_planes() {
     for (int i = 0; i < ws_.particles; ++i)
         if (inverse_mass_[i] > 0)
@@ -29,6 +36,7 @@ void ConservingStages<Real>::put_before_planes() {
 
 template <class Real>
 void ConservingStages<Real>::find_water_neighbours() {
+    wrap_fluid();
     put_before_planes();
     water_->find_neighbours(*state_, h_, *this->team_);
 }
@@ -51,6 +59,8 @@ void ConservingStages<Real>::predict() {
 
 template void ConservingStages<float>::find_water_neighbours();
 template void ConservingStages<double>::find_water_neighbours();
+template void ConservingStages<float>::wrap_fluid();
+template void ConservingStages<double>::wrap_fluid();
 template void ConservingStages<float>::predict();
 template void ConservingStages<double>::predict();
 template Vec3<float> ConservingStages<float>::before_planes(Vec3<float>, float) const;

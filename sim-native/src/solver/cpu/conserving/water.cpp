@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../workspace.h"
+#include "model/borders.h"
 #include "model/water_volumes.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
@@ -19,11 +20,13 @@ Water<Real>::Water(const Model& model)
       spacing_(static_cast<Real>(model.parameters.fluidRestDistance)),
       kernel_scale_(static_cast<Real>(wendland(0, support(model)))),
       at_spacing_(static_cast<Real>(1 / wendland(model.parameters.fluidRestDistance, support(model)))),
-      mirror_(model),
+      images_(model),
+      seams_(seams_of<Real>(model)),
       particles_(model.particles()),
       image_begin_(round_up_to_block(model.particles())) {
     effect_radius_ = static_cast<Real>(effect_radius(model));
     fluid_gravity_ = vec3<Real>((model.parameters.buoyancy * model.parameters.gravity).template cast<Real>().eval());
+    weight_on_walls_ = vec3<Real>((model.parameters.buoyancy * gravity_on_walls(model)).template cast<Real>().eval());
     fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
@@ -71,10 +74,10 @@ void Water<Real>::part_overlaps(ThreadTeam& team) {
         if (!model_.is_fluid(particle_of_[slot])) inverse_mass_[slot] = 0;
     }
     on_all_threads(team, kernels_->pack);
-    mirror_velocities();
+    give_images_velocities();
     for (int pass = 0; pass < physics::parting_passes; ++pass) {
         apply_impulses(team);
-        mirror_velocities();
+        give_images_velocities();
     }
     parting_.resize(particles_);
     for (int slot = 0; slot < particles_; ++slot) {
@@ -83,17 +86,27 @@ void Water<Real>::part_overlaps(ThreadTeam& team) {
         inverse_mass_[slot] = inverse_mass_of_[particle_of_[slot]];
     }
     on_all_threads(team, kernels_->pack);
-    mirror_velocities();
+    give_images_velocities();
+}
+
+template <class Real>
+const std::vector<Vector3<Real>>& Water<Real>::places_in_tank(const State<Real>& state) {
+    if (seams_.empty()) return state.position;
+    in_tank_ = state.position;
+    for (Vector3<Real>& x : in_tank_)
+        for (const physics::Seam<Real>& seam : seams_) x = eigen(to_tank(seam, vec3(x)));
+    return in_tank_;
 }
 
 /// Numbers the slots by cell, first of the particles, then of the images.
 template <class Real>
 void Water<Real>::lay_out(const State<Real>& state) {
-    const auto& images = mirror_.images_of(state.position, radius_);
+    const std::vector<Vector3<Real>>& position = places_in_tank(state);
+    const auto& images = images_.of(position, radius_);
     std::array<Real, 3> low{}, high{};
     for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = high[axis] = state.position[0][axis];
-        for (const auto& x : state.position) {
+        low[axis] = high[axis] = position[0][axis];
+        for (const auto& x : position) {
             low[axis] = std::min(low[axis], x[axis]);
             high[axis] = std::max(high[axis], x[axis]);
         }
@@ -104,7 +117,7 @@ void Water<Real>::lay_out(const State<Real>& state) {
     const auto cell = [this](const auto& x) { return grid_.cell(x.x(), x.y(), x.z()); };
 
     cell_begin_.assign(grid_.cells() + 1, 0);
-    for (int i = 0; i < particles_; ++i) ++cell_begin_[(cell_of_[i] = cell(state.position[i])) + 1];
+    for (int i = 0; i < particles_; ++i) ++cell_begin_[(cell_of_[i] = cell(position[i])) + 1];
     image_cell_begin_.assign(grid_.cells() + 1, 0);
     for (const auto& image : images) ++image_cell_begin_[cell(image.position) + 1];
     image_cell_begin_[0] = image_begin_;
@@ -139,18 +152,18 @@ void Water<Real>::lay_out(const State<Real>& state) {
         slot_of_[i] = slot;
         particle_of_[slot] = i;
         solid_[slot] = model_.is_fluid(i) ? Real(0) : Real(1);
-        put(slot, i, state.position[i], state.velocity[i]);
+        put(slot, i, position[i], state.velocity[i]);
     }
     for (int slot = particles_; slot < image_begin_; ++slot) put_nothing(slot);
     next.assign(image_cell_begin_.begin(), image_cell_begin_.end() - 1);
     image_owner_.resize(images.size());
-    image_reflection_.resize(images.size());
+    image_turn_.resize(images.size());
     for (const auto& image : images) {
         const int slot = next[cell(image.position)]++;
         image_owner_[slot - image_begin_] = slot_of_[image.particle];
-        image_reflection_[slot - image_begin_] = image.reflection;
+        image_turn_[slot - image_begin_] = image.turn;
         put(slot, image.particle, image.position,
-            (mirror_.matrix(image.reflection) * state.velocity[image.particle]).eval());
+            (images_.matrix(image.turn) * state.velocity[image.particle]).eval());
     }
     for (int slot = far_slot_; slot < static_cast<int>(all); ++slot) put_nothing(slot);
 }
@@ -177,13 +190,13 @@ void Water<Real>::list_neighbours(ThreadTeam& team) {
 }
 
 template <class Real>
-void Water<Real>::mirror_corrections() {
+void Water<Real>::give_images_corrections() {
     for (std::size_t k = 0; k < image_owner_.size(); ++k) {
         const int owner = image_owner_[k];
         const auto part = [&](int c) { return correction_[c][owner]; };
         Eigen::Matrix<Real, 3, 3> l;
         l << part(0), part(3), part(4), part(3), part(1), part(5), part(4), part(5), part(2);
-        const auto& h = mirror_.matrix(image_reflection_[k]);
+        const auto& h = images_.matrix(image_turn_[k]);
         l = (h * l * h.transpose()).eval();
         const std::size_t slot = 4 * (image_begin_ + k);
         const Real packed[8] = {l(0, 0), l(1, 1), l(2, 2), l(0, 1), l(0, 2), l(1, 2), solid_[owner], 0};
@@ -195,18 +208,18 @@ void Water<Real>::mirror_corrections() {
 }
 
 template <class Real>
-void Water<Real>::mirror(AlignedVector<Real>& packed) {
+void Water<Real>::give_images(AlignedVector<Real>& packed) {
     using Vector = Eigen::Matrix<Real, 3, 1>;
     for (std::size_t k = 0; k < image_owner_.size(); ++k) {
-        const Vector v = mirror_.matrix(image_reflection_[k]) *
+        const Vector v = images_.matrix(image_turn_[k]) *
                          Eigen::Map<const Vector>(&packed[4 * static_cast<std::size_t>(image_owner_[k])]);
         std::copy_n(v.data(), 3, packed.begin() + static_cast<std::ptrdiff_t>(4 * (image_begin_ + k)));
     }
 }
 
 template <class Real>
-void Water<Real>::mirror_velocities() {
-    mirror(packed_velocity_);
+void Water<Real>::give_images_velocities() {
+    give_images(packed_velocity_);
 }
 
 template <class Real>
@@ -262,13 +275,13 @@ void Water<Real>::push_apart(ThreadTeam& team) {
     apply_impulses(team);
     const Real strength = physics::kept_strength(h_, fluid_density_);
     on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->relieve(part, strength); });
-    mirror_velocities();
+    give_images_velocities();
 }
 
 template <class Real>
 void Water<Real>::return_relief(ThreadTeam& team) {
     on_all_threads(team, kernels_->lay_out_relief);
-    mirror(packed_relief_);
+    give_images(packed_relief_);
     std::fill_n(packed_relief_.begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
     on_all_threads(team, kernels_->return_relief);
 }
@@ -290,7 +303,7 @@ void Water<Real>::find_neighbours(const State<Real>& state, Real h, ThreadTeam& 
 template <class Real>
 void Water<Real>::compute_gradients(ThreadTeam& team) {
     on_all_threads(team, kernels_->compute_moments);
-    mirror_corrections();
+    give_images_corrections();
     on_all_threads(team, kernels_->compute_gradients);
 }
 
@@ -322,24 +335,24 @@ void Water<Real>::add_gravity(ThreadTeam& team) {
         target_[slot] = physics::density_target(volume_[slot], density_[slot], limit, h_);
     }
     on_all_threads(team, kernels_->pack);
-    mirror_velocities();
+    give_images_velocities();
 }
 
 template <class Real>
 void Water<Real>::hold_at_walls(ThreadTeam& team) {
-    if (image_owner_.empty() || !(norm(fluid_gravity_) > 0)) return;
+    if (image_owner_.empty() || !(norm(weight_on_walls_) > 0)) return;
     std::fill_n(impulse_.begin(), image_begin_, Real(0));
     for (int slot = image_begin_; slot < far_slot_; ++slot) {
         const int owner = image_owner_[slot - image_begin_];
         impulse_[slot] = is_fluid_slot(owner) ? physics::weight_to_ghost(inverse_mass_[owner], volume_[owner], h_,
-                                                                         fluid_gravity_,
+                                                                         weight_on_walls_,
                                                                          position_.at(slot) - position_.at(owner),
                                                                          impulse_sum_[owner])
                                               : Real(0);
     }
     const auto at_wall = [this](int block) {
         for (int slot = block * lanes; slot < std::min((block + 1) * lanes, particles_); ++slot)
-            if (mirror_.reaches_images(eigen(position_.at(slot)), radius_)) return true;
+            if (images_.reaches_walls(eigen(position_.at(slot)), radius_)) return true;
         return false;
     };
     on_all_threads(team, [&](WaterView<Real> part) {

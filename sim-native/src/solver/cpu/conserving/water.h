@@ -7,7 +7,7 @@
 #include "../cell_grid.h"
 #include "../neighbour_lists.h"
 #include "../thread_team.h"
-#include "mirror.h"
+#include "images.h"
 #include "natator/model.h"
 #include "natator/state.h"
 #include "water_kernels.h"
@@ -42,7 +42,7 @@ public:
 
     /// As the last call left it, by particle, length/s.
     Vec3<Real> velocity(int particle) const { return velocity_.at(slot_of_[particle]); }
-    /// To be followed by mirror_velocities once all are set.
+    /// To be followed by give_images_velocities once all are set.
     void set_velocity(int particle, const Vec3<Real>& v) {
         const int slot = slot_of_[particle];
         velocity_.set(slot, v);
@@ -53,7 +53,7 @@ public:
     /// Once all passes are done: holds up what lies at walls, see physics::weight_to_ghost.
     void hold_at_walls(ThreadTeam& team);
     /// Gives the images the velocities of what they are images of.
-    void mirror_velocities();
+    void give_images_velocities();
     /// What keeps particles evenly spread and takes off overlaps, by particle, length; no velocity comes with it.
     Vec3<Real> shift(int particle) const;
 
@@ -72,13 +72,15 @@ public:
     std::vector<Vector3<Real>> forces() const;
 
 private:
+    /// Where the water has its particles: in a periodic tank all within its ends.
+    const std::vector<Vector3<Real>>& places_in_tank(const State<Real>& state);
     void lay_out(const State<Real>& state);
     void list_neighbours(ThreadTeam& team);
-    void mirror_corrections();
+    void give_images_corrections();
     void part_overlaps(ThreadTeam& team);
     void apply_impulses(ThreadTeam& team);
     /// Turns vectors that neighbours gather into those of the images.
-    void mirror(AlignedVector<Real>& packed);
+    void give_images(AlignedVector<Real>& packed);
     WaterView<Real> view();
 
     void add_viscous_forces(Real strength, Real most);
@@ -136,14 +138,17 @@ private:
     Real fastest_expansion_;  ///< by the velocities, of what is compressed, 1/s
     Real effect_radius_;      ///< R of physics/water_effects.h
     std::vector<Real> volume_of_, inverse_mass_of_, mobility_of_;  ///< by particle
-    Mirror<Real> mirror_;
+    Images<Real> images_;
+    std::vector<physics::Seam<Real>> seams_;
+    std::vector<Vector3<Real>> in_tank_;  ///< by particle; empty where no axis is periodic
     CellGrid<Real> grid_;
-    Vec3<Real> fluid_gravity_;  ///< of the fluid, length/s^2
+    Vec3<Real> fluid_gravity_;    ///< of the fluid, length/s^2
+    Vec3<Real> weight_on_walls_;  ///< its part along axes that have ends
     Real h_ = 1;
 
     int particles_, image_begin_, far_slot_ = 0;
     std::vector<int> slot_of_, particle_of_;
-    std::vector<int> image_owner_, image_reflection_;  ///< by image slot - image_begin_
+    std::vector<int> image_owner_, image_turn_;  ///< by image slot - image_begin_
     std::vector<int> cell_begin_, image_cell_begin_;
     std::vector<int> cell_of_;  ///< by particle
 

@@ -57,7 +57,7 @@ void Water<Real>::add_surface_tension(ThreadTeam& team) {
     });
     for (std::size_t k = 0; k < image_owner_.size(); ++k)
         field_.set(static_cast<int>(image_begin_ + k),
-                   vec3<Real>((mirror_.matrix(image_reflection_[k]) * eigen(field_.at(image_owner_[k]))).eval()));
+                   vec3<Real>((images_.matrix(image_turn_[k]) * eigen(field_.at(image_owner_[k]))).eval()));
     for_fluid_slots(team, [&](int slot) {
         Vec3<Real> sum{};
         for_each_fluid_within_radius(slot, [&](int other, const Vec3<Real>&, Real) {

@@ -7,7 +7,7 @@
 namespace natator::cpu {
 
 /// What the kernels of scheme `conserving` read and write, by slot. Slots of all particles come first, in blocks; behind
-/// them are their mirror images, which have no rows of their own.
+/// them are their images, which have no rows of their own.
 template <class Real>
 struct WaterView {
     int first_block, end_block;     ///< the blocks to work on

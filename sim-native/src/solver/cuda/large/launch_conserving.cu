@@ -94,7 +94,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void update_velocities() const {
         if (model.plan.water) {
             each_particle<lay_out_relief<Real>>();
-            each_pair<end_water_passes<Real>, 6>(model.planes > 0 && norm(model.fluid_gravity) > 0);
+            each_pair<end_water_passes<Real>, 6>(model.planes > 0 && norm(model.water.weight_on_walls) > 0);
             if (launch.keeps_forces) each_pair_of_solids<add_pressure_forces<Real>>();
             launch.template each_slot<move_water<Real>>(model.fluid);
         }

@@ -44,9 +44,9 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
 #define NATATOR_STATE_ARRAYS(X) NATATOR_CHIP_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_LARGE_ARRAYS(X)
 
 // The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise. An entry is a slot
-// with the set of planes that it is the ghost of: planes << most_slot_bits | slot.
+// with the set of borders that it is the ghost of: borders << most_slot_bits | slot.
 #define NATATOR_WATER_ARRAYS(X)                                                                                       \
-    /* Ends of the cells; of particles and ghosts, cell by cell: planes << 58 | number << 32 | slot; their */         \
+    /* Ends of the cells; of particles and ghosts, cell by cell: borders << 58 | number << 32 | slot; their */        \
     /* positions, w: the entry as an integer. */                                                                      \
     X(int, table, plan.water ? size.water.grid.cells : 0)                                                             \
     X(std::uint64_t, keys, water * size.water.most_copies)                                                            \

@@ -22,11 +22,11 @@ __device__ void add_viscous_forces(const ModelView<Real>& model, const Slots<Rea
     const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
     const Real most = physics::viscous_limit(model.water.spacing, strength);
     physics::ViscousSums<Real> sums;
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
+    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
         if (other >= model.fluid) return;
         const Quad<Real> there = water.position[other];
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-        const Quad<Real> u = seen(model, water.velocity[other], planes);
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
+        const Quad<Real> u = seen(model, water.velocity[other], borders);
         const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most) *
                            physics::viscous_grip(Real(1), Real(0));
         sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
@@ -43,12 +43,12 @@ __device__ void add_pressure_forces(const ModelView<Real>& model, const Slots<Re
     const Quad<Real> here = water.position[s];
     const physics::PairSide<Real> own{here.w, water.impulse_sum[s], xyz(water.relief[s])};
     Vec3<Real> sum{};
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned planes) {
+    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
         if (other >= model.fluid) return;
         const Quad<Real> there = water.position[other];
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
         const physics::PairSide<Real> its{there.w, water.impulse_sum[other],
-                                          xyz(seen(model, water.relief[other], planes))};
+                                          xyz(seen(model, water.relief[other], borders))};
         sum += pressure_impulse_between(own, its, gradient, model.water.kernel.value(physics::length_of(difference)));
     });
     sum = sum_of_lanes(sum);

@@ -13,21 +13,21 @@ namespace natator::cuda {
 inline constexpr unsigned slot_mask = (1u << most_slot_bits) - 1;
 
 template <class Real>
-__device__ Vec3<Real> turned(const Reflection<Real>& mirror, const Vec3<Real>& v) {
-    return {dot(xyz(mirror.row[0]), v), dot(xyz(mirror.row[1]), v), dot(xyz(mirror.row[2]), v)};
+__device__ Vec3<Real> turned(const GhostMap<Real>& map, const Vec3<Real>& v) {
+    return {dot(xyz(map.row[0]), v), dot(xyz(map.row[1]), v), dot(xyz(map.row[2]), v)};
 }
 /// H L H^T.
 template <class Real>
-__device__ physics::Symmetric3<Real> turned(const Reflection<Real>& mirror, const physics::Symmetric3<Real>& l) {
-    const Vec3<Real> a = xyz(mirror.row[0]), b = xyz(mirror.row[1]), c = xyz(mirror.row[2]);
+__device__ physics::Symmetric3<Real> turned(const GhostMap<Real>& map, const physics::Symmetric3<Real>& l) {
+    const Vec3<Real> a = xyz(map.row[0]), b = xyz(map.row[1]), c = xyz(map.row[2]);
     const Vec3<Real> x = l * a, y = l * b, z = l * c;
     return {dot(a, x), dot(b, y), dot(c, z), dot(a, y), dot(a, z), dot(b, z)};
 }
 template <class Real>
-__device__ Vec3<Real> ghost_of(const WaterModel<Real>& water, const Vec3<Real>& x, unsigned planes) {
-    if (planes == 0) return x;
-    const Reflection<Real> mirror = water.reflection[planes];
-    return turned(mirror, x) + Vec3<Real>{mirror.row[0].w, mirror.row[1].w, mirror.row[2].w};
+__device__ Vec3<Real> ghost_of(const WaterModel<Real>& water, const Vec3<Real>& x, unsigned borders) {
+    if (borders == 0) return x;
+    const GhostMap<Real> map = water.ghost_map[borders];
+    return turned(map, x) + Vec3<Real>{map.row[0].w, map.row[1].w, map.row[2].w};
 }
 
 /// What a particle keeps from planes. Water does not touch them otherwise: its ghosts hold it.
@@ -36,29 +36,41 @@ __device__ Real wall_distance(const ModelView<Real>& model, bool fluid) {
     return fluid ? Real(physics::least_wall_distance) * model.water.spacing : model.collision_distance;
 }
 
-/// Calls visit(planes, position) for the ghosts of what is at x, itself a ghost of `planes` or none, in up to `mirrors` more
-/// planes from number `first` on: in those that it is before, nearer than the kernel's support.
-template <int mirrors, class Real, class Visit>
-__device__ void for_each_ghost(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& of, unsigned planes,
+/// Calls visit(borders, position) for the ghosts of what is at x, itself a ghost of `borders` or none, in up to `most` more
+/// borders from number `first` on: in those that it is before, nearer than the kernel's support.
+template <int most, class Real, class Visit>
+__device__ void for_each_ghost(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& of, unsigned borders,
                                int first, const Visit& visit) {
-    for (int k = first; k < model.planes; ++k) {
-        const Real distance = distance_to(model.plane[k].surface, x);
+    for (int k = first; k < model.water.borders; ++k) {
+        const Real distance = distance_to(model.water.border[k].surface, x);
         if (!(distance >= 0 && distance < model.water.radius)) continue;
-        const unsigned with_this = planes | 1u << k;
+        const unsigned with_this = borders | 1u << k;
         const Vec3<Real> ghost = ghost_of(model.water, of, with_this);
         visit(with_this, ghost);
-        if constexpr (mirrors > 1) for_each_ghost<mirrors - 1>(model, ghost, of, with_this, k + 1, visit);
+        if constexpr (most > 1) for_each_ghost<most - 1>(model, ghost, of, with_this, k + 1, visit);
     }
 }
 
-/// The same for a particle at x, which has no planes, and for its ghosts.
+/// The same for a particle at x, which has no borders, and for its ghosts.
 template <class Real, class Visit>
 __device__ void for_each_copy(const ModelView<Real>& model, const Vec3<Real>& x, const Visit& visit) {
     visit(0u, x);
-    for_each_ghost<most_mirrors_at_once>(model, x, x, 0, 0, visit);
+    for_each_ghost<most_borders_at_once>(model, x, x, 0, 0, visit);
 }
 
-/// Puts what is behind planes before them, and counts particles and ghosts by cell.
+/// Where the water has what is at x: in a periodic tank within its ends.
+template <class Real>
+__device__ Vec3<Real> place_in_tank(const WaterModel<Real>& water, Vec3<Real> x) {
+    for (int k = 0; k < water.seams; ++k) x = to_tank(water.seam[k], x);
+    return x;
+}
+template <class Real>
+__device__ Vec3<Real> wrapped_water(const WaterModel<Real>& water, Vec3<Real> x) {
+    for (int k = 0; k < water.seams; ++k) x = wrapped(water.seam[k], x);
+    return x;
+}
+
+/// Wraps water that has left a periodic tank, puts what is behind planes before them, and counts particles and ghosts by cell.
 template <class Real>
 __device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (s == 0) slots.shared().high = 0;
@@ -68,13 +80,15 @@ __device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slo
     const bool fluid = number < model.fluid;
     Quad<Real> x = slots.at.state_position[s];
     if (x.w > 0) {
-        x = quad(put_before_planes(model, xyz(x), wall_distance(model, fluid)), x.w);
+        const Vec3<Real> there = fluid ? wrapped_water(model.water, xyz(x)) : xyz(x);
+        x = quad(put_before_planes(model, there, wall_distance(model, fluid)), x.w);
         slots.at.state_position[s] = x;
     }
-    water.position[s] = quad(xyz(x), model.water.volume[number]);
+    const Vec3<Real> in_tank = place_in_tank(model.water, xyz(x));
+    water.position[s] = quad(in_tank, model.water.volume[number]);
     water.velocity[s] = quad(xyz(before), x.w);
     if (!fluid) water.slot_of_solid[number - model.fluid] = s;
-    for_each_copy(model, xyz(x), [&](unsigned, const Vec3<Real>& at) {
+    for_each_copy(model, in_tank, [&](unsigned, const Vec3<Real>& at) {
         atomicAdd(water.table + model.water.grid.cell(at), 1);
     });
 }
@@ -84,26 +98,26 @@ template <class Real>
 __device__ void scatter_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const auto number = static_cast<std::uint64_t>(number_in(slots.at.state_velocity[s].w));
-    for_each_copy(model, xyz(water.position[s]), [&](unsigned planes, const Vec3<Real>& at) {
+    for_each_copy(model, xyz(water.position[s]), [&](unsigned borders, const Vec3<Real>& at) {
         water.keys[atomicAdd(water.table + model.water.grid.cell(at), 1)] =
-            static_cast<std::uint64_t>(planes) << 58 | number << 32 | static_cast<unsigned>(s);
+            static_cast<std::uint64_t>(borders) << 58 | number << 32 | static_cast<unsigned>(s);
     });
 }
 
-/// Lays out what searches read, in each cell by set of planes and then by particle: the order depends on positions alone.
+/// Lays out what searches read, in each cell by set of borders and then by particle: the order depends on positions alone.
 template <class Real>
 __device__ void order_water(const ModelView<Real>& model, const Slots<Real>& slots) {
     const WaterArrays<Real>& water = slots.water;
     const int copies = water.table[model.water.grid.cells - 1];
     for (int k = own_index(); k < copies; k += static_cast<int>(gridDim.x * blockDim.x)) {
         const std::uint64_t key = water.keys[k];
-        const auto planes = static_cast<unsigned>(key >> 58), slot = static_cast<unsigned>(key);
-        const Vec3<Real> x = ghost_of(model.water, xyz(water.position[slot]), planes);
+        const auto borders = static_cast<unsigned>(key >> 58), slot = static_cast<unsigned>(key);
+        const Vec3<Real> x = ghost_of(model.water, xyz(water.position[slot]), borders);
         const int cell = model.water.grid.cell(x);
         const int begin = cell > 0 ? water.table[cell - 1] : 0, end = water.table[cell];
         int rank = begin;
         for (int other = begin; other < end; ++other) rank += water.keys[other] < key;
-        water.candidate[rank] = quad(x, as_number<Real>(static_cast<int>(planes << most_slot_bits | slot)));
+        water.candidate[rank] = quad(x, as_number<Real>(static_cast<int>(borders << most_slot_bits | slot)));
     }
 }
 
@@ -183,15 +197,15 @@ __device__ ::cuda::std::tuple<Value...> values_at(unsigned entry, const Value*..
     return ::cuda::std::tuple<Value...>(array[entry & slot_mask]...);
 }
 
-/// Calls visit(slot, planes, values...) for an entry.
+/// Calls visit(slot, borders, values...) for an entry.
 template <class Visit, class... Value>
 __device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& there, const Visit& visit) {
     const int slot = static_cast<int>(entry & slot_mask);
-    const unsigned planes = entry >> most_slot_bits;
-    ::cuda::std::apply([&](const Value&... value) { visit(slot, planes, value...); }, there);
+    const unsigned borders = entry >> most_slot_bits;
+    ::cuda::std::apply([&](const Value&... value) { visit(slot, borders, value...); }, there);
 }
 
-/// Calls visit(its place, slot, planes, values...) for this thread's share of the neighbours of slot s, with what is at the
+/// Calls visit(its place, slot, borders, values...) for this thread's share of the neighbours of slot s, with what is at the
 /// neighbour's slot in each of the arrays. Those of `batch` neighbours are under way at a time.
 template <int batch, class Real, class Visit, class... Value>
 __device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
@@ -208,8 +222,8 @@ __device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const 
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
             if (begin + k >= count) break;
-            visit_entry(entry[k], there[k], [&](int slot, unsigned planes, const Value&... value) {
-                visit(first + 32 * (begin + k), slot, planes, value...);
+            visit_entry(entry[k], there[k], [&](int slot, unsigned borders, const Value&... value) {
+                visit(first + 32 * (begin + k), slot, borders, value...);
             });
         }
     }
@@ -235,17 +249,17 @@ __device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
             if (begin + k >= count) break;
-            visit_entry(entry[k], there[k], [&](int slot, unsigned planes, const Value&... value) {
-                visit(gradient[k].value(), slot, planes, value...);
+            visit_entry(entry[k], there[k], [&](int slot, unsigned borders, const Value&... value) {
+                visit(gradient[k].value(), slot, borders, value...);
             });
         }
     }
 }
 
-/// A vector of a neighbour; of a ghost as its mirrors show it. w as it is.
+/// A vector of a neighbour; of a ghost as it is beyond the borders. w as it is.
 template <class Real>
-__device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>& v, unsigned planes) {
-    return planes == 0 ? v : quad(turned(model.water.reflection[planes], xyz(v)), v.w);
+__device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>& v, unsigned borders) {
+    return borders == 0 ? v : quad(turned(model.water.ghost_map[borders], xyz(v)), v.w);
 }
 
 /// Density, correction, crowding.
@@ -254,9 +268,9 @@ __device__ void water_moments(const ModelView<Real>& model, const Slots<Real>& s
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s], moves = water.velocity[s];
     physics::MomentSums<Real> sums;
-    const auto add = [&](std::size_t, int, unsigned planes, const Quad<Real>& there, const Quad<Real>& velocity) {
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-        const Quad<Real> v = seen(model, velocity, planes);
+    const auto add = [&](std::size_t, int, unsigned borders, const Quad<Real>& there, const Quad<Real>& velocity) {
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
+        const Quad<Real> v = seen(model, velocity, borders);
         sums.add(difference, model.water.kernel, model.water.at_spacing, there.w, xyz(v) - xyz(moves));
     };
     for_each_water_neighbour<2>(slots, s, add, water.position, water.velocity);
@@ -294,17 +308,17 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
     const Vec3<Real> v = xyz(water.velocity[s]);
     physics::ResponseSums<Real> sums;
     Real rate = 0;
-    const auto add = [&](std::size_t place, int, unsigned planes, const Quad<Real>& there, const Quad<Real>& correction,
+    const auto add = [&](std::size_t place, int, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
                          const Quad<Real>& shear, const Quad<Real>& velocity) {
         physics::Symmetric3<Real> its = correction_of(correction, shear);
-        if (planes != 0) its = turned(model.water.reflection[planes], its);
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
+        if (borders != 0) its = turned(model.water.ghost_map[borders], its);
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
         const Vec3<Real> gradient =
             physics::pair_gradient(difference, model.water.kernel, here.w * there.w, own + its);
         const PairGradient<Real> kept(gradient);
         water.pair[place] = kept;
         sums.add(kept.value(), shear.z);
-        rate += dot(xyz(seen(model, velocity, planes)) - v, kept.value());
+        rate += dot(xyz(seen(model, velocity, borders)) - v, kept.value());
     };
     for_each_water_neighbour<1>(slots, s, add, water.position, water.correction, water.shear, water.velocity);
     sums.gradient = sum_of_lanes(sums.gradient);
@@ -337,8 +351,8 @@ __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& 
     if (pass != Pass::first_parting) {
         const Quad<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
         const Vec3<Real> v = xyz(velocity[s]);
-        const auto add = [&](const Vec3<Real>& gradient, int, unsigned planes, const Quad<Real>& u) {
-            rate += dot(xyz(seen(model, u, planes)) - v, gradient);
+        const auto add = [&](const Vec3<Real>& gradient, int, unsigned borders, const Quad<Real>& u) {
+            rate += dot(xyz(seen(model, u, borders)) - v, gradient);
         };
         for_each_water_pair<2>(slots, s, add, velocity);
         rate = sum_of_lanes(rate);
@@ -402,10 +416,10 @@ __device__ void water_viscosity(const ModelView<Real>& model, const Slots<Real>&
     const Real most = physics::viscous_limit(model.water.spacing, strength);
     const Real solid = water.shear[s].w;
     physics::ViscousSums<Real> sums;
-    const auto add = [&](const Vec3<Real>& gradient, int, unsigned planes, const Quad<Real>& there,
+    const auto add = [&](const Vec3<Real>& gradient, int, unsigned borders, const Quad<Real>& there,
                          const Quad<Real>& velocity, const Quad<Real>& shear) {
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), planes);
-        const Quad<Real> u = seen(model, velocity, planes);
+        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
+        const Quad<Real> u = seen(model, velocity, borders);
         const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
         const Real grip = physics::viscous_grip(solid, shear.w);
         sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share * grip, gradient);
@@ -461,17 +475,17 @@ __device__ void lay_out_relief(const ModelView<Real>& model, const Slots<Real>& 
 }
 
 /// Once all passes are done: gives it back, and where `walls` hold up water, holds up what lies at them. Ghosts are behind
-/// planes, so only what is nearer to a plane than the kernel's support has any for neighbours.
+/// borders, so only what is nearer to a plane than the kernel's support has any for neighbours.
 template <class Real>
 __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool walls) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s];
     Vec3<Real> given_back{}, weight{};
-    const auto add = [&](std::size_t place, int other, unsigned planes, const Quad<Real>& x, const Quad<Real>& relief) {
-        const Vec3<Real> there = ghost_of(model.water, xyz(x), planes);
-        given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * xyz(seen(model, relief, planes));
-        if (!walls || planes == 0 || other >= model.fluid) return;
-        weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, model.fluid_gravity,
+    const auto add = [&](std::size_t place, int other, unsigned borders, const Quad<Real>& x, const Quad<Real>& relief) {
+        const Vec3<Real> there = ghost_of(model.water, xyz(x), borders);
+        given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * xyz(seen(model, relief, borders));
+        if (!walls || borders == 0 || other >= model.fluid) return;
+        weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, model.water.weight_on_walls,
                                            there - xyz(x), relief.w) *
                   water.pair[place].value();
     };

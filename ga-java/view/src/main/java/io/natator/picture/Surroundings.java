@@ -32,12 +32,15 @@ final class Surroundings {
 
     private final Projection projection;
     private final Box tank;
+    private final boolean[] open;
     private final int width;
     private final int height;
 
-    Surroundings(Projection projection, Box tank, int width, int height) {
+    /** {@code open}: axes that the tank has no ends along. */
+    Surroundings(Projection projection, Box tank, boolean[] open, int width, int height) {
         this.projection = projection;
         this.tank = tank;
+        this.open = open;
         this.width = width;
         this.height = height;
     }
@@ -133,11 +136,21 @@ final class Surroundings {
         for (int number = 0; number < 1 << Box.AXES; number++) {
             for (int axis = 0; axis < Box.AXES; axis++) {
                 int other = number | 1 << axis;
-                if (other != number && (number == near || other == near) == nearest) {
+                if (other != number && !isOfAnEnd(axis) && (number == near || other == near) == nearest) {
                     line(pen, tank.corner(number), tank.corner(other));
                 }
             }
         }
+    }
+
+    /** Whether edges along this axis are where an axis without ends is cut off. */
+    private boolean isOfAnEnd(int axis) {
+        for (int other = 0; other < Box.AXES; other++) {
+            if (other != axis && open[other]) {
+                return true;
+            }
+        }
+        return false;
     }
 
     private double depth(int corner) {

@@ -36,13 +36,18 @@ public final class SwimPicture {
         return new SwimPicture(scene, frame, options).draw();
     }
 
+    /** Whether the tank closes up with itself along each axis. */
+    private boolean[] openAxes() {
+        return new boolean[] {scene.periodic().containsKey("x"), false, scene.periodic().containsKey("z")};
+    }
+
     private BufferedImage draw() {
         Framing framing = Framing.of(scene, frame);
         int width = options.width();
         int height = options.height() > 0 ? options.height() : framing.height(options.from(), width);
         Projection projection = framing.projection(options.from(), width, height);
         BufferedImage image = new BufferedImage(width, height, BufferedImage.TYPE_INT_RGB);
-        Surroundings surroundings = new Surroundings(projection, framing.tank(), width, height);
+        Surroundings surroundings = new Surroundings(projection, framing.tank(), openAxes(), width, height);
         surroundings.behind(image);
         float[] pixels = linear(image);
         if (!framing.tank().isEmpty() && projection.from() == From.THREE_QUARTER) {

@@ -37,7 +37,7 @@ final class SwimCode {
     /** By which the better code of a table is found. */
     private static final int TRIED_ROWS = 40;
     private static final List<String> SCENE_KEYS = List.of("program", "scene", "overrides", "gait", "scheme", "precision",
-            "timeStep", "solidRestDistance", "fluidRestDistance", "planes", "particles", "fluid", "body", "slices",
+            "timeStep", "solidRestDistance", "fluidRestDistance", "planes", "periodic", "particles", "fluid", "body", "slices",
             "bodyLength", "clusters", "joints", "actuators", "muscles", "skin");
 
     private final Replay swim;

@@ -7,6 +7,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.Json;
 import java.util.List;
+import java.util.Map;
 
 /**
  * A {@code SCEN}: all that stays the same until the next one. Lengths in the scene's unit.
@@ -27,6 +28,8 @@ import java.util.List;
  * @param solidRestDistance between a solid and any other particle
  * @param fluidRestDistance between fluid particles
  * @param planes            [nx, ny, nz, d] each, normal towards the inside
+ * @param periodic          where the tank begins and ends along the axes, {@code x} or {@code z}, that it closes up with
+ *                          itself along
  * @param fields            what frames hold, in this order
  * @param particles         their number N
  * @param mass              of each particle; null for one that is held in place
@@ -47,7 +50,7 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         @JsonProperty(required = true) String scene, JsonNode overrides, JsonNode gait, String scheme, String precision,
         @JsonProperty(required = true) JsonNode definition, @JsonProperty(required = true) double timeStep,
         double duration, double radius, double solidRestDistance, double fluidRestDistance,
-        @JsonProperty(required = true) List<List<Double>> planes,
+        @JsonProperty(required = true) List<List<Double>> planes, Map<String, List<Double>> periodic,
         @JsonProperty(required = true) List<StreamField> fields, @JsonProperty(required = true) int particles,
         @JsonProperty(required = true) List<Double> mass, @JsonProperty(required = true) List<Integer> fluid,
         @JsonProperty(required = true) List<Integer> body, @JsonProperty(required = true) List<List<Integer>> slices,
@@ -61,8 +64,9 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
     static final int MAX_PARTICLES = 10_000_000;
     static final int MAX_ACTUATORS = 100_000;
 
-    /** A JSON null counts as absent, and absent companions as none. */
+    /** A JSON null counts as absent, and absent companions and periodic axes as none. */
     public StreamScene {
+        periodic = periodic == null ? Map.of() : periodic;
         companions = companions == null ? List.of() : companions;
         overrides = present(overrides);
         gait = present(gait);
@@ -141,6 +145,9 @@ public record StreamScene(@JsonProperty(required = true) int protocol, JsonNode 
         indices("joints", joints, sizeOf(slices));
         expect(planes != null && planes.stream().allMatch(plane -> plane != null && plane.size() == 4
                 && plane.stream().allMatch(number -> number != null)), "planes: expected four numbers each");
+        expect(periodic.entrySet().stream().allMatch(axis -> axis.getKey().matches("x|z") && axis.getValue() != null
+                && axis.getValue().size() == 2 && axis.getValue().stream().allMatch(number -> number != null)),
+                "periodic: expected x or z with two numbers each");
         expect(muscles != null, "muscles: expected a list");
         for (Muscle muscle : muscles) {
             expect(muscle != null && muscle.a >= 0 && muscle.a < particles && muscle.b >= 0 && muscle.b < particles

@@ -105,6 +105,22 @@ class SwimPictureTest {
         assertThat(veiled.getRed()).isLessThan(bare.getRed()).isGreaterThan(veiled.getBlue() + 40);
     }
 
+    /** Edges along x, seen from above, are where a tank that is periodic along z is cut off. */
+    @Test
+    void aPeriodicTankHasNoEdgesAtItsEnds() throws JsonProcessingException {
+        StreamScene walled = scene(true);
+        ObjectNode json = Json.parse(Json.line(walled), ObjectNode.class);
+        json.putObject("periodic").putArray("z").add(0).add(0.8);
+        StreamScene periodic = Json.parse(json.toString(), StreamScene.class);
+        PictureOptions options = new PictureOptions(From.TOP, 500, 0, false);
+        BufferedImage with = SwimPicture.draw(walled, frame(), options);
+        BufferedImage without = SwimPicture.draw(periodic, frame(), options);
+        Projection projection = Framing.of(walled, frame()).projection(From.TOP, 500, with.getHeight());
+
+        assertThat(at(with, projection, 1.2, 0, 0.8).getGreen()).isLessThan(at(without, projection, 1.2, 0, 0.8).getGreen() - 10);
+        assertThat(at(without, projection, 1.2, 0.5, 0.45)).isEqualTo(at(with, projection, 1.2, 0.5, 0.45));
+    }
+
     @Test
     void aScaleIsAsLongAsItSays() throws JsonProcessingException {
         StreamScene scene = scene(true);

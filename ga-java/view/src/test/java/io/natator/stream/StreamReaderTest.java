@@ -232,6 +232,8 @@ class StreamReaderTest {
         "clusters|[null]|clusters: expected indices below 8",
         "joints|[2]|joints: expected indices below 2",
         "planes|[[0,1,0]]|planes: expected four numbers each",
+        "periodic|{\"y\":[0,1]}|periodic: expected x or z with two numbers each",
+        "periodic|{\"x\":[0]}|periodic: expected x or z with two numbers each",
         "muscles|[{\"a\":0,\"b\":1,\"actuator\":1,\"lateral\":0,\"restLength\":1}]|muscle Muscle[a=0, b=1, actuator=1, lateral=0.0, restLength=1.0]; expected particles below 8 and an actuator below 1"})
     void aSceneThatContradictsItselfIsToldOf(String key, String value, String message) throws IOException {
         ObjectNode scene = StreamBytes.scene();

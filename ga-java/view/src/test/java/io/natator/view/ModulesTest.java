@@ -89,6 +89,23 @@ class ModulesTest extends BrowserTest {
                 + "[101,102,103,104,105,106],[107,108,109,110,111,112],[113,114],\"frame has 128 bytes; expected 132\"]");
     }
 
+    /** A tank without ends along x is shown around the body, and not where it is cut off; its walls along z are. */
+    @Test
+    void aPeriodicTankGoesAlongWithItsBody() {
+        Object shown = with("scene.js", """
+                ({boundsAround, tankBounds, tankLines}) => {
+                  const scene = {planes: [[0, 1, 0, 0], [0, 0, 1, 0], [0, 0, -1, 1]], periodic: {x: [0, 2]}, body: [0], solidRestDistance: 0.5};
+                  const start = tankBounds(scene, [0.5, 0.5, 0.5, 1.5, 0.25, 0.25]);
+                  const later = boundsAround(start, scene, [4.5, 0.5, 0.5, 5.5, 0.25, 0.25]);
+                  const walled = tankBounds({...scene, planes: [...scene.planes, [1, 0, 0, 0], [-1, 0, 0, 2]], periodic: {}}, [0.5, 0.5, 0.5]);
+                  return JSON.stringify([start.min, start.max, later.min, later.max, tankLines(later).edges, tankLines(walled).edges.length / 6,
+                    tankBounds({...scene, body: []}, [0.5, 0.5, 0.5]).min]);
+                }""");
+
+        assertThat(shown).isEqualTo("[[-0.5,0,0],[1.5,1,1],[3.5,0,0],[5.5,1,1],"
+                + "[3.5,0,1,5.5,0,1,3.5,1,1,5.5,1,1,5.5,0,0,3.5,0,0,5.5,1,0,3.5,1,0],12,[0,0,0]]");
+    }
+
     @Test
     void axesEndOnRoundNumbers() {
         Object axes = with("scaling.js", """

@@ -84,6 +84,11 @@ export class CameraRig {
     this.#jump = true;
   }
 
+  /** The same tank about another place. */
+  moveBounds(bounds) {
+    this.#bounds = bounds;
+  }
+
   /** The centre of the body, or null without one. */
   setBody(centre) {
     this.#hasBody = centre !== null;

@@ -14,6 +14,11 @@ const BEND = 0.25;
 const LEAST = 0.85;
 const MOST = 1.7;
 
+/** How many cover a length, free of its rounding. */
+function cells(length, cell) {
+  return Math.max(1, Math.ceil(length / cell - 1e-6));
+}
+
 /**
  * A texture over the floor of the tank: r is the light there in parts of `MOST`, g the shadow. A ray from above that meets
  * a wave of height h is bent by BEND times its slope, so that at a depth d below it rays lie closer by 1 + BEND d ∇²h: light
@@ -44,8 +49,13 @@ export class GlLightMap {
     this.#spacing = spacing;
     const {min, max} = bounds;
     this.#cell = Math.max(CELL * spacing, (max[0] - min[0]) / MOST_CELLS, (max[2] - min[2]) / MOST_CELLS);
-    this.#width = Math.max(1, Math.ceil((max[0] - min[0]) / this.#cell));
-    this.#height = Math.max(1, Math.ceil((max[2] - min[2]) / this.#cell));
+    const width = cells(max[0] - min[0], this.#cell);
+    const height = cells(max[2] - min[2], this.#cell);
+    if (width === this.#width && height === this.#height) {
+      return;  // it has only moved
+    }
+    this.#width = width;
+    this.#height = height;
     const count = this.#width * this.#height;
     this.#weights = new Float32Array(count);
     this.#heights = new Float32Array(count);

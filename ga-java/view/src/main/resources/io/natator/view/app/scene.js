@@ -17,12 +17,13 @@ export const MARK_SPACING = 0.5;
 const MARGIN = 0.6;
 
 /**
- * The tank: the box that axis-parallel planes make. It has no lid; it is as high as what it holds at first.
+ * The tank: the box that axis-parallel planes make. It has no lid; it is as high as what it holds at first. A periodic axis
+ * has no walls: of it as much is shown around the body as the tank is long.
  *
  * @param {object} scene SCEN
  * @param {Float32Array} position of all particles in the settled start
- * @returns {{min: number[], max: number[], walls: boolean}} walls is false where planes are missing and the box is just
- *     around the particles
+ * @returns {{min: number[], max: number[], walls: boolean, open: boolean[]}} walls is false where planes are missing and the
+ *     box is just around the particles; whether an axis is periodic
  */
 export function tankBounds(scene, position) {
   const {min, max} = extent(position);
@@ -43,7 +44,33 @@ export function tankBounds(scene, position) {
   if (walls > 0) {
     high[1] = max[1] + scene.solidRestDistance;
   }
-  return {min: low, max: high, walls: walls > 0};
+  return boundsAround({min: low, max: high, walls: walls > 0, open: AXES.map(axis => axis in periodic(scene))}, scene, position);
+}
+
+const AXES = ['x', 'y', 'z'];
+
+/** The axes that have no ends, each with where its tank begins and ends; streams of before know none. */
+function periodic(scene) {
+  return scene.periodic ?? {};
+}
+
+/** Whether its tank moves along with the body. */
+export function hasOpenAxes(scene) {
+  return Object.keys(periodic(scene)).length > 0;
+}
+
+/** The same bounds about where the body now is along periodic axes; without a body where the tank is. */
+export function boundsAround(bounds, scene, position) {
+  const min = [...bounds.min];
+  const max = [...bounds.max];
+  const centre = scene.body.length > 0 ? centreOf(scene.body, position, [0, 0, 0]) : null;
+  for (const [name, [low, high]] of Object.entries(periodic(scene))) {
+    const axis = AXES.indexOf(name);
+    const middle = centre === null ? (low + high) / 2 : centre[axis];
+    min[axis] = middle - (high - low) / 2;
+    max[axis] = middle + (high - low) / 2;
+  }
+  return {...bounds, min, max};
 }
 
 function extent(position) {
@@ -58,11 +85,11 @@ function extent(position) {
 }
 
 /**
- * What is drawn of a tank, from its bounds.
+ * What is drawn of a tank, from its bounds: nothing where an open axis is cut off.
  *
  * @returns {{floor: number[][], marks: number[], edges: number[]}} corners of the floor; lines as six numbers each
  */
-export function tankLines({min, max, walls}) {
+export function tankLines({min, max, walls, open}) {
   const [x0, y0, z0] = min;
   const [x1, y1, z1] = max;
   const marks = [];
@@ -76,9 +103,14 @@ export function tankLines({min, max, walls}) {
   const edges = [];
   corners.forEach(([x, z], i) => {
     const [nextX, nextZ] = corners[(i + 1) % 4];
-    edges.push(x, y0, z, nextX, y0, nextZ);
-    if (walls) {
-      edges.push(x, y1, z, nextX, y1, nextZ, x, y0, z, x, y1, z);
+    if (!open[x === nextX ? 0 : 2]) {
+      edges.push(x, y0, z, nextX, y0, nextZ);
+      if (walls) {
+        edges.push(x, y1, z, nextX, y1, nextZ);
+      }
+    }
+    if (walls && !open[0] && !open[2]) {
+      edges.push(x, y0, z, x, y1, z);
     }
   });
   return {floor: corners.map(([x, z]) => [x, y0, z]), marks, edges};

@@ -7,7 +7,7 @@ import {GlPicture} from './gl-picture.js';
 import {gpuDevice, onGpuChange} from './gpu-device.js';
 import {PlainPicture} from './plain-picture.js';
 import {Quality} from './quality.js';
-import {centreOf, tankBounds} from './scene.js';
+import {boundsAround, centreOf, hasOpenAxes, tankBounds} from './scene.js';
 import {SpineTrace} from './trace.js';
 import {WebGlDrawing, hasGraphicsCard} from './webgl-drawing.js';
 import {WebGpuDrawing} from './webgpu-drawing.js';
@@ -116,6 +116,10 @@ export class Stage {
       this.#bounds = tankBounds(this.#scene, frame.position);
       this.#picture?.setBounds(this.#bounds);
       this.rig.setBounds(this.#bounds);
+    } else if (hasOpenAxes(this.#scene)) {
+      this.#bounds = boundsAround(this.#bounds, this.#scene, frame.position);
+      this.#picture?.setBounds(this.#bounds);
+      this.rig.moveBounds(this.#bounds);
     }
     this.#trace.update(frame);
     this.#isNew = true;

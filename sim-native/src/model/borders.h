@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "natator/model.h"
+#include "physics/border.h"
+
+namespace natator {
+
+/// All ends of the water in the order in which images are made: those of periodic axes, two each, and then the planes.
+template <class Real>
+std::vector<physics::Border<Real>> borders_of(const Model& model);
+
+template <class Real>
+std::vector<physics::Seam<Real>> seams_of(const Model& model);
+
+/// Gravity along the axes that have ends: what the water weighs on its walls by, length/s^2.
+Eigen::Vector3d gravity_on_walls(const Model& model);
+
+/// The difference of two places by the shortest way, through the ends of periodic axes too.
+Eigen::Vector3d shortest_way(const Model& model, Eigen::Vector3d difference);
+
+}  // namespace natator
