@@ -12,6 +12,7 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Optional;
 import java.util.function.Function;
@@ -48,11 +49,11 @@ final class Answers {
                 + (evolved.isEmpty() ? ".**" : "; of what its four bodies evolve here " + evolved + " do.**"));
         String fastest = inEach(this::fastest);
         if (!fastest.isEmpty()) {
-            sentences.add("The fastest of what evolved is " + fastest + ".");
+            sentences.add("The fastest that swims is " + fastest + ".");
         }
         String without = inEach(this::withoutWater);
         if (!without.isEmpty()) {
-            sentences.add("Without water, where nothing can swim, what evolved moves at up to " + without + " units/s.");
+            sentences.add("Without water, where nothing can swim, what evolved moves at up to " + without + ".");
         }
         String like = inEach(this::eel);
         if (!like.isEmpty()) {
@@ -64,8 +65,12 @@ final class Answers {
         return sentences;
     }
 
-    /** What is said of each water, where there is something. */
+    /** What is said of each water, where there is something; once, if it is the same in all. */
     private static String inEach(Function<Water, String> of) {
+        List<String> told = Arrays.stream(Water.values()).map(of).toList();
+        if (told.get(0) != null && new HashSet<>(told).size() == 1) {
+            return told.get(0) + " in both waters";
+        }
         return Arrays.stream(Water.values()).filter(water -> of.apply(water) != null)
                 .map(water -> of.apply(water) + " in " + (water == Water.FLEX ? "`flex`" : water.words())).collect(Collectors.joining(", "));
     }
@@ -76,14 +81,14 @@ final class Answers {
     }
 
     private String fastest(Water water) {
-        return best(water).stream().max(Comparator.comparingDouble(subject -> results.speed(subject).orElseThrow().mean()))
+        return best(water).stream().filter(this::swims).max(Comparator.comparingDouble(subject -> results.speed(subject).orElseThrow().mean()))
                 .map(subject -> "creature " + subject.creature() + " at " + results.speed(subject).orElseThrow()
                         .text(results.bodyLength(subject.creature())) + " body lengths/s").orElse(null);
     }
 
     private String withoutWater(Water water) {
         return best(water).stream().map(subject -> Math.abs(results.speed(subject, Condition.VACUUM).mean())).filter(Double::isFinite)
-                .max(Double::compare).map(TableFormat::shortNumber).orElse(null);
+                .max(Double::compare).map(speed -> TableFormat.shortNumber(speed) + " units/s").orElse(null);
     }
 
     private String eel(Water water) {

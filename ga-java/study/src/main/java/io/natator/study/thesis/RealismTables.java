@@ -22,7 +22,8 @@ final class RealismTables {
     void add(ReportDocument page) {
         page.heading(3, "Table 3.2: e against real fish");
         page.text("0 is the same motion; *none* is the e of a spine that does not move, √(x_l/L)/3, x_l being where the shortest spine ends. So the "
-                + "least e alone names no fish: *like* is the nearest of those below 0.8 of none. An eel by the formula itself has an e of up to 0.04, "
+                + "least e alone names no fish: *like* is the nearest of those that have at most 0.8 of none and that the "
+                + "simulated spine need not be scaled to less than a tenth for (α below 0.1). An eel by the formula itself has an e of up to 0.04, "
                 + "since its spine does not lie about its line of best fit. α scales the simulated spine: as printed in the thesis it scales the real one, which "
                 + "cannot give its values. Sideways is z, as in the thesis; mean ± standard deviation over recorded runs. Flex 1.2.0: the same measure on one "
                 + "recorded run.");
@@ -70,8 +71,8 @@ final class RealismTables {
         }
         for (Recorded one : recorded()) {
             List<String> row = new ArrayList<>(List.of(one.creature(), one.from()));
-            Arrays.stream(FishMode.values())
-                    .forEach(mode -> row.add(TableFormat.speed(StudyResults.error(one.motions(), mode, fits))));
+            Arrays.stream(FishMode.values()).forEach(mode -> row.add(TableFormat.speed(StudyResults.error(one.motions(), mode, fits)) + ", α "
+                    + TableFormat.shortNumber(StudyResults.scale(one.motions(), mode, fits))));
             double part = one.motions().stream().mapToDouble(SwimKinematics::measuredPart).average().orElseThrow();
             row.add(TableFormat.shortNumber(Math.sqrt(part) / 3));
             row.add(TableFormat.shortNumber(part));

@@ -151,8 +151,12 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
 
     /** Whether that mode is like them at all, by means over the runs; see {@link ModeFit#resembles}. */
     private static boolean resembles(List<SwimKinematics> motions, FishMode mode, Function<SwimKinematics, List<ModeFit>> fits) {
-        return ModeFit.resembles(relative(motions, mode, fits).mean(),
-                Sample.of(motions.stream().map(motion -> fits.apply(motion).get(mode.ordinal()).alpha()).toList()).mean());
+        return ModeFit.resembles(relative(motions, mode, fits).mean(), scale(motions, mode, fits));
+    }
+
+    /** Mean α, by which the simulated spine is scaled to fit best. */
+    static double scale(List<SwimKinematics> motions, FishMode mode, Function<SwimKinematics, List<ModeFit>> fits) {
+        return motions.stream().mapToDouble(motion -> fits.apply(motion).get(mode.ordinal()).alpha()).average().orElse(Double.NaN);
     }
 
     /** Of the modes that they are like at all the one with the least mean e; empty if there is none. */
@@ -161,12 +165,13 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
                 .min(Comparator.comparingDouble(mode -> error(motions, mode, fits).mean()));
     }
 
-    /** The same in words, with e as a share of no motion's and the part of the body that it was taken over. */
+    /** The same in words, with e as a share of no motion's, the part of the body that it was taken over, and α. */
     static String likeWhich(List<SwimKinematics> motions, Function<SwimKinematics, List<ModeFit>> fits) {
         FishMode fish = like(motions, fits).orElse(nearest(motions, fits));
         return fish == null ? TableFormat.NOTHING : like(motions, fits).map(FishMode::label).orElse("none")
                 + " (" + TableFormat.shortNumber(relative(motions, fish, fits).mean()) + " over "
-                + TableFormat.shortNumber(motions.stream().mapToDouble(SwimKinematics::measuredPart).average().orElse(Double.NaN)) + " of it)";
+                + TableFormat.shortNumber(motions.stream().mapToDouble(SwimKinematics::measuredPart).average().orElse(Double.NaN)) + " of it, α "
+                + TableFormat.shortNumber(scale(motions, fish, fits)) + ")";
     }
 
     /** Recorded runs of a gait in its water. */

@@ -4,6 +4,7 @@ import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.SwimSample;
 import io.natator.encoding.Gait;
 import io.natator.report.ReportDocument;
+import io.natator.verdict.Verdict;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
@@ -23,7 +24,7 @@ final class WinnersSection {
 
     void add(ReportDocument page) {
         page.heading(2, "What swims");
-        page.text("Speeds in body lengths per second. Re and St: means of the runs in open water; in `flex` there are none.");
+        page.text("Speeds in body lengths per second. Re and St: means of the runs in open water, of what may swim; in `flex` there are none.");
         for (Water water : Water.values()) {
             page.heading(3, water == Water.FLEX ? "The thesis' tank, flex" : "Open water, conserving");
             List<Subject> subjects = Stream.concat(results.catalogue().published(water).stream(), results.evolved(water).stream())
@@ -44,10 +45,11 @@ final class WinnersSection {
         Speed speed = results.speed(subject).orElseThrow();
         double length = results.bodyLength(subject.creature());
         SwimSample water = results.controls(subject).map(Controls::water).orElse(null);
+        boolean maySwim = results.verdict(subject).filter(verdict -> verdict.kind() != Verdict.Kind.DOES_NOT_SWIM).isPresent();
         return List.of("" + subject.creature(), subject.label(), speed.text(length), "± " + TableFormat.shortNumber(speed.scatter() / length),
                 signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
-                TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()), figure(water == null ? null : water.reynolds()),
-                water == null || water.strouhal() == null ? TableFormat.NOTHING : TableFormat.shortNumber(water.strouhal()),
+                TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()), figure(maySwim ? water.reynolds() : null),
+                !maySwim || water.strouhal() == null ? TableFormat.NOTHING : TableFormat.shortNumber(water.strouhal()),
                 water == null ? TableFormat.NOTHING : String.format(Locale.ROOT, "%.0f %%", 100 * water.completed()));
     }
 
