@@ -226,7 +226,7 @@ final class EvolveCommand implements Callable<Integer> {
                 .withScene(sceneOptions.scheme(),
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
                         sceneOptions.overrides())
-                .withBodies(bodies(sceneName, execution.simulator()));
+                .withEvolve(bodies(sceneName, execution.simulator()));
     }
 
     /** What to change of the body; null for nothing. */

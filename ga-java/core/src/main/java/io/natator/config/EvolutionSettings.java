@@ -4,6 +4,7 @@ import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Genome;
 import io.natator.encoding.Encoding;
+import io.soabase.recordbuilder.core.RecordBuilder;
 import java.util.List;
 import java.util.Locale;
 import java.util.stream.Collectors;
@@ -40,10 +41,12 @@ import java.util.stream.Collectors;
  * @param migration         which of several islands the run is, and how they exchange gaits; null for a run by itself
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
+@RecordBuilder
 public record EvolutionSettings(String scene, EncodingKind encoding, int actuators, OptimizerKind optimizer,
         int population, int generations, Long evaluations, long seed, OperatorSet operators, double gaussianDeviation,
         FitnessKind fitness, Boolean vacuumCheck, Backend backend, Scheme scheme, Double duration,
-        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives, BodyEvolution evolve, Migration migration) {
+        JsonNode overrides, Integer starts, Judge judge, List<WeightedObjective> objectives, BodyEvolution evolve, Migration migration)
+        implements EvolutionSettingsBuilder.With {
 
     /** Generations of a run that ends by its number of evaluations alone. */
     public static final int NO_LIMIT = Integer.MAX_VALUE;
@@ -127,81 +130,33 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
 
     /** These settings with another size. */
     public EvolutionSettings withSize(int newPopulation, int newGenerations) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, newPopulation, newGenerations,
-                evaluations, seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration,
-                overrides, starts, judge,
-                objectives, evolve, migration);
-    }
-
-    /** These settings with a number of simulations, or null, after which the run ends. */
-    public EvolutionSettings withEvaluations(Long newEvaluations) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, newEvaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve, migration);
-    }
-
-    /** These settings with another seed. */
-    public EvolutionSettings withSeed(long newSeed) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                newSeed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve, migration);
+        return with(to -> to.population(newPopulation).generations(newGenerations));
     }
 
     /** These settings with another optimizer and, for JGAP, its operators. */
     public EvolutionSettings withOptimizer(OptimizerKind newOptimizer, OperatorSet newOperators,
             double newGaussianDeviation) {
-        return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
-                seed, newOperators, newGaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve, migration);
+        return with(to -> to.optimizer(newOptimizer).operators(newOperators).gaussianDeviation(newGaussianDeviation));
     }
 
     /** These settings with another reward, and with or without the check of new bests in vacuum. */
     public EvolutionSettings withFitness(FitnessKind newFitness, boolean newVacuumCheck) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, newFitness, newVacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve, migration);
-    }
-
-    /** These settings on another backend. */
-    public EvolutionSettings withBackend(Backend newBackend) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, newBackend, scheme, duration, overrides, starts, judge,
-                objectives, evolve, migration);
+        return with(to -> to.fitness(newFitness).vacuumCheck(newVacuumCheck));
     }
 
     /** These settings with the scene changed; null leaves what the scene has. */
     public EvolutionSettings withScene(Scheme newScheme, Double newDuration, JsonNode newOverrides) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, newScheme, newDuration,
-                newOverrides, starts, judge, objectives, evolve, migration);
+        return with(to -> to.scheme(newScheme).duration(newDuration).overrides(newOverrides));
     }
 
     /** These settings with another number of starts of each gait. */
     public EvolutionSettings withStarts(int newStarts, Judge newJudge) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides,
-                newStarts, newJudge, objectives, evolve, migration);
+        return with(to -> to.starts(newStarts).judge(newJudge));
     }
 
     /** These settings with objectives instead of the fitness, or null; and for these, an optimizer. */
     public EvolutionSettings withObjectives(OptimizerKind newOptimizer, List<WeightedObjective> newObjectives) {
-        return new EvolutionSettings(scene, encoding, actuators, newOptimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides,
-                starts, judge, newObjectives, evolve, migration);
-    }
-
-    /** These settings with bodies to be evolved, or null for gaits alone. */
-    public EvolutionSettings withBodies(BodyEvolution newEvolve) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, newEvolve, migration);
-    }
-
-    /** These settings as one of several islands, or null for a run by itself. */
-    public EvolutionSettings withMigration(Migration newMigration) {
-        return new EvolutionSettings(scene, encoding, actuators, optimizer, population, generations, evaluations,
-                seed, operators, gaussianDeviation, fitness, vacuumCheck, backend, scheme, duration, overrides, starts, judge,
-                objectives, evolve, newMigration);
+        return with(to -> to.optimizer(newOptimizer).objectives(newObjectives));
     }
 
     /** What genes stand for in this run. */

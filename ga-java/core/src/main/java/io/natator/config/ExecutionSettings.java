@@ -1,5 +1,6 @@
 package io.natator.config;
 
+import io.soabase.recordbuilder.core.RecordBuilder;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -18,8 +19,10 @@ import java.util.List;
  *                  {@code natator-sim serve}, maybe on another machine; evaluations are spread over them. None: {@code simulator}
  * @param master    URL of the Spark master in mode spark, or null for the one that the program was submitted to
  */
+@RecordBuilder
 public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend backend, List<Integer> devices,
-        int workers, Duration timeout, Path cache, List<String> commands, String master) {
+        int workers, Duration timeout, Path cache, List<String> commands, String master)
+        implements ExecutionSettingsBuilder.With {
 
     /**
      * Checks the ranges.
@@ -95,44 +98,15 @@ public record ExecutionSettings(Path simulator, SimulatorMode mode, Backend back
         return mode != SimulatorMode.SPARK || backend == Backend.CPU;
     }
 
-    /** These settings with other commands, see {@link #commands}. */
-    public ExecutionSettings withCommands(List<String> newCommands) {
-        return new ExecutionSettings(simulator, mode, backend, devices, workers, timeout, cache, newCommands, master);
-    }
-
     /** These settings in another mode. */
+    @Override
     public ExecutionSettings withMode(SimulatorMode newMode) {
-        return new ExecutionSettings(simulator, newMode, backend, devices, workers, timeout, cache, commands,
-                newMode == SimulatorMode.SPARK ? master : null);
-    }
-
-    /** These settings on another backend. */
-    public ExecutionSettings withBackend(Backend newBackend) {
-        return new ExecutionSettings(simulator, mode, newBackend, devices, workers, timeout, cache, commands, master);
-    }
-
-    /** These settings on other GPUs, by their numbers. */
-    public ExecutionSettings withDevices(List<Integer> newDevices) {
-        return new ExecutionSettings(simulator, mode, backend, newDevices, workers, timeout, cache, commands, master);
-    }
-
-    /** These settings with another number of evaluations at the same time. */
-    public ExecutionSettings withWorkers(int newWorkers) {
-        return new ExecutionSettings(simulator, mode, backend, devices, newWorkers, timeout, cache, commands, master);
+        return with(to -> to.mode(newMode).master(newMode == SimulatorMode.SPARK ? master : null));
     }
 
     /** These settings in mode spark with a master, or null for the one that the program was submitted to. */
+    @Override
     public ExecutionSettings withMaster(String newMaster) {
-        return new ExecutionSettings(simulator, SimulatorMode.SPARK, backend, devices, workers, timeout, cache, commands, newMaster);
-    }
-
-    /** These settings with a time limit. */
-    public ExecutionSettings withTimeout(Duration newTimeout) {
-        return new ExecutionSettings(simulator, mode, backend, devices, workers, newTimeout, cache, commands, master);
-    }
-
-    /** These settings with another cache, or null for none. */
-    public ExecutionSettings withCache(Path newCache) {
-        return new ExecutionSettings(simulator, mode, backend, devices, workers, timeout, newCache, commands, master);
+        return with(to -> to.mode(SimulatorMode.SPARK).master(newMaster));
     }
 }

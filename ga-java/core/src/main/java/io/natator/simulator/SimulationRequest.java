@@ -9,6 +9,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
+import io.soabase.recordbuilder.core.RecordBuilder;
 
 /**
  * What to simulate; the JSON form is {@code sim-native/protocol/request.schema.json}.
@@ -23,8 +24,10 @@ import io.natator.encoding.Gait;
  * @param start        which of many starts, at least 0, or null for the scene's own; not together with a perturbation
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
+@RecordBuilder
 public record SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme,
-        JsonNode overrides, Perturbation perturbation, Integer start) {
+        JsonNode overrides, Perturbation perturbation, Integer start)
+        implements SimulationRequestBuilder.With {
 
     /** A request that leaves the starting positions as they are. */
     public SimulationRequest(long id, String scene, Gait gait, Double duration, Scheme scheme, JsonNode overrides) {
@@ -54,12 +57,7 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
 
     /** This request in a scene that is changed further; null for no change. */
     public SimulationRequest withChange(JsonNode change) {
-        return new SimulationRequest(id, scene, gait, duration, scheme, MergePatch.both(overrides, change), perturbation, start);
-    }
-
-    /** This request for another time in seconds, or null for the scene's own. */
-    public SimulationRequest withDuration(Double newDuration) {
-        return new SimulationRequest(id, scene, gait, newDuration, scheme, overrides, perturbation, start);
+        return withOverrides(MergePatch.both(overrides, change));
     }
 
     /** This request without early stops. */
@@ -67,20 +65,5 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
         ObjectNode patch = JsonNodeFactory.instance.objectNode();
         patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
         return withChange(patch);
-    }
-
-    /** This request in another scheme, or null for the scene's own. */
-    public SimulationRequest withScheme(Scheme newScheme) {
-        return new SimulationRequest(id, scene, gait, duration, newScheme, overrides, perturbation, start);
-    }
-
-    /** This request with another id. */
-    public SimulationRequest withId(long newId) {
-        return new SimulationRequest(newId, scene, gait, duration, scheme, overrides, perturbation, start);
-    }
-
-    /** This request from another start, or null for the scene's own. */
-    public SimulationRequest withStart(Integer newStart) {
-        return new SimulationRequest(id, scene, gait, duration, scheme, overrides, perturbation, newStart);
     }
 }

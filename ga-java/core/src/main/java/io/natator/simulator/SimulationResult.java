@@ -4,6 +4,7 @@ import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
+import io.soabase.recordbuilder.core.RecordBuilder;
 import java.util.List;
 
 /**
@@ -34,10 +35,12 @@ import java.util.List;
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 @JsonInclude(JsonInclude.Include.NON_NULL)
+@RecordBuilder
 public record SimulationResult(Long id, Status status, Double distance, String stopped, Double simulated,
         Integer frames, String scheme, String precision, String hash, Instability unstable, String error,
         SwimmingNumbers swimming, Double work, Course course, List<GoalScore> goals, Double vacuumDrift, List<Double> objectives, Double worth,
-        Effort effort) {
+        Effort effort)
+        implements SimulationResultBuilder.With {
 
     /** Copies the lists. */
     public SimulationResult {
@@ -99,28 +102,9 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         return new SimulationResult(id, Status.REFUSED, null, null, null, null, null, null, null, null, reason);
     }
 
-    /** This result under another id. */
-    public SimulationResult withId(long newId) {
-        return new SimulationResult(newId, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, goals, vacuumDrift, objectives, worth, effort);
-    }
-
-    /** This result with what the same gait drifts in vacuum. */
-    public SimulationResult withVacuumDrift(double drift) {
-        return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, goals, drift, objectives, worth, effort);
-    }
-
     /** This result with what it is worth. */
     public SimulationResult withWorth(List<Double> byObjective, double together) {
-        return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, goals, vacuumDrift, byObjective, together, effort);
-    }
-
-    /** This result with what the swim took. */
-    public SimulationResult withEffort(Effort taken) {
-        return new SimulationResult(id, status, distance, stopped, simulated, frames, scheme, precision, hash,
-                unstable, error, swimming, work, course, goals, vacuumDrift, objectives, worth, taken);
+        return with(to -> to.objectives(byObjective).worth(together));
     }
 
     /** The signed distance swum, or 0 where there is none because the evaluation was unstable or failed. */

@@ -65,7 +65,7 @@ class RealBodyTest {
     void bodiesOfABatchSwimAsTheyDoAlone() throws InterruptedException {
         ProfileBody own = SceneInfo.bodyToEvolve("pool/eel", null, SIMULATOR);
         EvolutionSettings settings = EvolutionSettings.of("pool/eel", EncodingKind.SPARSE, 8).withScene(null, 0.1, null)
-                .withBodies(new BodyEvolution(Evolved.BOTH, own, null));
+                .withEvolve(new BodyEvolution(Evolved.BOTH, own, null));
         SplittableRandom random = new SplittableRandom(5);
         List<SimulationRequest> requests = LongStream.range(0, 3).mapToObj(id -> SimulationRequest.of(id, settings,
                 settings.genome().decode(Bodies.random(settings.genome().genes(), random)))).toList();

@@ -73,7 +73,7 @@ class CachedEvaluatorTest {
         SimulationRequest[] all = different.toArray(SimulationRequest[]::new);
         assertThat(simulated(execution, all)).isEqualTo(10);
         assertThat(simulated(execution, all)).isZero();
-        assertThat(simulated(execution, all[0].withId(99))).isZero();
+        assertThat(simulated(execution, all[0].withId(99L))).isZero();
         assertThat(simulated(execution.withBackend(Backend.AUTO), all)).isEqualTo(10);
         Files.writeString(execution.simulator(), "# another build\n", StandardOpenOption.APPEND);
         assertThat(simulated(execution, all)).isEqualTo(10);

@@ -87,7 +87,7 @@ class OptimizerTest {
     void evolvesBodiesAsItDoesGaits(OptimizerKind optimizer) {
         ToyEvolution.Recorder recorder = new ToyEvolution.Recorder();
         EvolutionSettings settings = ToyEvolution.by(optimizer, EvolutionSettings.of("open-water/eel", EncodingKind.SPARSE, 8)
-                .withBodies(new BodyEvolution(Evolved.BOTH, Bodies.bundled("eel"), null)).withSize(10, 4).withSeed(3));
+                .withEvolve(new BodyEvolution(Evolved.BOTH, Bodies.bundled("eel"), null)).withSize(10, 4).withSeed(3));
         EvolutionState whole = ToyEvolution.run(settings, 2, null, List.of(), recorder);
         EvolutionState second = recorder.states.get(1);
         int more = (int) second.evaluations() + 3;

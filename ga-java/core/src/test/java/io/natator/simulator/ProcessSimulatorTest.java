@@ -52,7 +52,7 @@ class ProcessSimulatorTest {
 
         assertThat(result.swimming()).isEqualTo(new SwimmingNumbers(0.25, 0.3125, 131.4, 409.6));
         assertThat(result.work()).isEqualTo(0.75);
-        assertThat(result.withId(8).withVacuumDrift(0.5)).as("in all else the same")
+        assertThat(result.withId(8L).withVacuumDrift(0.5)).as("in all else the same")
                 .isEqualTo(new SimulationResult(8L, Status.OK, result.distance(), result.stopped(), result.simulated(),
                         result.frames(), "conserving", "float", result.hash(), null, null, result.swimming(), 0.75, 0.5));
     }

@@ -57,7 +57,7 @@ final class StudyLog implements AutoCloseable {
 
     /** What a request asks for, whatever its id. */
     private static String key(SimulationRequest request) {
-        return Json.line(request.withId(0));
+        return Json.line(request.withId(0L));
     }
 
     @Override

@@ -74,7 +74,7 @@ final class ViewFixture {
         Path simulator = FakeSimulator.in(Files.createDirectory(folder.resolve("bodies")));
         JsonNode vacuum = Json.parse("{\"fluid\":null,\"planes\":[],\"solver\":{\"gravity\":[0,0,0]}}", JsonNode.class);
         EvolutionSettings settings = EvolutionSettings.of("pool/eel", EncodingKind.SPARSE, 8).withSize(6, 5)
-                .withBodies(new BodyEvolution(Evolved.BODY, SceneInfo.bodyToEvolve("pool/eel", null, SIMULATOR),
+                .withEvolve(new BodyEvolution(Evolved.BODY, SceneInfo.bodyToEvolve("pool/eel", null, SIMULATOR),
                         EncodingKind.SPARSE.forActuators(8).decode(List.of(1.5, 0.7, 0.7, 0.9))));
         Path run = folder.resolve("bodies-run");
         new Natator(new ExecutionSettings(simulator, 2, null)).evolve(settings.withScene(Scheme.CONSERVING, 2.0, vacuum), run);

@@ -38,7 +38,7 @@ final class ConvergenceLog implements AutoCloseable {
     }
 
     private static String key(SimulationRequest request) {
-        return Json.line(request.withId(0));
+        return Json.line(request.withId(0L));
     }
 
     /** Those that are not measured yet. */
@@ -56,7 +56,7 @@ final class ConvergenceLog implements AutoCloseable {
         String program = Sha256.of(execution.simulator());
         for (Experiment experiment : missing(experiments)) {
             JsonNode answer = new ConvergeProgram(execution).of(experiment.request(), STARTS, List.of(LEVEL));
-            rows.add(new Row(program, execution.backend(), experiment.request().withId(0), answer));
+            rows.add(new Row(program, execution.backend(), experiment.request().withId(0L), answer));
             done.run();
         }
     }

@@ -39,7 +39,7 @@ final class KinematicsLog implements AutoCloseable {
     }
 
     private static String key(SimulationRequest request) {
-        return Json.line(request.withId(0));
+        return Json.line(request.withId(0L));
     }
 
     /** The runs of these experiments that are not recorded yet, each once. */

@@ -30,7 +30,7 @@ final class MeasurementLog implements AutoCloseable {
     }
 
     private static String key(SimulationRequest request) {
-        return Json.line(request.withId(0));
+        return Json.line(request.withId(0L));
     }
 
     /** The runs of these experiments that are not measured yet, each once. */
@@ -54,7 +54,7 @@ final class MeasurementLog implements AutoCloseable {
         evaluator.evaluateAll(numbered, result -> {
             if (result.status() != SimulationResult.Status.FAILED) {
                 rows.add(new Measurement(program, execution.backend(),
-                        missing.get(result.id().intValue()), result.withId(0)));
+                        missing.get(result.id().intValue()), result.withId(0L)));
             }
             done.run();
         });

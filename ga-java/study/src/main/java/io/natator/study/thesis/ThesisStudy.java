@@ -127,9 +127,9 @@ public final class ThesisStudy implements AutoCloseable {
     /** The recording of just this, if there is one: with more seeds another run may be the best. */
     private Optional<Recording> recorded(Map.Entry<String, SimulationRequest> picture) {
         Path file = recording(picture.getKey());
-        String request = Json.line(picture.getValue().withId(0));
+        String request = Json.line(picture.getValue().withId(0L));
         return Optional.of(file).filter(Files::exists).map(Recording::read)
-                .filter(found -> Json.line(found.request().withId(0)).equals(request));
+                .filter(found -> Json.line(found.request().withId(0L)).equals(request));
     }
 
     /** Recordings that are there, by name. */
