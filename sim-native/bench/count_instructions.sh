@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Instructions that each stage of the solver takes in a scene that needs it and in one that does not, counted by
 # Valgrind's callgrind (Debian package valgrind; it runs the AVX2 kernels): two frames of the thesis tank, as
-# `natator-sim bench stages --quick` has them. Prints CSV.
+# `natator-bench stages --quick` has them. Prints CSV.
 set -euo pipefail
 
-usage='usage: count_instructions.sh NATATOR_SIM > stage-instructions.csv'
+usage='usage: count_instructions.sh NATATOR_BENCH > stage-instructions.csv'
 program=${1:?$usage}
 command -v valgrind >/dev/null || { echo 'count_instructions.sh: needs valgrind' >&2; exit 1; }
 folder=$(mktemp -d)
@@ -12,13 +12,13 @@ trap 'rm -rf "$folder"' EXIT
 
 # feature, then a pattern for the functions that do it and nothing else
 features=$(cat <<'TEXT'
-fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_rate_lambda)(_of)?[<(]
-fluid neighbours|::(find_fluid_neighbours|list_fluid_neighbours|find_by_vectors|interleave_by_vectors)[(]
-planes|::(find_plane_contacts|leave_planes|solve_planes|add_plane_pressure|push_from_planes)[(]
+fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_moments|compute_gradients|compute_impulse|apply_impulse|relieve|return_relief|lay_out_relief|pack|give_images)(_of)?[<(]
+fluid neighbours|::(find_fluid_neighbours|list_fluid_neighbours|find_by_vectors|interleave_by_vectors|add_runs)[<(]
+planes|::(find_plane_contacts|leave_planes|solve_planes|put_before_planes|before_planes|hold_at_walls)[(]
 contacts|::(find_contacts|solve_contacts)[(]
 springs|::solve_springs[(]
 clusters|::solve_clusters[(]
-viscosity|::smooth_velocities[<(]
+viscosity|::(smooth_velocities|add_viscosity)[<(]
 cohesion|::(solve_cohesion|add_cohesion)[(]
 surfaceTension|::add_surface_tension[(]
 vorticityConfinement|::add_vorticity_confinement[(]
@@ -35,8 +35,9 @@ echo 'feature,scheme,state,instructions_of_the_run,instructions_of_the_feature'
 while IFS='|' read -r feature pattern; do
     for scheme in flex conserving; do
         for state in off on; do
-            valgrind --quiet --tool=callgrind --callgrind-out-file="$folder/out" "$program" bench stages --quick \
-                --skipped-only --repeats 1 --feature "$feature" --scheme "$scheme" --state "$state" >/dev/null 2>&1
+            rows=$(valgrind --quiet --tool=callgrind --callgrind-out-file="$folder/out" "$program" stages --quick \
+                --skipped-only --repeats 1 --feature "$feature" --scheme "$scheme" --state "$state" 2>/dev/null | tail -n +2)
+            [[ -n $rows ]] || continue  # the scheme does not have it
             callgrind_annotate --threshold=100 "$folder/out" | awk -v row="$feature,$scheme,$state" -v pattern="$pattern" '
                 { gsub(",", "", $1) }
                 /PROGRAM TOTALS/ { all = $1 }
