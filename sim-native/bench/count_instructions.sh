@@ -14,7 +14,7 @@ trap 'rm -rf "$folder"' EXIT
 features=$(cat <<'TEXT'
 fluid|::(compute_density|compute_lambda|solve_density_constraint|compute_moments|compute_gradients|compute_impulse|apply_impulse|relieve|return_relief|lay_out_relief|pack|give_images)(_of)?[<(]
 fluid neighbours|::(find_fluid_neighbours|list_fluid_neighbours|find_by_vectors|interleave_by_vectors|add_runs)[<(]
-planes|::(find_plane_contacts|leave_planes|solve_planes|put_before_planes|before_planes|hold_at_walls)[(]
+planes|::(find_plane_contacts|leave_planes|solve_planes|before_planes|hold_at_walls)[(]
 contacts|::(find_contacts|solve_contacts)[(]
 springs|::solve_springs[(]
 clusters|::solve_clusters[(]
@@ -24,10 +24,9 @@ surfaceTension|::add_surface_tension[(]
 vorticityConfinement|::add_vorticity_confinement[(]
 freeSurfaceDrag|::drag_free_surface[(]
 dissipation|::damp_contacts[(]
-shockPropagation|::(shock_factor|partner_weight)[<(]
-adhesion|::adhere[(]
-restitution|::rebound[(]
-sleepThreshold|::hold_slow_particles[(]
+adhesion|::apply_adhesion[(]
+restitution|::apply_restitution[(]
+sleepThreshold|::apply_sleep[(]
 TEXT
 )
 

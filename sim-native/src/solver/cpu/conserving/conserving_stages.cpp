@@ -8,8 +8,14 @@ namespace natator::cpu {
 
 template <class Real>
 ConservingStages<Real>::ConservingStages(const Model& model, const Plan& plan)
-    : Substep<Real>(model, plan), seams_(seams_of<Real>(model)), bodies_(free_bodies(model)), springs_per_particle_(model.particles(), 0), spring_lambda_(model.springs.size()) {
+    : Substep<Real>(model, plan),
+      seams_(seams_of<Real>(model)),
+      bodies_(free_bodies(model)),
+      springs_per_particle_(model.particles(), 0),
+      spring_lambda_(model.springs.size()) {
     if (plan_.water) water_.emplace(model);
+    for (const Plane& plane : model.planes)
+        planes_.push_back({vec3<Real>(plane.normal.template cast<Real>()), static_cast<Real>(plane.offset)});
     // Planes must hold whatever is pushed against them in the course of a substep, not just what starts close to them.
     constants_.plane_search_distance += constants_.radius;
     const std::size_t all = ws_.position.x.size();

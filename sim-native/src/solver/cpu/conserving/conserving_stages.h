@@ -85,6 +85,7 @@ private:
     }
 
     std::optional<Water<Real>> water_;
+    std::vector<physics::PlaneSurface<Real>> planes_;
     std::vector<physics::Seam<Real>> seams_;
     Real overlap_push_ = 0;            ///< how far a substep may push overlaps apart, length
     Vector3Array<Real> base_;          ///< predicted positions by slot

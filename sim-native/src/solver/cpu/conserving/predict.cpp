@@ -6,10 +6,7 @@ namespace natator::cpu {
 
 template <class Real>
 Vec3<Real> ConservingStages<Real>::before_planes(Vec3<Real> x, Real distance) const {
-    for (const Plane& plane : model_.planes)
-        x = put_before(physics::PlaneSurface<Real>{vec3<Real>(plane.normal.template cast<Real>()),
-                                                   static_cast<Real>(plane.offset)},
-                       distance, x);
+    for (const physics::PlaneSurface<Real>& plane : planes_) x = put_before(plane, distance, x);
     return x;
 }
 
@@ -29,6 +26,7 @@ void ConservingStages<Real>::wrap_fluid() {
 
 template <class Real>
 void ConservingStages<Real>::put_before_planes() {
+    if (planes_.empty()) return;
     for (int i = 0; i < ws_.particles; ++i)
         if (inverse_mass_[i] > 0)
             state_->position[i] = eigen(before_planes(vec3(state_->position[i]), wall_distance(i)));
