@@ -25,3 +25,4 @@ draw turn goals/turn "$gaits/turn.json" --from top --at 2
 draw reach goals/reach "$gaits/reach.json" --from top --at 2
 draw school company/school "$gaits/fish-like.json" --from top --at 2
 draw pillars company/pillars "$gaits/fish-like.json" --from top --at 2
+draw periodic open-water/periodic "$gaits/fish-like.json" --from top --at 2
