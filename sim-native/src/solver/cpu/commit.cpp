@@ -43,12 +43,10 @@ std::optional<int> Substep<Real>::first_not_finite() const {
 
 template <class Real>
 void Substep<Real>::commit() {
-    team_->for_parts(ws_.particles, shortest_part * lanes, [this](int, int begin, int end) {
-        for (int i = begin; i < end; ++i) {
-            if (inverse_mass_[i] == 0) continue;
-            state_->position[i] = eigen(position_of_slot(ws_.slot_of[i]));
-            state_->velocity[i] = eigen(new_velocity_[i]);
-        }
+    team_->for_each(ws_.particles, shortest_part * lanes, [this](int i) {
+        if (inverse_mass_[i] == 0) return;
+        state_->position[i] = eigen(position_of_slot(ws_.slot_of[i]));
+        state_->velocity[i] = eigen(new_velocity_[i]);
     });
     state_->cluster_rotation = cluster_rotation_;
     for (std::size_t k = 0; k < cluster_centre_.size(); ++k) state_->cluster_centre[k] = eigen(cluster_centre_[k]);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bounding_box.h"
 #include "substep.h"
 
 namespace natator::cpu {
@@ -38,30 +39,11 @@ void Substep<Real>::sort_by_cell(const std::vector<int>& ids, int first_slot, st
 
 template <class Real>
 void Substep<Real>::number_slots() {
-    using Corner = std::array<Real, 3>;
     const auto& position = ws_.unsorted_position;
-    const Corner first{position[0].x(), position[0].y(), position[0].z()};
-    std::vector<Corner> lows(team_->most_parts(), first), highs(team_->most_parts(), first);
-    team_->for_parts(ws_.particles, shortest_part * lanes, [&](int part, int begin, int end) {
-        Corner low = first, high = first;
-        for (int i = begin; i < end; ++i)
-            for (int axis = 0; axis < 3; ++axis) {
-                low[axis] = std::min(low[axis], position[i][axis]);
-                high[axis] = std::max(high[axis], position[i][axis]);
-            }
-        lows[part] = low;
-        highs[part] = high;
-    });
-    Corner low = first, high = first;
-    for (std::size_t part = 0; part < lows.size(); ++part)
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], lows[part][axis]);
-            high[axis] = std::max(high[axis], highs[part][axis]);
-        }
-    ws_.grid.cover(low, high, constants_.search_distance, 4096 + 16 * ws_.particles);
-    team_->for_parts(ws_.particles, shortest_part * lanes, [&](int, int begin, int end) {
-        for (int i = begin; i < end; ++i)
-            ws_.cell_of[i] = ws_.grid.cell(position[i].x(), position[i].y(), position[i].z());
+    const Box<Real> box = bounding_box(position, *team_);
+    ws_.grid.cover(box.low, box.high, constants_.search_distance, 4096 + 16 * ws_.particles);
+    team_->for_each(ws_.particles, shortest_part * lanes, [&](int i) {
+        ws_.cell_of[i] = ws_.grid.cell(position[i].x(), position[i].y(), position[i].z());
     });
     sort_by_cell(ws_.fluid_ids, 0, ws_.fluid_cell_begin);
     sort_by_cell(ws_.solid_ids, ws_.solid_begin, ws_.solid_cell_begin);

@@ -33,6 +33,14 @@ public:
         run(parts, [&](int part) { work(part, cut(count, part, parts), cut(count, part + 1, parts)); });
     }
 
+    /// Calls work(k) for each k of [0, count), in parts like those.
+    template <class Work>
+    void for_each(int count, int grain, const Work& work) {
+        for_parts(count, grain, [&](int, int begin, int end) {
+            for (int k = begin; k < end; ++k) work(k);
+        });
+    }
+
 private:
     static int cut(int count, int part, int parts) {
         return static_cast<int>(static_cast<long long>(count) * part / parts);

@@ -57,6 +57,11 @@ public:
     std::vector<Vector3<Real>> forces() const { return water_ ? water_->forces() : std::vector<Vector3<Real>>{}; }
 
 private:
+    /// Calls work(i) for each particle, side by side.
+    template <class Work>
+    void for_each_particle(const Work& work) {
+        this->team_->for_each(ws_.particles, this->shortest_part * lanes, work);
+    }
     template <class Push>
     void push_solids(const Push& push);
     /// Water that has left a periodic tank comes in at the other end.

@@ -17,7 +17,7 @@ void ConservingStages<Real>::push_solids(const Push& push) {
 template <class Real>
 void ConservingStages<Real>::solve_density_constraint() {
     push_solids([this] {
-        if (!ws_.solid_ids.empty()) water_->give_images_velocities();
+        if (!ws_.solid_ids.empty()) water_->give_images_velocities(*this->team_);
         water_->push_apart(*this->team_);
     });
 }
@@ -28,14 +28,14 @@ void ConservingStages<Real>::move_fluid() {
     push_solids([this] { water_->return_relief(*this->team_); });
     water_->add_pressure_forces();
     water_->hold_at_walls(*this->team_);
-    for (const int i : ws_.fluid_ids) {
-        const int slot = ws_.slot_of[i];
-        if (!(inverse_mass_[i] > 0)) continue;
+    this->team_->for_each(static_cast<int>(ws_.fluid_ids.size()), this->shortest_part * lanes, [this](int k) {
+        const int i = ws_.fluid_ids[k], slot = ws_.slot_of[i];
+        if (!(inverse_mass_[i] > 0)) return;
         Vec3<Real> v = water_->velocity(i);
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
         displacement_.set(slot, h_ * (v - ws_.predicted_velocity.at(slot)));
         ws_.position.set(slot, before_planes(base_.at(slot) + displacement_.at(slot), wall_distance(i)));
-    }
+    });
 }
 
 template void ConservingStages<float>::solve_density_constraint();

@@ -27,20 +27,29 @@ int Images<Real>::turned(int turn, int border) {
 
 /// One border after the other, each of what is there by then.
 template <class Real>
-const std::vector<typename Images<Real>::Image>& Images<Real>::of(const std::vector<Vector>& positions, Real distance) {
+const std::vector<typename Images<Real>::Image>& Images<Real>::of(const std::vector<Vector>& positions, Real distance,
+                                                                  ThreadTeam& team) {
+    constexpr int shortest_part = 2048;  // fewer are done before another thread is awake
     images_.clear();
     for (int border = 0; border < static_cast<int>(borders_.size()); ++border) {
-        const auto& [normal, offset, shift] = borders_[border];
-        const auto add = [&, n = normal, d = offset, s = shift](int particle, int turn, int borders, const Vector& x) {
-            const Real before = n.dot(x) + d;
+        const auto add = [distance, through = borders_[border]](std::vector<Image>& to, int particle, int borders, const Vector& x,
+                                                                const auto& turn) {
+            const Real before = through.normal.dot(x) + through.offset;
             if (before >= 0 && before < distance)
-                images_.push_back({particle, turned(turn, border), borders, x + (s > 0 ? s : -2 * before) * n});
+                to.push_back({particle, turn(), borders, x + (through.shift > 0 ? through.shift : -2 * before) * through.normal});
         };
         const std::size_t images = images_.size();
-        for (std::size_t i = 0; i < positions.size(); ++i) add(static_cast<int>(i), 0, 1, positions[i]);
+        const int turn = turned(0, border);
+        found_.resize(team.most_parts());
+        for (std::vector<Image>& found : found_) found.clear();
+        team.for_parts(static_cast<int>(positions.size()), shortest_part, [&](int part, int begin, int end) {
+            for (int i = begin; i < end; ++i) add(found_[part], i, 1, positions[i], [turn] { return turn; });
+        });
+        for (const std::vector<Image>& found : found_) images_.insert(images_.end(), found.begin(), found.end());
         for (std::size_t k = 0; k < images; ++k) {
             const Image image = images_[k];  // images_ grows
-            if (image.borders < 3) add(image.particle, image.turn, image.borders + 1, image.position);
+            if (image.borders < 3)
+                add(images_, image.particle, image.borders + 1, image.position, [&] { return turned(image.turn, border); });
         }
     }
     return images_;

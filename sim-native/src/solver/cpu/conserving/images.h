@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "../thread_team.h"
 #include "natator/model.h"
 #include "physics/border.h"
 
@@ -26,7 +27,7 @@ public:
         Vector position;
     };
     /// Images of all particles within `distance` before a border.
-    const std::vector<Image>& of(const std::vector<Vector>& positions, Real distance);
+    const std::vector<Image>& of(const std::vector<Vector>& positions, Real distance, ThreadTeam& team);
 
     /// Could something at x be within `distance` of an image behind a wall?
     bool reaches_walls(const Vector& x, Real distance) const;
@@ -45,6 +46,7 @@ private:
     std::vector<Matrix> matrices_{Matrix::Identity()};
     std::vector<int> next_;  ///< of turn and border, at turn * borders + border: the turn of both, -1 before it is there
     std::vector<Image> images_;
+    std::vector<std::vector<Image>> found_;  ///< of the particles themselves, by part of them
 };
 
 }  // namespace natator::cpu

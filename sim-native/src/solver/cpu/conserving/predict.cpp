@@ -27,9 +27,10 @@ void ConservingStages<Real>::wrap_fluid() {
 template <class Real>
 void ConservingStages<Real>::put_before_planes() {
     if (planes_.empty()) return;
-    for (int i = 0; i < ws_.particles; ++i)
+    for_each_particle([this](int i) {
         if (inverse_mass_[i] > 0)
             state_->position[i] = eigen(before_planes(vec3(state_->position[i]), wall_distance(i)));
+    });
 }
 
 template <class Real>
@@ -47,12 +48,12 @@ void ConservingStages<Real>::predict() {
         return Substep<Real>::predict();
     }
     water_->add_gravity(*this->team_);
-    for (int i = 0; i < ws_.particles; ++i) {
+    for_each_particle([this](int i) {
         Vec3<Real> v = water_->velocity(i);
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
         ws_.unsorted_velocity[i] = eigen(v);
         ws_.unsorted_position[i] = eigen(vec3(state_->position[i]) + h_ * v + water_->shift(i));
-    }
+    });
 }
 
 template void ConservingStages<float>::find_water_neighbours();

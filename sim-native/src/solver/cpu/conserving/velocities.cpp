@@ -29,12 +29,12 @@ void ConservingStages<Real>::update_velocities() {
     if (water_) move_fluid();
     const Real kept = plan_.damping ? 1 / (1 + h_ * static_cast<Real>(model_.parameters.damping)) : Real(1);
 
-    for (int i = 0; i < ws_.particles; ++i) new_velocity_[i] = present_velocity(i);
+    for_each_particle([this](int i) { new_velocity_[i] = present_velocity(i); });
     keep_body_momentum();
-    for (Vec3<Real>& v : new_velocity_) {
-        v = kept * v;
-        if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
-    }
+    for_each_particle([&](int i) {
+        new_velocity_[i] = kept * new_velocity_[i];
+        if (plan_.clamp_speed) new_velocity_[i] = clamped(new_velocity_[i], constants_.max_speed);
+    });
 }
 
 template void ConservingStages<float>::keep_body_momentum();

@@ -1,8 +1,10 @@
 #include "water.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
+#include "../bounding_box.h"
 #include "../workspace.h"
 #include "model/borders.h"
 #include "model/water_volumes.h"
@@ -62,31 +64,37 @@ template <class Real>
 void Water<Real>::part_overlaps(ThreadTeam& team) {
     parting_.clear();
     const Real limit = physics::velocity_limit(h_, fastest_expansion_);
-    bool any = false;
-    for (int slot = 0; slot < particles_; ++slot) {
-        any |= density_[slot] - 1 > Real(physics::overlap_tolerance);
-        target_[slot] = physics::parting_target(volume_[slot], density_[slot], limit, h_);
-    }
+    std::atomic<bool> any = false;
+    team.for_parts(particles_, shortest_run, [&, h = h_](int, int begin, int end) {
+        const Real *const volume = volume_.data(), *const density = density_.data();
+        Real* const target = target_.data();
+        Real densest = 0;
+        for (int slot = begin; slot < end; ++slot) {
+            densest = std::max(densest, density[slot]);
+            target[slot] = physics::parting_target(volume[slot], density[slot], limit, h);
+        }
+        if (densest - 1 > Real(physics::overlap_tolerance)) any = true;
+    });
     if (!any) return;
     kept_velocity_ = velocity_;
-    for (int slot = 0; slot < particles_; ++slot) {
+    for_each_slot(team, [this](int slot) {
         velocity_.set(slot, {});
         if (!model_.is_fluid(particle_of_[slot])) inverse_mass_[slot] = 0;
-    }
+    });
     on_all_threads(team, kernels_->pack);
-    give_images_velocities();
+    give_images_velocities(team);
     for (int pass = 0; pass < physics::parting_passes; ++pass) {
         apply_impulses(team);
-        give_images_velocities();
+        give_images_velocities(team);
     }
     parting_.resize(particles_);
-    for (int slot = 0; slot < particles_; ++slot) {
+    for_each_slot(team, [this](int slot) {
         parting_[slot] = clamped(h_ * velocity_.at(slot), Real(physics::longest_parting) * spacing_);
         velocity_.set(slot, kept_velocity_.at(slot));
         inverse_mass_[slot] = inverse_mass_of_[particle_of_[slot]];
-    }
+    });
     on_all_threads(team, kernels_->pack);
-    give_images_velocities();
+    give_images_velocities(team);
 }
 
 template <class Real>
@@ -100,24 +108,20 @@ const std::vector<Vector3<Real>>& Water<Real>::places_in_tank(const State<Real>&
 
 /// Numbers the slots by cell, first of the particles, then of the images.
 template <class Real>
-void Water<Real>::lay_out(const State<Real>& state) {
+void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
     const std::vector<Vector3<Real>>& position = places_in_tank(state);
-    const auto& images = images_.of(position, radius_);
-    std::array<Real, 3> low{}, high{};
+    const auto& images = images_.of(position, radius_, team);
+    Box<Real> box = bounding_box(position, team);
     for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = high[axis] = position[0][axis];
-        for (const auto& x : position) {
-            low[axis] = std::min(low[axis], x[axis]);
-            high[axis] = std::max(high[axis], x[axis]);
-        }
-        low[axis] -= radius_;  // images that are further out are in the border cells
-        high[axis] += radius_;
+        box.low[axis] -= radius_;  // images that are further out are in the border cells
+        box.high[axis] += radius_;
     }
-    grid_.cover(low, high, radius_, 4096 + 16 * particles_);
+    grid_.cover(box.low, box.high, radius_, 4096 + 16 * particles_);
     const auto cell = [this](const auto& x) { return grid_.cell(x.x(), x.y(), x.z()); };
 
+    for_each_slot(team, [&](int i) { cell_of_[i] = cell(position[i]); });
     cell_begin_.assign(grid_.cells() + 1, 0);
-    for (int i = 0; i < particles_; ++i) ++cell_begin_[(cell_of_[i] = cell(position[i])) + 1];
+    for (const int of_particle : cell_of_) ++cell_begin_[of_particle + 1];
     image_cell_begin_.assign(grid_.cells() + 1, 0);
     for (const auto& image : images) ++image_cell_begin_[cell(image.position) + 1];
     image_cell_begin_[0] = image_begin_;
@@ -148,23 +152,28 @@ void Water<Real>::lay_out(const State<Real>& state) {
     };
     std::vector<int> next(cell_begin_.begin(), cell_begin_.end() - 1);
     for (int i = 0; i < particles_; ++i) {
-        const int slot = next[cell_of_[i]]++;
-        slot_of_[i] = slot;
-        particle_of_[slot] = i;
+        slot_of_[i] = next[cell_of_[i]]++;
+        particle_of_[slot_of_[i]] = i;
+    }
+    for_each_slot(team, [&](int slot) {
+        const int i = particle_of_[slot];
         solid_[slot] = model_.is_fluid(i) ? Real(0) : Real(1);
         put(slot, i, position[i], state.velocity[i]);
-    }
+    });
     for (int slot = particles_; slot < image_begin_; ++slot) put_nothing(slot);
     next.assign(image_cell_begin_.begin(), image_cell_begin_.end() - 1);
     image_owner_.resize(images.size());
     image_turn_.resize(images.size());
-    for (const auto& image : images) {
-        const int slot = next[cell(image.position)]++;
+    image_slot_.clear();
+    for (const auto& image : images) image_slot_.push_back(next[cell(image.position)]++);
+    for_each_image(team, [&](int k) {
+        const auto& image = images[k];
+        const int slot = image_slot_[k];
         image_owner_[slot - image_begin_] = slot_of_[image.particle];
         image_turn_[slot - image_begin_] = image.turn;
         put(slot, image.particle, image.position,
             (images_.matrix(image.turn) * state.velocity[image.particle]).eval());
-    }
+    });
     for (int slot = far_slot_; slot < static_cast<int>(all); ++slot) put_nothing(slot);
 }
 
@@ -190,36 +199,36 @@ void Water<Real>::list_neighbours(ThreadTeam& team) {
 }
 
 template <class Real>
-void Water<Real>::give_images_corrections() {
-    for (std::size_t k = 0; k < image_owner_.size(); ++k) {
+void Water<Real>::give_images_corrections(ThreadTeam& team) {
+    for_each_image(team, [this](int k) {
         const int owner = image_owner_[k];
         const auto part = [&](int c) { return correction_[c][owner]; };
         Eigen::Matrix<Real, 3, 3> l;
         l << part(0), part(3), part(4), part(3), part(1), part(5), part(4), part(5), part(2);
         const auto& h = images_.matrix(image_turn_[k]);
         l = (h * l * h.transpose()).eval();
-        const std::size_t slot = 4 * (image_begin_ + k);
+        const std::size_t slot = 4 * static_cast<std::size_t>(image_begin_ + k);
         const Real packed[8] = {l(0, 0), l(1, 1), l(2, 2), l(0, 1), l(0, 2), l(1, 2), solid_[owner], 0};
         std::copy_n(packed, 4, packed_correction_.begin() + static_cast<std::ptrdiff_t>(slot));
         std::copy_n(packed + 4, 4, packed_shear_.begin() + static_cast<std::ptrdiff_t>(slot));
-    }
+    });
     for (auto* array : {&packed_correction_, &packed_shear_})
         std::fill_n(array->begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
 }
 
 template <class Real>
-void Water<Real>::give_images(AlignedVector<Real>& packed) {
+void Water<Real>::give_images(AlignedVector<Real>& packed, ThreadTeam& team) {
     using Vector = Eigen::Matrix<Real, 3, 1>;
-    for (std::size_t k = 0; k < image_owner_.size(); ++k) {
+    for_each_image(team, [&](int k) {
         const Vector v = images_.matrix(image_turn_[k]) *
                          Eigen::Map<const Vector>(&packed[4 * static_cast<std::size_t>(image_owner_[k])]);
-        std::copy_n(v.data(), 3, packed.begin() + static_cast<std::ptrdiff_t>(4 * (image_begin_ + k)));
-    }
+        std::copy_n(v.data(), 3, packed.begin() + 4 * static_cast<std::ptrdiff_t>(image_begin_ + k));
+    });
 }
 
 template <class Real>
-void Water<Real>::give_images_velocities() {
-    give_images(packed_velocity_);
+void Water<Real>::give_images_velocities(ThreadTeam& team) {
+    give_images(packed_velocity_, team);
 }
 
 template <class Real>
@@ -266,7 +275,7 @@ WaterView<Real> Water<Real>::view() {
 template <class Real>
 void Water<Real>::apply_impulses(ThreadTeam& team) {
     on_all_threads(team, kernels_->compute_impulse);
-    for (std::size_t k = 0; k < image_owner_.size(); ++k) impulse_[image_begin_ + k] = impulse_[image_owner_[k]];
+    for_each_image(team, [this](int k) { impulse_[image_begin_ + k] = impulse_[image_owner_[k]]; });
     on_all_threads(team, kernels_->apply_impulse);
 }
 
@@ -275,13 +284,13 @@ void Water<Real>::push_apart(ThreadTeam& team) {
     apply_impulses(team);
     const Real strength = physics::kept_strength(h_, fluid_density_);
     on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->relieve(part, strength); });
-    give_images_velocities();
+    give_images_velocities(team);
 }
 
 template <class Real>
 void Water<Real>::return_relief(ThreadTeam& team) {
     on_all_threads(team, kernels_->lay_out_relief);
-    give_images(packed_relief_);
+    give_images(packed_relief_, team);
     std::fill_n(packed_relief_.begin() + 4 * static_cast<std::ptrdiff_t>(far_slot_), 4, Real(0));
     on_all_threads(team, kernels_->return_relief);
 }
@@ -289,21 +298,23 @@ void Water<Real>::return_relief(ThreadTeam& team) {
 template <class Real>
 void Water<Real>::find_neighbours(const State<Real>& state, Real h, ThreadTeam& team) {
     h_ = h;
-    lay_out(state);
+    lay_out(state, team);
     list_neighbours(team);
     on_all_threads(team, kernels_->pack);
-    for (int slot = image_begin_; slot <= far_slot_; ++slot) {
+    const auto pack = [this](int slot) {
         const Real quadruples[8] = {position_.x[slot], position_.y[slot], position_.z[slot], volume_[slot],
                                     velocity_.x[slot], velocity_.y[slot], velocity_.z[slot], mobility_[slot]};
         std::copy_n(quadruples, 4, packed_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
         std::copy_n(quadruples + 4, 4, packed_velocity_.begin() + 4 * static_cast<std::ptrdiff_t>(slot));
-    }
+    };
+    for_each_image(team, [&](int k) { pack(image_begin_ + k); });
+    pack(far_slot_);
 }
 
 template <class Real>
 void Water<Real>::compute_gradients(ThreadTeam& team) {
     on_all_threads(team, kernels_->compute_moments);
-    give_images_corrections();
+    give_images_corrections(team);
     on_all_threads(team, kernels_->compute_gradients);
 }
 
@@ -329,27 +340,27 @@ template <class Real>
 void Water<Real>::add_gravity(ThreadTeam& team) {
     const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
-    for (int slot = 0; slot < particles_; ++slot) {
+    for_each_slot(team, [&](int slot) {
         if (inverse_mass_[slot] > 0)
             velocity_.add(slot, h_ * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity_ : gravity));
         target_[slot] = physics::density_target(volume_[slot], density_[slot], limit, h_);
-    }
+    });
     on_all_threads(team, kernels_->pack);
-    give_images_velocities();
+    give_images_velocities(team);
 }
 
 template <class Real>
 void Water<Real>::hold_at_walls(ThreadTeam& team) {
     if (image_owner_.empty() || !(norm(weight_on_walls_) > 0)) return;
     std::fill_n(impulse_.begin(), image_begin_, Real(0));
-    for (int slot = image_begin_; slot < far_slot_; ++slot) {
-        const int owner = image_owner_[slot - image_begin_];
+    for_each_image(team, [this](int k) {
+        const int slot = image_begin_ + k, owner = image_owner_[k];
         impulse_[slot] = is_fluid_slot(owner) ? physics::weight_to_ghost(inverse_mass_[owner], volume_[owner], h_,
                                                                          weight_on_walls_,
                                                                          position_.at(slot) - position_.at(owner),
                                                                          impulse_sum_[owner])
                                               : Real(0);
-    }
+    });
     const auto at_wall = [this](int block) {
         for (int slot = block * lanes; slot < std::min((block + 1) * lanes, particles_); ++slot)
             if (images_.reaches_walls(eigen(position_.at(slot)), radius_)) return true;

@@ -53,7 +53,7 @@ public:
     /// Once all passes are done: holds up what lies at walls, see physics::weight_to_ghost.
     void hold_at_walls(ThreadTeam& team);
     /// Gives the images the velocities of what they are images of.
-    void give_images_velocities();
+    void give_images_velocities(ThreadTeam& team);
     /// What keeps particles evenly spread and takes off overlaps, by particle, length; no velocity comes with it.
     Vec3<Real> shift(int particle) const;
 
@@ -74,13 +74,13 @@ public:
 private:
     /// Where the water has its particles: in a periodic tank all within its ends.
     const std::vector<Vector3<Real>>& places_in_tank(const State<Real>& state);
-    void lay_out(const State<Real>& state);
+    void lay_out(const State<Real>& state, ThreadTeam& team);
     void list_neighbours(ThreadTeam& team);
-    void give_images_corrections();
+    void give_images_corrections(ThreadTeam& team);
     void part_overlaps(ThreadTeam& team);
     void apply_impulses(ThreadTeam& team);
     /// Turns vectors that neighbours gather into those of the images.
-    void give_images(AlignedVector<Real>& packed);
+    void give_images(AlignedVector<Real>& packed, ThreadTeam& team);
     WaterView<Real> view();
 
     void add_viscous_forces(Real strength, Real most);
@@ -118,6 +118,15 @@ private:
     template <class Work>
     void for_fluid_slots(ThreadTeam& team, const Work& work);
 
+    /// Calls work(k) for each image, k being its slot - image_begin_.
+    template <class Work>
+    void for_each_image(ThreadTeam& team, const Work& work) {
+        team.for_each(static_cast<int>(image_owner_.size()), shortest_run, work);
+    }
+    template <class Work>
+    void for_each_slot(ThreadTeam& team, const Work& work) {
+        team.for_each(particles_, shortest_run, work);
+    }
     template <class Work>
     void on_all_threads(ThreadTeam& team, const Work& work) {
         const WaterView<Real> all = view();
@@ -128,7 +137,8 @@ private:
             work(part);
         });
     }
-    static constexpr int shortest_part = 8;  ///< blocks
+    static constexpr int shortest_part = 8;    ///< blocks
+    static constexpr int shortest_run = 2048;  ///< particles or images that little is done with; fewer are done before another thread is awake
 
     const Model& model_;
     const WaterKernels<Real>* kernels_;
@@ -149,6 +159,7 @@ private:
     int particles_, image_begin_, far_slot_ = 0;
     std::vector<int> slot_of_, particle_of_;
     std::vector<int> image_owner_, image_turn_;  ///< by image slot - image_begin_
+    std::vector<int> image_slot_;                ///< by image, as Images has them
     std::vector<int> cell_begin_, image_cell_begin_;
     std::vector<int> cell_of_;  ///< by particle
 
