@@ -14,6 +14,7 @@ import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
 import java.util.Objects;
+import java.util.function.Supplier;
 import java.util.function.ToDoubleFunction;
 
 /**
@@ -58,6 +59,22 @@ final class MeasurementLog implements AutoCloseable {
             }
             done.run();
         });
+    }
+
+    /**
+     * Measures what is missing, then what that has made known, until a round has added nothing.
+     *
+     * @param experiments what is known by now
+     * @param done        called after each run
+     * @throws InterruptedException if the evaluator is closed; what is finished is kept
+     */
+    void measureAll(Supplier<List<Experiment>> experiments, Evaluator evaluator, ExecutionSettings execution, Runnable done)
+            throws InterruptedException {
+        List<SimulationRequest> before = List.of();
+        for (List<SimulationRequest> left = missing(experiments.get()); !left.equals(before); left = missing(experiments.get())) {
+            measure(experiments.get(), evaluator, execution, done);
+            before = left;
+        }
     }
 
     /** Whether all runs are measured. */

@@ -74,10 +74,7 @@ public final class ThesisStudy implements AutoCloseable {
      * @throws InterruptedException if the evaluator is closed; what is finished is kept
      */
     public void measure(Evaluator evaluator, ExecutionSettings execution, Runnable done) throws InterruptedException {
-        for (int before = -1, left = missingMeasurements(); left > 0 && left != before; left = missingMeasurements()) {
-            before = left;
-            results.measurements().measure(results.experiments(), evaluator, execution, done);
-        }
+        results.measurements().measureAll(results::experiments, evaluator, execution, done);
     }
 
     /**

@@ -20,6 +20,8 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.Optional;
+import java.util.function.Supplier;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -52,10 +54,29 @@ class WinnersTest {
     }
 
     private void measure(MeasurementLog log, List<Experiment> experiments) throws IOException, InterruptedException {
+        measure(log, () -> experiments);
+    }
+
+    private void measure(MeasurementLog log, Supplier<List<Experiment>> experiments) throws IOException, InterruptedException {
         Path fake = folder.resolve("fake-simulator.sh");
         ExecutionSettings execution = new ExecutionSettings(Files.exists(fake) ? fake : FakeSimulator.in(folder), 2, Duration.ofMinutes(1));
         try (Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
-            log.measure(experiments, evaluator, execution, () -> { });
+            log.measureAll(experiments, evaluator, execution, () -> { });
+        }
+    }
+
+    /** As many runs of the winner as there were of finalists: the number of those that are missing stays the same. */
+    @Test
+    void whatAFirstRoundHasFoundIsMeasuredInASecond() throws IOException, InterruptedException {
+        try (MeasurementLog log = new MeasurementLog(folder.resolve("measurements.jsonl"))) {
+            Winners winners = new Winners(folder, catalogue, log, List.of(run));
+            Supplier<List<Experiment>> known = () -> Stream.concat(winners.experiments().stream(), winners.all().stream()
+                    .flatMap(winner -> Stream.of(Condition.WATER, Condition.VACUUM).map(condition -> catalogue.of(winner, condition)))).toList();
+            assertThat(winners.experiments()).hasSize(2);
+
+            measure(log, known);
+
+            assertThat(known.get()).hasSize(4).allMatch(log::has);
         }
     }
 
