@@ -6,6 +6,7 @@ import io.natator.checkpoint.BestGait;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Verdict;
@@ -69,6 +70,7 @@ final class RunReport {
         if (verdict.advice() != null) {
             line("", verdict.advice());
         }
+        printFailures(state, folder);
         line("watch it", ProgramName.asCalled() + " view --run " + folder);
         line("share it", ProgramName.asCalled() + " page " + folder);
     }
@@ -81,6 +83,15 @@ final class RunReport {
                 ? number(vacuum.distance()) + " in " + Numbers.fixed(vacuum.simulated(), 2) + " s, "
                         + number(vacuum.speed()) + " units/s"
                 : "no result: " + (vacuum.error() != null ? vacuum.error() : vacuum.status()));
+    }
+
+    /** A search that lacks some answers may end elsewhere than one that has them. */
+    private void printFailures(EvolutionState state, Path folder) {
+        int failed = state.history().stream().mapToInt(GenerationSummary::failed).sum();
+        if (failed > 0) {
+            line("failed", failed + " of " + state.evaluations() + " evaluations gave no answer, so the same seed may find another gait elsewhere; "
+                    + "why: " + ProgramName.asCalled() + " show " + folder);
+        }
     }
 
     private void line(String name, String value) {

@@ -263,7 +263,8 @@ class CommandLineTest {
         assertThat(out.toString()).startsWith("fault/mixed, jgap (corrected operators), population 8, 3 generations, ")
                 .contains("generation 3: best ", "; finished", "best gait of fault/mixed after 3 generations",
                         "early stop  0.0 %", "unchanged ", "cache       0 evaluations", "in vacuum",
-                        "evaluations failed, the last, ", "no valid result");
+                        "evaluations failed, the last, ", "no valid result")
+                .containsPattern("  failed      [1-9][0-9]* of [0-9]+ evaluations gave no answer, so the same seed");
 
         Files.delete(folder.resolve("run/checkpoint.json"));
         Files.delete(folder.resolve("run/best.json"));

@@ -17,6 +17,8 @@ record Framing(Box tank, Box shown) {
     /** Of the length of a body: how much is shown before and behind it. */
     private static final double ROOM = 0.6;
     private static final double ROOM_IN_VACUUM = 0.2;
+    /** A tank of which this share would be shown is shown whole. */
+    private static final double NEARLY_ALL = 0.7;
     private static final double AXIS = 0.999;
     private static final double SIDES = 0.03;
     private static final double ABOVE = 0.04;
@@ -41,7 +43,8 @@ record Framing(Box tank, Box shown) {
             around.low()[axis] = Double.NEGATIVE_INFINITY;
             around.high()[axis] = Double.POSITIVE_INFINITY;
         }
-        return new Framing(tank, around.within(tank));
+        Box part = around.within(tank);
+        return new Framing(tank, part.size(0) < NEARLY_ALL * tank.size(0) ? part : tank);
     }
 
     private static Box box(StreamScene scene, StreamFrame frame, IntPredicate wanted) {

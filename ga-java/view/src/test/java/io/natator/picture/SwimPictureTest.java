@@ -1,6 +1,7 @@
 package io.natator.picture;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -103,6 +104,17 @@ class SwimPictureTest {
         Color veiled = at(picture, projection, 1.3, 0.45, 0.5);
         Color bare = at(without, projection, 1.3, 0.45, 0.5);
         assertThat(veiled.getRed()).isLessThan(bare.getRed()).isGreaterThan(veiled.getBlue() + 40);
+    }
+
+    /** A long tank is cut off some way from the swimmer; one not much longer than it is shown to its ends. */
+    @Test
+    void aShortTankIsShownWhole() throws JsonProcessingException {
+        StreamScene small = scene(true);
+        ObjectNode json = Json.parse(Json.line(small), ObjectNode.class);
+        StreamScene large = Json.parse(json.put("bodyLength", 1.2).toString(), StreamScene.class);
+
+        assertThat(Framing.of(small, frame()).shown().size(0)).isCloseTo(0.2 + 2 * 0.6 * 0.3, within(1e-6));
+        assertThat(Framing.of(large, frame()).shown()).usingRecursiveComparison().isEqualTo(Framing.of(large, frame()).tank());
     }
 
     /** Edges along x, seen from above, are where a tank that is periodic along z is cut off. */
