@@ -11,15 +11,17 @@ import {LiveCharts} from './livecharts.js';
 import {Lockstep} from './lockstep.js';
 import {LookControls} from './look.js';
 import {remembered, rememberSoon} from './memory.js';
+import {listenToBanner, showBanner, showStatus} from './notices.js';
 import {Presentation} from './present.js';
+import {figures} from './probe.js';
 import {RunBrowser} from './runs.js';
 import {download, fileName, gaitText, sceneText} from './save.js';
 import {contents} from './scene.js';
 import {SolverControls, withoutSettings} from './solver.js';
 import {DEFAULT_LOOK, lookOfAddress} from './stage.js';
-import {isSamePatch} from './swimmer.js';
 import {Theme} from './theme.js';
 import {View} from './view.js';
+import {Watching} from './watching.js';
 
 const FIGURES_MS = 250;
 const NAMES = ['a', 'b'];
@@ -41,7 +43,7 @@ class Page {
   #lastFigures = 0;
   #vacuumBusy = false;
   #lockstep;
-  #browsed = null;
+  #watching = new Watching(this);
   #openAbout = about(true);
   #presentation = new Presentation(isOn => this.#views.forEach(view => {
     view.stage.rig.isOrbiting = isOn;
@@ -53,9 +55,9 @@ class Page {
     this.#look = new LookControls({...DEFAULT_LOOK, ...memory.look, ...lookOfAddress()}, () => this.#lookChanged());
     this.#charts = new LiveCharts(setup.modes);
     this.#theme = new Theme(memory.theme ?? 'auto', () => this.#themeChanged());
-    this.#gait = new GaitControls(gait => this.#view.setGait(gait));
-    this.#solver = new SolverControls((key, patch) => this.#view.setOverrides(key, patch));
-    this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watch(run, best, beside), () => this.#markRun());
+    this.#gait = new GaitControls(gait => this.view.setGait(gait));
+    this.#solver = new SolverControls((key, patch) => this.view.setOverrides(key, patch));
+    this.#runs = new RunBrowser(setup.runs, (run, best, beside) => this.#watching.watch(run, best, beside), () => this.#markRun());
     this.#lockstep = this.#newLockstep();
     fillSelect(byId('scheme'), setup.schemes.map(scheme => [scheme, scheme]));
     const cameras = CAMERAS.map((name, i) => [name, name, `key ${i + 1}`]);
@@ -79,7 +81,8 @@ class Page {
     return this.#views;
   }
 
-  get #view() {
+  /** The chosen one. */
+  get view() {
     return this.#views[this.#chosen];
   }
 
@@ -108,8 +111,8 @@ class Page {
     element.hidden = false;
     const view = new View(element.querySelector('.picture'), setting, this.#setup.start, this.#setup.scenes, {
       scene: () => this.#sceneChanged(which),
-      status: (state, text) => this.#status(state, text),
-      notice: (text, isBad, again) => this.#banner(text, isBad, again),
+      status: showStatus,
+      notice: showBanner,
       range: range => this.#rangeChanged(which, range),
     });
     view.stage.setTheme(this.#theme.colours);
@@ -222,7 +225,7 @@ class Page {
   }
 
   #showControls() {
-    const view = this.#view;
+    const view = this.view;
     this.#showRun();
     byId('rate').value = String(view.setting.rate);
     if (view.scene === null) {
@@ -247,7 +250,7 @@ class Page {
   }
 
   #showRun() {
-    byId('run').textContent = this.#view.isPaused ? 'Run' : 'Pause';
+    byId('run').textContent = this.view.isPaused ? 'Run' : 'Pause';
   }
 
   #lookChanged() {
@@ -271,27 +274,6 @@ class Page {
     this.#remember();
   }
 
-  #status(state, text) {
-    byId('status').dataset.state = state;
-    byId('status').textContent = text;
-    if (state === 'lost') {
-      document.querySelectorAll('.overlay').forEach(one => {
-        one.textContent = text;
-      });
-    }
-  }
-
-  #banner(text, isBad, again = null) {
-    byId('banner').dataset.kind = isBad ? 'bad' : 'note';
-    byId('banner-text').textContent = text;
-    byId('banner-again').hidden = again === null;
-    byId('banner-again').onclick = () => {
-      byId('banner').hidden = true;
-      again();
-    };
-    byId('banner').hidden = false;
-  }
-
   #remember() {
     rememberSoon(() => ({
       views: this.#views.map(view => view.setting), camera: this.#camera, look: this.#look.look,
@@ -309,7 +291,7 @@ class Page {
   }
 
   toggleRun() {
-    const isPaused = this.#view.isPaused;
+    const isPaused = this.view.isPaused;
     return this.#all(view => isPaused ? view.run() : view.pause(), 'transport-error');
   }
 
@@ -355,90 +337,42 @@ class Page {
   }
 
   async #changeScene(name) {
-    const scheme = this.#view.scene?.overrides?.scheme;
+    const scheme = this.view.scene?.overrides?.scheme;
     const overrides = scheme === undefined ? null : {scheme};
-    const error = await this.#view.setScene(name, overrides, null);
+    const error = await this.view.setScene(name, overrides, null);
     byId('scene-error').textContent = error ?? '';
-    if (error === null && isAtRest(this.#view.scene)) {
-      this.#view.setGait(this.#setup.gaits?.[name] ?? waveGait(this.#view.scene.actuators));
+    if (error === null && isAtRest(this.view.scene)) {
+      this.view.setGait(this.#setup.gaits?.[name] ?? waveGait(this.view.scene.actuators));
     }
   }
 
   async #changeVacuum(isVacuum) {
     this.#vacuumBusy = true;
-    const error = await this.#view.setVacuum(isVacuum);
+    const error = await this.view.setVacuum(isVacuum);
     this.#vacuumBusy = false;
     byId('scene-error').textContent = error ?? '';
     this.#showControls();
   }
 
   async #changeScheme(scheme) {
-    byId('scene-error').textContent = await this.#view.setOverrides('scheme', {scheme}) ?? '';
+    byId('scene-error').textContent = await this.view.setOverrides('scheme', {scheme}) ?? '';
     this.#showControls();
-  }
-
-  /**
-   * Shows a gait of a run (its `label` says which) in the chosen view, or beside what swims in the first one: if that is the same, beside
-   * what swam there before the generations were browsed.
-   *
-   * @returns {Promise<string|null>} why not, or null
-   */
-  async #watch(run, best, beside) {
-    const swim = {scene: run.scene, overrides: best.overrides ?? run.overrides, gait: best.gait,
-      origin: {run: run.name, label: best.label, gait: best.gait}};
-    if (!beside) {
-      if (this.#chosen === 0 && !isSameSwim(this.#view.setting, this.#browsed?.last)) {
-        this.#browsed = {before: this.#view.setting};
-      }
-      const error = await this.#swim(this.#view, swim);
-      if (this.#chosen === 0 && error === null) {
-        this.#browsed = {...this.#browsed, last: swim};
-      }
-      return error;
-    }
-    const [first, second] = this.#views;
-    if (isSameSwim(first.setting, swim)) {
-      const before = this.#browsed?.before;
-      if (before === undefined || isSameSwim(before, swim)) {
-        return 'This gait swims already: choose another one first.';
-      }
-      this.#browsed = null;
-      const error = await this.#swim(first, before);
-      if (error !== null) {
-        return error;
-      }
-    }
-    if (second === undefined) {
-      this.toggleCompare({...swim, rate: first.setting.rate, paused: first.isPaused});
-      return null;
-    }
-    return this.#swim(second, swim);
-  }
-
-  async #swim(view, {scene, overrides, gait, origin = null}) {
-    const isHere = view.scene !== null && view.scene.scene === scene && isSamePatch(view.scene.overrides, overrides);
-    const error = isHere && gait !== null ? await view.setGait(gait, origin)
-        : await view.setScene(scene, overrides, gait, origin);
-    if (error === null && isHere) {
-      await this.reset();
-    }
-    return typeof error === 'string' ? error : null;
   }
 
   async #loadGait(file) {
     try {
-      byId('gait-error').textContent = await this.#view.setGait(parseGait(await file.text())) ?? '';
+      byId('gait-error').textContent = await this.view.setGait(parseGait(await file.text())) ?? '';
     } catch (error) {
       byId('gait-error').textContent = `${file.name}: ${error.message}`;
     }
   }
 
   #savePicture() {
-    return this.#capture.savePicture(fileName(this.#view.scene, 'picture', 'png'));
+    return this.#capture.savePicture(fileName(this.view.scene, 'picture', 'png'));
   }
 
   #toggleFilm() {
-    byId('transport-error').textContent = this.#capture.toggleRecording(fileName(this.#view.scene, 'film', 'webm')) ?? '';
+    byId('transport-error').textContent = this.#capture.toggleRecording(fileName(this.view.scene, 'film', 'webm')) ?? '';
   }
 
   // --- inputs
@@ -450,21 +384,19 @@ class Page {
     click('step', () => this.step());
     click('reset', () => this.reset());
     click('compare', () => this.toggleCompare());
-    click('banner-close', () => {
-      byId('banner').hidden = true;
-    });
-    click('gait-save', () => download(fileName(this.#view.scene, 'gait'), gaitText(this.#view.scene)));
-    click('scene-save', () => download(fileName(this.#view.scene, 'scene'), sceneText(this.#view.scene)));
+    listenToBanner();
+    click('gait-save', () => download(fileName(this.view.scene, 'gait'), gaitText(this.view.scene)));
+    click('scene-save', () => download(fileName(this.view.scene, 'scene'), sceneText(this.view.scene)));
     click('gait-load', () => byId('gait-file').click());
     click('gait-random', async () => {
-      byId('gait-error').textContent = await this.#view.setGait(randomGait(this.#view.scene.actuators)) ?? '';
+      byId('gait-error').textContent = await this.view.setGait(randomGait(this.view.scene.actuators)) ?? '';
     });
     click('picture-save', () => this.#savePicture());
     click('film', () => this.#toggleFilm());
     this.#capture.onRecording = isOn => byId('film').setAttribute('aria-pressed', isOn);
     click('solver-default', async () => {
-      const {scene, overrides, gait} = this.#view.scene;
-      byId('solver-error').textContent = await this.#view.setScene(scene, withoutSettings(overrides), gait) ?? '';
+      const {scene, overrides, gait} = this.view.scene;
+      byId('solver-error').textContent = await this.view.setScene(scene, withoutSettings(overrides), gait) ?? '';
     });
     change('gait-file', input => {
       if (input.files.length > 0) {
@@ -487,7 +419,7 @@ class Page {
       ['r', 'back to the start', () => this.reset()],
       [['+', '-'], 'faster, slower', key => this.#moveRate(key === '+' ? 1 : -1)],
       [['1', '2', '3', '4'], 'camera: follow, side, top, free', key => this.setCamera(CAMERAS[Number(key) - 1])],
-      ['v', 'vacuum, water', () => this.#changeVacuum(!this.#view.isVacuum)],
+      ['v', 'vacuum, water', () => this.#changeVacuum(!this.view.isVacuum)],
       ['w', 'water: spheres, surface, none', () => this.#look.next('water')],
       ['c', 'colour: speed, density, mass, nothing', () => this.#look.next('colour')],
       ['k', 'body: skin, particles', () => this.#look.next('body')],
@@ -506,31 +438,6 @@ class Page {
   }
 }
 
-/** Whether two settings (scene, overrides, gait), of which the second may be absent, are the same swim. */
-function isSameSwim(one, other) {
-  return other !== undefined && one.scene === other.scene && isSamePatch(one.overrides, other.overrides)
-      && isSameGait(one.gait, other.gait);
-}
-
-/** Figures of what is shown, to be read by tests: of the first view, or of `views[1]`. */
-function figures(page) {
-  const of = which => ({
-    frame: () => page.views[which]?.frame?.frame ?? -1,
-    time: () => page.views[which]?.frame?.time ?? 0,
-    distance: () => page.views[which]?.frame?.distance ?? 0,
-    fps: () => page.views[which]?.fps ?? 0,
-    pace: () => page.views[which]?.pace ?? 0,
-    dropped: () => page.views[which]?.dropped ?? 0,
-    drawing: () => page.views[which]?.stage.drawing ?? '',
-    share: () => page.views[which]?.stage.share ?? 0,
-    samples: () => page.views[which]?.stage.samples ?? 0,
-    scene: () => page.views[which]?.scene ?? null,
-    connected: () => page.views[which]?.isConnected ?? false,
-    position: () => Array.from(page.views[which]?.frame?.position ?? []),
-  });
-  return {...of(0), views: [of(0), of(1)]};
-}
-
 async function begin() {
   try {
     const answer = await fetch('/api/setup');
@@ -539,8 +446,7 @@ async function begin() {
     }
     window.natator = figures(new Page(await answer.json(), remembered()));
   } catch (error) {
-    byId('status').dataset.state = 'lost';
-    byId('status').textContent = `The page cannot start: ${error.message}`;
+    showStatus('lost', `The page cannot start: ${error.message}`);
     throw error;
   }
 }
