@@ -8,6 +8,11 @@ import io.natator.verdict.Verdict;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
+import java.util.SortedMap;
+import java.util.SortedSet;
+import java.util.TreeMap;
+import java.util.TreeSet;
+import java.util.stream.IntStream;
 import java.util.stream.Stream;
 
 /** Every gait with its error bar, its verdict and what these rest on. */
@@ -37,8 +42,44 @@ final class WinnersSection {
             page.folded("controls", inside -> inside.table(List.of("creature", "gait", "resting", "vacuum", "no clamp", "mirrored", "other water", "on the processor",
                     "under water"), subjects.stream().map(this::controls).toList()));
         }
+        agreement(page);
         page.folded("the gaits, and which search bounds they are on", inside -> inside.table(List.of("creature", "water", "gait", "f (1/s)", "a", "φ", "on a bound"),
                 results.subjects().filter(subject -> subject.isEvolved() || subject.water() == Water.FLEX).map(WinnersSection::gait).toList()));
+    }
+
+    /** How much depends on the chance of an evolution: what each seed found. Nothing where there is one seed only. */
+    private void agreement(ReportDocument page) {
+        SortedSet<Long> seeds = new TreeSet<>(results.evolved().stream().map(Subject::seed).toList());
+        if (seeds.size() < 2) {
+            return;
+        }
+        page.heading(3, "Whether evolutions agree");
+        page.text("Speed ± error of each seed's winner: an evolution of its own, from other first gaits and other starts. They agree where the largest and the "
+                + "least are no further apart than the larger error of these two.");
+        List<String> header = new ArrayList<>(List.of("creature", "water"));
+        seeds.forEach(seed -> header.add("seed " + seed));
+        header.addAll(List.of("apart", "agree"));
+        List<List<String>> rows = new ArrayList<>();
+        for (Water water : Water.values()) {
+            IntStream.rangeClosed(1, 4).mapToObj(creature -> agreement(creature, water, seeds)).filter(row -> !row.isEmpty()).forEach(rows::add);
+        }
+        page.table(header, rows);
+    }
+
+    private List<String> agreement(int creature, Water water, SortedSet<Long> seeds) {
+        double length = results.bodyLength(creature);
+        SortedMap<Long, Speed> speeds = new TreeMap<>();
+        results.evolved(water).stream().filter(subject -> subject.creature() == creature)
+                .forEach(subject -> results.speed(subject).ifPresent(speed -> speeds.put(subject.seed(), speed)));
+        if (speeds.size() < 2) {
+            return List.of();
+        }
+        Agreement agreement = new Agreement(speeds.values());
+        List<String> row = new ArrayList<>(List.of("" + creature, water.words()));
+        seeds.forEach(seed -> row.add(speeds.containsKey(seed) ? speeds.get(seed).text(length) : TableFormat.NOTHING));
+        row.add(TableFormat.shortNumber(agreement.apart() / length));
+        row.add(agreement.holds() ? "✔" : "✘");
+        return row;
     }
 
     private List<String> speeds(Subject subject) {
