@@ -1,0 +1,120 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.nio.file.Files;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import picocli.CommandLine;
+
+/** What can't be run is refused in one line with exit status 2, and nothing is written. */
+class BadUsageTest extends FakeSimulatorTest {
+
+    @Test
+    void aMissingGpuIsOneLine() {
+        assertThat(evolve("run", "--backend", "cuda")).isEqualTo(1);
+        assertThat(err.toString().strip()).isEqualTo("natator evolve: simulator: no such device here");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "compare-optimizers --output-dir NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
+        "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000",
+        "compare-optimizers --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
+        "compare-optimizers --output-dir NEVER --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
+        "compare-optimizers --output-dir NEVER --cma-es-population 1000000|population is 1000000; expected a whole number"})
+    void absurdNumbersOfOtherCommandsAreRefused(String arguments, String message) {
+        assertThat(natator(arguments.replace("NEVER", folder.resolve("never").toString()).split(" "))).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).contains(message);
+        assertThat(folder.resolve("never")).doesNotExist();
+    }
+
+    @Test
+    void anOutputFolderThatCannotBeIsSaidInWords() throws IOException {
+        Files.writeString(folder.resolve("file"), "");
+        assertThat(evolve("file/run")).isEqualTo(2);
+        assertThat(err.toString().strip()).startsWith("natator evolve: output folder " + folder.resolve("file/run")
+                + " cannot be made: ").doesNotContain("java.", "Exception");
+    }
+
+    @Test
+    void refusesAFolderThatIsNotEmpty() {
+        assertThat(evolve("run")).isZero();
+        err.getBuffer().setLength(0);
+
+        assertThat(evolve("run")).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).contains("is not empty");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "--population 1|population is 1",
+        "--generations -1|generations is -1",
+        "--generations many|'many' is not an int",
+        "--creature 5|--creature is 5; expected 1, 2, 3 or 4, or the name of a bundled body",
+        "--creature ../eel|--creature is ../eel; expected 1, 2, 3 or 4, or the name",
+        "--creature 1 --scene thesis/creature-2|exclude each other",
+        "--workers 0|workers is 0",
+        "--device -1|device is -1",
+        "--evaluations 0|evaluations is 0",
+        "--starts 0|starts is 0; expected a whole number from 1 to 1000",
+        "--starts 3 --judge lower-quartile|starts is 3; expected at least 4 with --judge lower-quartile",
+        "--judge median|starts is 1; expected at least 3 with --judge median",
+        "--objectives distance,work|optimizer jgap has one objective, not distance and work",
+        "--optimizer nsga2|optimizer nsga2 is for several objectives",
+        "--objectives speed|--objectives has 'speed'; expected some of",
+        "--judge max|expected mean, median or lower-quartile but was 'max'",
+        "--starts 4 --evaluations 3|evaluations is 3; expected at least the 4 starts of one gait",
+        "--stop-after 0|--stop-after is 0.0",
+        "--simulator thread|expected process, resident, batch or spark but was 'thread'",
+        "--backend opencl|expected cpu, cuda or auto but was 'opencl'",
+        "--optimizer cma|expected jgap, cma-es, random, nsga2 or map-elites but was 'cma'; did you mean cma-es?",
+        "--fitness speed|expected distance or net",
+        "--timeout 0|--timeout is 0.0",
+        "--timeout NaN|--timeout is NaN",
+        "--timeout 1e300|--timeout is 1.0E300; expected a number of seconds above 0, up to 100000000",
+        "--stop-after 1e300|--stop-after is 1.0E300; expected a number of seconds above 0, up to 100000000",
+        "--workers 5000|workers is 5000; expected a whole number from 1 to 1024",
+        "--population 2000000000|population is 2000000000; expected a whole number from 2 to 100000",
+        "--duration -1|duration is -1.0",
+        "--gaussian-deviation 0|gaussian-deviation is 0.0",
+        "--operators magic|expected corrected or stock",
+        "--encoding magic|expected dense, sparse, dense-steered or sparse-steered",
+        "--preset quik|expected quick or thesis but was 'quik'; did you mean quick?",
+        "--scene no/such|expected a named scene or a file",
+        "--scene no/such.json|expected a named scene or an existing file",
+        "--overrides no-such.json|no-such.json does not exist",
+        "--overrides {\"solver\":|--overrides: ",
+        "--seed|Missing required parameter for option '--seed'",
+        "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help",
+        "--resume no/such/folder|no/such/folder is not a run folder"})
+    void badUsageIsOneLineAndStatus2(String arguments, String message) {
+        List<String> all = new ArrayList<>(List.of("evolve"));
+        all.addAll(List.of(arguments.split(" ")));
+        if (!arguments.startsWith("--resume")) {
+            all.addAll(1, List.of("--output-dir", folder.resolve("never").toString()));
+        }
+
+        assertThat(natator(all.toArray(String[]::new))).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).startsWith("natator evolve: ").contains(message);
+        assertThat(out.toString()).isEmpty();
+        assertThat(folder.resolve("never")).doesNotExist();
+    }
+
+    @Test
+    void aMissingSimulatorIsNamed() {
+        CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute("evolve", "--simulator-path", "no/such/program")).isEqualTo(2);
+        assertThat(err.toString().strip())
+                .isEqualTo("natator evolve: --simulator-path is no/such/program; expected an executable file");
+    }
+}

@@ -1,0 +1,139 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+/** {@code natator compare}, {@code show}, {@code check} and {@code compare-optimizers}: what is read from runs. */
+class CompareCommandTest extends FakeSimulatorTest {
+
+    @Test
+    void comparesOptimizersInPieces() throws IOException {
+        String[] study = {"compare-optimizers", "--output-dir", folder.resolve("study").toString(), "--creatures", "1",
+            "--seeds", "2", "--evaluations", "30", "--population", "6", "--simulator", "batch"};
+        List<String> piece = new ArrayList<>(List.of(study));
+        piece.addAll(List.of("--stop-after", "0.3"));
+        Files.writeString(folder.resolve("slow"), "0.5");
+        assertThat(natator(piece.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("of 8 runs finished; the same command continues");
+
+        Files.delete(folder.resolve("slow"));
+        assertThat(natator(study)).as(err.toString()).isZero();
+        assertThat(file("study", "README.md")).contains("8 of 8 runs are finished", "| jgap-corrected | 6 | 2 |",
+                "| jgap-stock | 6 | 2 |", "| cma-es | 8 | 2 |", "| random | 6 | 2 |");
+        assertThat(folder.resolve("study/creature-1.png")).isNotEmptyFile();
+        assertThat(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png")).isNotEmptyFile();
+
+        String page = file("study", "README.md");
+        assertThat(page).contains("At equal evaluations:", "At equal simulated time:", "too few to tell");
+        List<String> compact = new ArrayList<>(List.of(study));
+        compact.add("--compact");
+        assertThat(natator(compact.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(file("study", "README.md")).isEqualTo(page);
+        assertThat(file("study", "creature-1.jsonl")).hasLineCount(8);
+        assertThat(folder.resolve("study/creature-1")).doesNotExist();
+    }
+
+    @Test
+    void showsARunAtAnyTime() throws IOException {
+        assertThat(evolve("run", "--scene", "fault/mixed", "--vacuum-check")).as(err.toString()).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).startsWith("fault/mixed, jgap (corrected operators), population 8, 3 generations, ")
+                .contains("generation 3: best ", "; finished", "best gait of fault/mixed after 3 generations",
+                        "early stop  0.0 %", "unchanged ", "cache       0 evaluations", "in vacuum",
+                        "evaluations failed, the last, ", "no valid result")
+                .containsPattern("  failed      [1-9][0-9]* of [0-9]+ evaluations gave no answer, so the same seed");
+
+        Files.delete(folder.resolve("run/checkpoint.json"));
+        Files.delete(folder.resolve("run/best.json"));
+        out.getBuffer().setLength(0);
+        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("generation 0 under way: ");
+    }
+
+    @Test
+    void comparesRunsAtTheSameNumberOfEvaluations() throws IOException {
+        assertThat(evolve("short", "--optimizer", "cma-es", "--evaluations", "24")).isZero();
+        assertThat(evolve("long", "--optimizer", "random", "--evaluations", "32")).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("compare", folder.resolve("short").toString(), folder.resolve("long").toString())).isZero();
+        List<String> lines = out.toString().lines().toList();
+        assertThat(lines.get(0)).contains("cma-es");
+        assertThat(lines.get(2)).isEqualTo("evaluations      best 1      best 2");
+        assertThat(lines.get(3)).matches(" {10}4 +\\d\\.\\d{4} +\\d\\.\\d{4}");
+        assertThat(lines.get(8)).matches(" {9}32 {12} +\\d\\.\\d{4}");
+        JsonNode best = Json.parse(file("long", "best.json"), JsonNode.class);
+        assertThat(lines.get(8)).endsWith(String.format(" %.4f", Math.max(best.get("distance").asDouble(), 0)));
+        assertThat(lines.get(9)).startsWith("1  does not swim: moves ");
+        assertThat(lines.get(10)).contains("distance ", " ± ", "4 fresh starts", "body lengths/s", "in vacuum", "phi ");
+        assertThat(lines.get(11)).startsWith("   half step ");
+        assertThat(lines.get(12)).contains("   selected ", " by one run, ", " again");
+        assertThat(lines.get(17)).isEqualTo("at equal evaluations (24), from 8 fresh starts: median distance [95 % bootstrap interval]");
+        assertThat(lines.get(18)).matches(" {3}run 1 {2}-?\\d\\.\\d{4} \\[-?\\d\\.\\d{4}, -?\\d\\.\\d{4}]");
+        assertThat(lines.get(20)).matches(" {3}run 1 less run 2 {2}-?\\d.*]: (run [12] further than run [12]|no difference seen) "
+                + "\\(p [=<] 0\\.\\d+, A = \\d\\.\\d\\d\\)");
+        assertThat(lines.get(21)).startsWith("at equal simulated time (");
+        assertThat(lines).hasSize(25);
+        assertThat(err.toString()).contains(" swims from fresh starts; --starts 0 leaves that out");
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("compare", "--starts", "0", folder.resolve("short").toString(), folder.resolve("long").toString()))
+                .isZero();
+        assertThat(out.toString().lines()).containsExactlyElementsOf(lines.subList(0, 17));
+    }
+
+    /** Two seeds of each: the runs are the sample. */
+    @Test
+    void comparesGroupsOfRunsThatDifferOnlyInTheirSeeds() {
+        List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "2"));
+        for (String seed : List.of("1", "2")) {
+            for (String optimizer : List.of("cma-es", "random")) {
+                String run = folder.resolve(optimizer + seed).toString();
+                assertThat(natator("evolve", "--population", "8", "--optimizer", optimizer, "--evaluations", "16", "--seed", seed,
+                        "--output-dir", run)).as(err.toString()).isZero();
+                arguments.add(run);
+            }
+        }
+        out.getBuffer().setLength(0);
+
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("at equal evaluations (16), from 2 fresh starts: median distance of the runs' means [",
+                "\n   runs 1+3  ", "\n   runs 2+4  ", "\n   runs 1+3 less runs 2+4  ", "]: too few to tell\n");
+    }
+
+    @ParameterizedTest
+    @CsvSource({"show", "compare"})
+    void whatIsNoRunIsNamed(String command) {
+        String nothing = folder.resolve("nothing").toString();
+
+        assertThat(command.equals("show") ? natator(command, nothing) : natator(command, nothing, nothing))
+                .isEqualTo(2);
+        assertThat(err.toString().strip())
+                .isEqualTo("natator " + command + ": " + nothing + " is not a run folder: it has no config.json");
+    }
+
+    @Test
+    void checkNeedsTwoStartsAndARun() throws IOException {
+        assertThat(evolve("run")).isZero();
+        out.getBuffer().setLength(0);
+        for (String starts : List.of("1", "0", "2000")) {
+            err.getBuffer().setLength(0);
+            assertThat(natator("check", "--starts", starts, folder.resolve("run").toString())).isEqualTo(2);
+            assertThat(err.toString()).isEqualTo("natator check: --starts is " + starts
+                    + "; expected a whole number from 2 to 1000\n");
+        }
+        assertThat(natator("check", folder.toString())).isEqualTo(2);
+        assertThat(folder.resolve("run/check.json")).doesNotExist();
+    }
+}

@@ -1,0 +1,140 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+/** {@code natator evolve}: what it says and writes, the same bytes in every mode, and faults that cost no more than they must. */
+class EvolveCommandTest extends FakeSimulatorTest {
+
+    @Test
+    void evolvesAndReports() throws IOException {
+        assertThat(evolve("run")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).startsWith("pool/creature-1, jgap (corrected operators), population 8, 3 generations")
+                .contains("  evaluations about 50\n", "  time        at most ",
+                        "best gait of pool/creature-1 after 3 generations",
+                        "  distance    -0.04", " in 2.00 s; 4 fresh starts, all completed\n", "  half step   ", "  selected    ",
+                        " by one run, ", "  verdict     does not swim: moves -0.04 ± 0.0",
+                        "  try more --generations", "natator view --run " + folder.resolve("run"),
+                        "natator page " + folder.resolve("run"),
+                        "frequency", "amplitude", "phase", "distance", "speed",
+                        "  cost        work of the muscles 0.75 mass · length²/s²\n",
+                        "  flow        Reynolds number 131, Strouhal number 0.313\n", "in vacuum",
+                        "run folder  " + folder.resolve("run"));
+        assertThat(err.toString().lines()).hasSize(4).allSatisfy(line -> assertThat(line)
+                .matches("generation \\d of 3, mean -?\\d\\.\\d{4}, best -?\\d\\.\\d{4}, evaluations \\d+ of (about )?\\d+, "
+                        + "elapsed \\d+s, left .*"));
+        JsonNode best = Json.parse(file("run", "best.json"), JsonNode.class);
+        assertThat(best.get("vacuum").get("status").asText()).isEqualTo("ok");
+        JsonNode environment = Json.parse(file("run", "environment.json"), JsonNode.class);
+        assertThat(environment.get("simulatorSha256").asText()).matches("[0-9a-f]{64}");
+        assertThat(environment.get("version").asText()).isEqualTo("0.1.0");
+        assertThat(environment.get("commit").asText()).isEqualTo("0123456789ab");
+        assertThat(environment.get("instructionSet").asText()).isEqualTo("any");
+        assertThat(best.get("bodyLength").asDouble()).isEqualTo(1.2);
+        assertThat(folder.resolve("run/plots/fitness.png")).isNotEmptyFile();
+    }
+
+    @ParameterizedTest
+    @CsvSource({"corrected", "stock"})
+    void theWorkersDoNotChangeAByte(String operators) throws IOException {
+        assertThat(evolve("one", "--workers", "1", "--operators", operators)).isZero();
+        assertThat(evolve("four", "--workers", "4", "--operators", operators)).isZero();
+
+        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
+                "evaluations.jsonl")) {
+            assertThat(file("four", name)).as(name).isEqualTo(file("one", name));
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource({"jgap, 1", "cma-es, 1", "random, 1", "jgap, 3", "cma-es, 3"})
+    void theModeDoesNotChangeAByte(String optimizer, int starts) throws IOException {
+        for (String mode : List.of("process", "resident", "batch")) {
+            assertThat(evolve(mode, "--simulator", mode, "--workers", "3", "--optimizer", optimizer, "--evaluations",
+                    "29", "--starts", "" + starts)).as(err.toString()).isZero();
+        }
+
+        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json",
+                "evaluations.jsonl")) {
+            assertThat(file("resident", name)).as(name).isEqualTo(file("process", name));
+            assertThat(file("batch", name)).as(name).isEqualTo(file("process", name));
+        }
+        assertThat(file("process", "evaluations.jsonl").lines()).hasSize(29);
+    }
+
+    @Test
+    void aDryRunPlansAndDoesNothing() {
+        assertThat(evolve("run", "--dry-run", "--workers", "3")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("evaluations about 50", "process, 3 at once", "time limit 1m16s each",
+                "run folder  " + folder.resolve("run"), "time        at most ");
+        assertThat(folder.resolve("run")).doesNotExist();
+    }
+
+    @Test
+    void withoutOptionsItIsTheQuickPreset() {
+        assertThat(natator("evolve", "--dry-run", "--output-dir", folder.resolve("run").toString())).isZero();
+        assertThat(out.toString()).startsWith("pool/creature-1, jgap (corrected operators), population 16, 3 generations,")
+                .contains(", backend cpu, 2.0 s\n", "evaluations about 100\n");
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("evolve", "--dry-run", "--preset", "quick", "--scheme", "flex", "--duration", "3")).isZero();
+        assertThat(out.toString()).contains(", scheme flex, 3.0 s\n");
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("evolve", "--dry-run", "--preset", "thesis")).isZero();
+        assertThat(out.toString()).startsWith("thesis/creature-1, ").contains("population 150, 100 generations", ", backend cpu\n");
+    }
+
+    @Test
+    void aPlanThatCannotBeTimedDoesNotKeepTheRunFromBeginning() {
+        assertThat(evolve("run", "--scene", "fault/mixed")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("time        not known: a trial evaluation failed: ", "best gait of fault/mixed");
+    }
+
+    /** Many more at once than there are processors would only wait for each other. */
+    @Test
+    void aDryRunTriesNoMoreThanTheProcessorsDoAtOnce() {
+        assertThat(evolve("run", "--dry-run", "--workers", "1024")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains("process, 1024 at once",
+                Runtime.getRuntime().availableProcessors() + " evaluations take ");
+    }
+
+    @Test
+    void creature2IsSparseUnlessToldOtherwise() throws IOException {
+        assertThat(evolve("sparse", "--creature", "2")).isZero();
+        assertThat(evolve("dense", "--creature", "2", "--encoding", "dense")).isZero();
+
+        assertThat(Json.parse(file("sparse", "best.json"), JsonNode.class).get("genes")).hasSize(4);
+        assertThat(Json.parse(file("dense", "best.json"), JsonNode.class).get("genes")).hasSize(16);
+        assertThat(Json.parse(file("sparse", "best.json"), JsonNode.class).get("gait").get("phase")).hasSize(8);
+    }
+
+    @Test
+    void faultsCostOnlyTheirOwnEvaluation() throws IOException {
+        assertThat(evolve("faults", "--scene", "fault/mixed")).as(err.toString()).isZero();
+
+        assertThat(file("faults", "evaluations.jsonl").lines().filter(line -> line.contains("\"failed\"")))
+                .isNotEmpty().allSatisfy(line -> assertThat(line).contains("\"error\":\"no valid result"));
+        assertThat(file("faults", "generations.csv").lines()).hasSize(5);
+    }
+
+    @Test
+    void aRunInWhichAllFailsEndsWithOneLine() {
+        assertThat(evolve("broken", "--scene", "fault/exit")).isEqualTo(1);
+
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).startsWith("natator evolve: generation 0: 8 of 8 simulations failed, the first: ")
+                .contains("out of luck");
+    }
+}

@@ -1,0 +1,111 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Json;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+
+/** {@code natator resume}: a run that was stopped, moved or damaged goes on. */
+class ResumeCommandTest extends FakeSimulatorTest {
+
+    @Test
+    void stopsInTimeAndContinues() throws IOException {
+        Files.writeString(folder.resolve("slow"), "0.4");
+        assertThat(evolve("run", "--workers", "1", "--stop-after", "5")).isZero();
+        assertThat(err.toString()).endsWith("time is up; continue by: natator resume " + folder.resolve("run") + "\n");
+        assertThat(file("run", "evaluations.jsonl").lines()).hasSizeBetween(1, 20);
+        Files.delete(folder.resolve("slow"));
+
+        assertThat(natator("resume", folder.resolve("run").toString(), "--simulator", "resident")).isZero();
+        assertThat(evolve("whole")).isZero();
+
+        for (String name : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
+            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
+        }
+    }
+
+    /** The fake has no GPU, but auto is another backend than cpu all the same. */
+    @Test
+    void aRunCanMoveToAnotherBackendAndSaysSo() throws IOException {
+        Files.writeString(folder.resolve("slow"), "0.5");
+        assertThat(evolve("run", "--stop-after", "0.3")).isZero();
+        Files.delete(folder.resolve("slow"));
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto")).isZero();
+
+        assertThat(err.toString()).startsWith("backend was cpu, is now auto: last digits");
+        assertThat(Json.parse(file("run", "config.json"), JsonNode.class).get("backend").asText()).isEqualTo("auto");
+        assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("backend").asText())
+                .isEqualTo("auto");
+        err.getBuffer().setLength(0);
+        assertThat(natator("resume", folder.resolve("run").toString())).isZero();
+        assertThat(err.toString()).doesNotContain("backend was");
+    }
+
+    @Test
+    void whatFollowsFromTheCheckpointMayBeDamaged() throws IOException {
+        assertThat(evolve("run")).isZero();
+        String best = file("run", "best.json");
+        out.getBuffer().setLength(0);
+        Files.writeString(folder.resolve("run/best.json"), best.substring(0, best.length() / 2));
+        Files.writeString(folder.resolve("run/savings.json"), "{");
+
+        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("best gait of pool/creature-1 after 3 generations",
+                "  flow        Reynolds number 131, Strouhal number 0.313\n");
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(file("run", "best.json")).isEqualTo(best);
+    }
+
+    @Test
+    void aDamagedCountOfSavingsDoesNotStopARun() throws IOException {
+        assertThat(evolve("whole")).isZero();
+        assertThat(evolve("run")).isZero();
+        String before = file("run", "checkpoint.json");
+        Files.writeString(folder.resolve("run/savings.json"), "[1");
+        Files.delete(folder.resolve("run/checkpoint.json"));
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+
+        assertThat(file("run", "checkpoint.json")).isEqualTo(before);
+        assertThat(file("run", "savings.json")).isEqualTo(file("whole", "savings.json"));
+    }
+
+    @Test
+    void resumingTellsHowFarTheWholeRunIs() throws IOException {
+        assertThat(evolve("run")).isZero();
+        List<String> all = file("run", "evaluations.jsonl").lines().toList();
+        Files.delete(folder.resolve("run/checkpoint.json"));
+        Files.write(folder.resolve("run/evaluations.jsonl"), all.subList(0, all.size() - 3));
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(err.toString().lines().reduce((first, last) -> last).orElseThrow()).startsWith("generation 3 of 3, mean ")
+                .contains(", evaluations " + all.size() + " of " + all.size() + ", ");
+    }
+
+    @Test
+    void resumingAFinishedRunChangesNothing() throws IOException {
+        assertThat(evolve("run")).isZero();
+        String before = file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl");
+
+        assertThat(natator("evolve", "--resume", folder.resolve("run").toString(), "--workers", "3")).isZero();
+        assertThat(file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl"))
+                .isEqualTo(before);
+    }
+
+    @Test
+    void resumingKeepsTheSettings() {
+        assertThat(evolve("run")).isZero();
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("evolve", "--resume", folder.resolve("run").toString(), "--seed", "6")).isEqualTo(2);
+        assertThat(err.toString()).startsWith("natator evolve: --seed cannot be given with --resume");
+    }
+}

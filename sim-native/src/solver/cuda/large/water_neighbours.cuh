@@ -1,0 +1,149 @@
+#pragma once
+
+// The lists of neighbours in scheme conserving, and the loops over them. A warp's pair_lanes threads share a slot.
+#include <cuda/std/tuple>
+
+#include "body_momentum.cuh"
+#include "pair_gradient.cuh"
+#include "water_ghosts.cuh"
+
+namespace natator::cuda {
+
+inline constexpr unsigned slot_mask = (1u << most_slot_bits) - 1;
+
+/// Of the threads that share a slot.
+__device__ inline int own_lane() {
+    return static_cast<int>(threadIdx.x) % pair_lanes;
+}
+template <class Real>
+__device__ Vec3<Real> sum_of_lanes(const Vec3<Real>& v) {
+    return {sum_of_lanes(v.x), sum_of_lanes(v.y), sum_of_lanes(v.z)};
+}
+template <class Real>
+__device__ Real largest_of_lanes(Real value) {
+    for (int step = pair_lanes / 2; step > 0; step /= 2) {
+        const Real other = __shfl_xor_sync(0xffffffff, value, step);
+        value = other > value ? other : value;
+    }
+    return value;
+}
+
+/// Lists what is within the kernel's support of each particle, solids and ghosts too, in the order of the cells. The
+/// lanes of a warp stay together, those that have no candidate left as well.
+template <class Real>
+__device__ void find_water_neighbours_large(const ModelView<Real>& model, const Slots<Real>& slots) {
+    const int slot = own_index() / pair_lanes, lane = own_lane(), first_lane = static_cast<int>(threadIdx.x) % 32 - lane;
+    if (slot - first_lane / pair_lanes >= model.particles) return;  // the whole warp
+    const int s = min(slot, model.particles - 1);
+    const WaterArrays<Real>& water = slots.water;
+    const GridView<Real>& grid = model.water.grid;
+    const Vec3<Real> x = xyz(water.position[s]);
+    const Real distance_squared = model.water.radius * model.water.radius;
+    const int room = slots.water_neighbours;
+    unsigned* const list = water.neighbour + slots.water_place(s, 0);
+    const unsigned lanes_before = (1u << lane) - 1;
+    const int cx = grid.coordinate(x.x, 0), cy = grid.coordinate(x.y, 1), cz = grid.coordinate(x.z, 2);
+    const int low = max(cx - grid.reach_x, 0), high = min(cx + grid.reach_x, grid.count[0] - 1);
+    int n = 0;
+    for (int around = 0; around < 9; ++around) {
+        const int iy = cy + around % 3 - 1, iz = cz + around / 3 - 1;
+        int from = 0, to = 0;
+        if (slot == s && iy >= 0 && iy < grid.count[1] && iz >= 0 && iz < grid.count[2]) {
+            const int row = (iz * grid.count[1] + iy) * grid.count[0];
+            from = row + low > 0 ? water.table[row + low - 1] : 0;
+            to = water.table[row + high];
+        }
+        int most = to - from;
+        for (int step = pair_lanes; step < 32; step *= 2) most = max(most, __shfl_xor_sync(0xffffffff, most, step));
+        for (int k = from + lane; most > 0; most -= pair_lanes, k += pair_lanes) {
+            Quad<Real> other{};
+            bool near = k < to;
+            if (near) {
+                other = water.candidate[k];
+                const Real r2 = physics::squared_length(x - xyz(other));
+                near = r2 < distance_squared && r2 > 0;
+            }
+            const unsigned found = __ballot_sync(0xffffffff, near) >> first_lane & ((1u << pair_lanes) - 1);
+            const int at = n + __popc(found & lanes_before);
+            if (near && at < room) list[at / pair_lanes * 32 + at % pair_lanes] = static_cast<unsigned>(number_in(other.w));
+            n += __popc(found);
+        }
+    }
+    if (lane != 0 || slot != s) return;
+    if (n > room) atomicMax(&slots.shared().most_neighbours, n);
+    water.count[s] = min(n, room);
+    water.count_of[number_in(slots.at.state_velocity[s].w)] = n;
+}
+
+/// How many of the neighbours of slot s are this thread's share.
+template <class Real>
+__device__ int own_neighbours(const Slots<Real>& slots, int s) {
+    return (slots.water.count[s] - own_lane() + pair_lanes - 1) / pair_lanes;
+}
+
+/// What is in each of the arrays at the slot of an entry.
+template <class... Value>
+__device__ ::cuda::std::tuple<Value...> values_at(unsigned entry, const Value*... array) {
+    return ::cuda::std::tuple<Value...>(array[entry & slot_mask]...);
+}
+
+/// Calls visit(slot, borders, values...) for an entry.
+template <class Visit, class... Value>
+__device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& there, const Visit& visit) {
+    const int slot = static_cast<int>(entry & slot_mask);
+    const unsigned borders = entry >> most_slot_bits;
+    ::cuda::std::apply([&](const Value&... value) { visit(slot, borders, value...); }, there);
+}
+
+/// Calls visit(its place, slot, borders, values...) for this thread's share of the neighbours of slot s, with what is at the
+/// neighbour's slot in each of the arrays. Those of `batch` neighbours are under way at a time.
+template <int batch, class Real, class Visit, class... Value>
+__device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
+    const std::size_t first = slots.water_place(s, own_lane());
+    const int count = own_neighbours(slots, s);
+    for (int begin = 0; begin < count; begin += batch) {
+        unsigned entry[batch];
+        ::cuda::std::tuple<Value...> there[batch];
+#pragma unroll
+        for (int k = 0; k < batch; ++k)
+            entry[k] = read_once(slots.water.neighbour + first + 32 * min(begin + k, count - 1));
+#pragma unroll
+        for (int k = 0; k < batch; ++k) there[k] = values_at(entry[k], array...);
+#pragma unroll
+        for (int k = 0; k < batch; ++k) {
+            if (begin + k >= count) break;
+            visit_entry(entry[k], there[k], [&](int slot, unsigned borders, const Value&... value) {
+                visit(first + 32 * (begin + k), slot, borders, value...);
+            });
+        }
+    }
+}
+
+/// The same with G_ij instead of the place, once gradients are known.
+template <int batch = 4, class Real, class Visit, class... Value>
+__device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
+    const std::size_t first = slots.water_place(s, own_lane());
+    const int count = own_neighbours(slots, s);
+    for (int begin = 0; begin < count; begin += batch) {
+        unsigned entry[batch];
+        PairGradient<Real> gradient[batch];
+        ::cuda::std::tuple<Value...> there[batch];
+#pragma unroll
+        for (int k = 0; k < batch; ++k) {
+            const std::size_t place = first + 32 * min(begin + k, count - 1);
+            entry[k] = read_once(slots.water.neighbour + place);
+            gradient[k] = read_once(slots.water.pair + place);
+        }
+#pragma unroll
+        for (int k = 0; k < batch; ++k) there[k] = values_at(entry[k], array...);
+#pragma unroll
+        for (int k = 0; k < batch; ++k) {
+            if (begin + k >= count) break;
+            visit_entry(entry[k], there[k], [&](int slot, unsigned borders, const Value&... value) {
+                visit(gradient[k].value(), slot, borders, value...);
+            });
+        }
+    }
+}
+
+}  // namespace natator::cuda
