@@ -65,6 +65,7 @@ struct WaterCase {
 const std::vector<WaterCase>& water_cases();
 
 WaterRun run_vortex(const WaterSetting& setting);
+WaterRun run_stirred_vortex(const WaterSetting& setting);
 WaterRun run_viscous_vortex(const WaterSetting& setting);
 WaterRun run_standing_wave(const WaterSetting& setting);
 WaterRun run_tilted_gravity(const WaterSetting& setting);

@@ -35,17 +35,22 @@ final class Answers {
         return IntStream.rangeClosed(1, 4).mapToObj(creature -> results.best(creature, water)).flatMap(Optional::stream).toList();
     }
 
+    /** The thesis' own gaits, without what is made of them here. */
+    private List<Subject> published(Water water) {
+        return results.data().gaits().stream().filter(gait -> gait.published() != null).map(gait -> Subject.of(gait, water)).toList();
+    }
+
     private boolean swims(Subject subject) {
         return results.verdict(subject).map(ControlVerdict::kind).filter(Verdict.Kind.SWIMS::equals).isPresent();
     }
 
     List<String> sentences() {
-        if (Arrays.stream(Water.values()).allMatch(water -> swimming(results.catalogue().published(water)) == null)) {
+        if (Arrays.stream(Water.values()).allMatch(water -> swimming(published(water)) == null)) {
             return List.of("**Nothing is measured yet.**");
         }
         List<String> sentences = new ArrayList<>();
         String evolved = inEach(water -> swimming(best(water)));
-        sentences.add("**Of the thesis' gaits " + inEach(water -> swimming(results.catalogue().published(water))) + " swim by every control"
+        sentences.add("**Of the thesis' gaits " + inEach(water -> swimming(published(water))) + " swim by every control"
                 + (evolved.isEmpty() ? ".**" : "; of what its four bodies evolve here " + evolved + " do.**"));
         String fastest = inEach(this::fastest);
         if (!fastest.isEmpty()) {

@@ -5,14 +5,25 @@ import io.natator.verdict.Measure;
 import java.util.List;
 
 /**
- * A conclusion of the thesis beside what was measured.
+ * A conclusion beside what was measured.
  *
  * @param says     the conclusion
  * @param water    in which it was tested
  * @param measured the numbers
  * @param outcome  whether they bear it out
+ * @param isOurs   whether it is not the thesis' but was found here
  */
-record Claim(String says, Water water, String measured, Outcome outcome) {
+record Claim(String says, Water water, String measured, Outcome outcome, boolean isOurs) {
+
+    /** A conclusion of the thesis. */
+    Claim(String says, Water water, String measured, Outcome outcome) {
+        this(says, water, measured, outcome, false);
+    }
+
+    /** The same, as one that was found here. */
+    Claim ours() {
+        return new Claim("(found here) " + says, water, measured, outcome, true);
+    }
 
     /** Whether a conclusion holds. */
     enum Outcome {

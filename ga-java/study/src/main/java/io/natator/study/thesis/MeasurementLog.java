@@ -1,6 +1,7 @@
 package io.natator.study.thesis;
 
 import io.natator.checkpoint.SwimSample;
+import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.simulator.Evaluator;
@@ -108,6 +109,12 @@ final class MeasurementLog implements AutoCloseable {
     SwimSample swim(Experiment experiment, int substeps, double duration, Double bodyLength) {
         List<SimulationResult> results = results(experiment);
         return results.isEmpty() ? null : SwimSample.of(results, substeps, experiment.request().gait(), duration, bodyLength);
+    }
+
+    /** Whether any of the runs that are measured was on a GPU. */
+    boolean isOnGpu(Experiment experiment) {
+        return experiment.runs().stream().map(request -> rows.find(key(request))).filter(Objects::nonNull)
+                .anyMatch(row -> row.backend() != Backend.CPU);
     }
 
     /** How many runs became unstable. */

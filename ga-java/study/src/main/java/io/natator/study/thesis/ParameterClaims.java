@@ -30,8 +30,8 @@ final class ParameterClaims {
         above(claims, "damping slows a little in fluid", water, Parameter.DAMPING, Trend::slowsALittle);
         unstable(claims, "a small radius is unstable", water, Parameter.SMALL_RADIUS);
         unstable(claims, "few substeps are unstable", water, Parameter.SUBSTEPS);
-        vacuum(claims, "damping strongly suppresses the motion in vacuum", water, Parameter.DAMPING);
-        vacuum(claims, "(found since) the motion in vacuum is the acceleration clamp", water, Parameter.MAX_ACCELERATION);
+        vacuum("damping strongly suppresses the motion in vacuum", water, Parameter.DAMPING).ifPresent(claims::add);
+        vacuum("the motion in vacuum is the acceleration clamp", water, Parameter.MAX_ACCELERATION).map(Claim::ours).ifPresent(claims::add);
         return claims;
     }
 
@@ -98,10 +98,10 @@ final class ParameterClaims {
     }
 
     /** Whether the greatest value leaves a third of the motion in vacuum or less, of gaits that move there. */
-    private void vacuum(List<Claim> claims, String says, Water water, Parameter parameter) {
+    private Optional<Claim> vacuum(String says, Water water, Parameter parameter) {
         Optional<Parameter.Range> range = parameter.in(water).filter(one -> parameter.alsoInVacuum(water));
         if (range.isEmpty()) {
-            return;
+            return Optional.empty();
         }
         double greatest = range.get().values().get(range.get().values().size() - 1);
         List<Claim.Outcome> outcomes = new ArrayList<>();
@@ -114,7 +114,7 @@ final class ParameterClaims {
                 texts.add(name(subject) + " " + TableFormat.shortNumber(usual.mean()) + " → " + TableFormat.shortNumber(changed.mean()));
             }
         }
-        claims.add(new Claim(says, water, outcomes.isEmpty() ? "nothing moves" : parameter.label() + " " + TableFormat.value(greatest) + " — "
+        return Optional.of(new Claim(says, water, outcomes.isEmpty() ? "nothing moves" : parameter.label() + " " + TableFormat.value(greatest) + " — "
                 + String.join("; ", texts), outcomes.isEmpty() ? Claim.Outcome.VOID : Claim.Outcome.of(outcomes)));
     }
 }

@@ -100,7 +100,10 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
                 : Optional.of(Speed.of(water, speed(subject, Condition.HALF_STEP), convergence.change(catalogue.of(subject, Condition.WATER))));
     }
 
-    /** Everything that a verdict rests on; empty while something is missing. */
+    /**
+     * Everything that a verdict rests on; empty while something is missing. The processor is another backend only for what
+     * was measured on a GPU.
+     */
     Optional<Controls> controls(Subject subject) {
         SwimSample water = swim(subject, Condition.WATER);
         SwimSample resting = swim(subject, Condition.RESTING);
@@ -110,7 +113,8 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
         if (water == null || resting == null || vacuum == null || half == null || mirrored == null) {
             return Optional.empty();
         }
-        SwimSample other = processor.swim(catalogue.of(subject, Condition.WATER), Water.SUBSTEPS, duration, length(subject.creature()));
+        Experiment swim = catalogue.of(subject, Condition.WATER);
+        SwimSample other = measurements.isOnGpu(swim) ? processor.swim(swim, Water.SUBSTEPS, duration, length(subject.creature())) : null;
         Sample under = Sample.of(motions(subject).stream().map(SwimKinematics::underWater).filter(Objects::nonNull).toList());
         return Optional.of(new Controls(subject.gait(), null, Json.name(subject.water().scheme()), duration, length(subject.creature()), water,
                 resting, vacuum, subject.water() == Water.FLEX ? swim(subject, Condition.NO_CLAMP) : null, half, mirrored, other,

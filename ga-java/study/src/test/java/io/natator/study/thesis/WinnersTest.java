@@ -123,6 +123,27 @@ class WinnersTest {
             assertThat(results.controls(winner).orElseThrow().clampOff()).isNotNull();
             assertThat(results.verdict(winner).orElseThrow().kind()).isNotEqualTo(Verdict.Kind.DOES_NOT_SWIM);
             assertThat(results.measurements().missing(results.experiments())).isEmpty();
+
+            measure(processor, results.onProcessor());
+            assertThat(processor.isOnGpu(catalogue.of(winner, Condition.WATER))).isFalse();
+            assertThat(results.controls(winner).orElseThrow().otherBackend())
+                    .as("measured on the processor both times, which is no other backend").isNull();
+        }
+    }
+
+    @Test
+    void theProcessorIsAnotherBackendForWhatAGpuMeasured() throws IOException, InterruptedException {
+        Path file = folder.resolve("measurements.jsonl");
+        Experiment swim;
+        try (MeasurementLog log = new MeasurementLog(file)) {
+            swim = new Winners(folder, catalogue, log, List.of(run)).experiments().get(0);
+            measure(log, List.of(swim));
+            assertThat(log.isOnGpu(swim)).isFalse();
+        }
+        Files.writeString(file, Files.readString(file).replace("\"backend\":\"cpu\"", "\"backend\":\"cuda\""));
+
+        try (MeasurementLog log = new MeasurementLog(file)) {
+            assertThat(log.isOnGpu(swim)).isTrue();
         }
     }
 
