@@ -1,9 +1,9 @@
-#include <fstream>
 #include <memory>
 
 #include "commands.h"
 #include "io/particle_experiment.h"
 #include "io/strict_json.h"
+#include "io/whole_file.h"
 #include "natator/error.h"
 
 namespace natator::cli {
@@ -40,9 +40,9 @@ void run_particles(const ParticlesOptions& options, int& status) {
         print(results.dump() + "\n");
         return;
     }
-    std::ofstream file(options.output);
-    file << results.dump() << '\n';
-    if (!file.flush()) throw std::runtime_error(options.output + ": can't be written");
+    WholeFile file(options.output);
+    file.stream() << results.dump() << '\n';
+    if (!file.finish()) throw std::runtime_error(options.output + ": can't be written");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "natator/error.h"
+#include "options.h"
 
 namespace natator::cli {
 namespace {
@@ -25,8 +26,10 @@ int complain(int status, const std::string& program, std::string message) {
 int run_program(CLI::App& app, const int& status, int argc, char** argv) {
     const std::string program = app.get_name();
     app.require_subcommand(1);
+    refuse_empty_values(app);
     return complaining(program, [&] {
         try {
+            refuse_empty_values(argc, argv);
             app.parse(argc, argv);
         } catch (const CLI::Success& help_or_version) {
             std::ostringstream text;

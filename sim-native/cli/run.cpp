@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "natator/evaluate.h"
 #include "natator/snapshot.h"
 #include "natator/trajectory.h"
+#include "options.h"
 #include "scene/scene_json.h"
 
 namespace natator::cli {
@@ -28,7 +28,8 @@ struct RunOptions {
     std::string scene, gait, overrides, trajectory, snapshot, scheme;
     std::string precision = "float";
     std::optional<double> duration, snapshot_at;
-    Perturbation perturbation;
+    double perturbation = 0;
+    std::string perturbation_seed = std::to_string(Perturbation{}.seed);
     bool particles = false;
     BackendChoice backend;
     ExecutionOptions execution;
@@ -56,8 +57,11 @@ Gait load_gait(const RunOptions& options, int actuators) {
     return resting_gait(actuators);
 }
 
-void require_finite(const char* option, double value) {
-    if (!std::isfinite(value)) throw InputError(std::string(option) + ": must be a finite number");
+/// Within the limits of a request's.
+Perturbation read_perturbation(const RunOptions& options) {
+    const json seed = json::parse(options.perturbation_seed, nullptr, false);
+    return {read_perturbation_amplitude(options.perturbation, {"--perturbation", ""}),
+            read_perturbation_seed(seed.is_discarded() ? json(options.perturbation_seed) : seed, {"--perturbation-seed", ""})};
 }
 
 /// Says before anything is computed that a file can't be written. It is opened when there is something to write: what is
@@ -144,9 +148,9 @@ int run_scene(RunOptions& options) {
     const Precision precision =
         options.precision == "double" ? Precision::double_precision : Precision::single_precision;
 
-    require_finite("--perturbation", options.perturbation.amplitude);
+    const Perturbation perturbation = read_perturbation(options);
     check_outputs(options);
-    EvaluationOptions evaluation{.precision = precision, .perturbation = options.perturbation};
+    EvaluationOptions evaluation{.precision = precision, .perturbation = perturbation};
     std::optional<TrajectoryCsv> trajectory;
     if (!options.trajectory.empty()) {
         evaluation.on_frame = [&](double time, const auto& positions) {
@@ -163,7 +167,6 @@ int run_scene(RunOptions& options) {
     SnapshotRequest& snapshot = evaluation.snapshot;
     if (!options.snapshot.empty()) {
         snapshot.at = options.snapshot_at.value_or(scene.duration);
-        require_finite("--at", snapshot.at);
         if (snapshot.at > scene.duration) {
             throw InputError("--at " + json(snapshot.at).dump() + ": must be at most the duration, " +
                              json(scene.duration).dump() + " s");
@@ -182,7 +185,7 @@ int run_scene(RunOptions& options) {
     evaluation.execution = options.execution.execution();
     const Evaluation result =
         run_on_gpu(options, scene)
-            ? evaluate_one_on_gpu(scene, {gait, options.perturbation}, precision, options.backend)
+            ? evaluate_one_on_gpu(scene, {gait, perturbation}, precision, options.backend)
             : evaluate(scene, gait, evaluation);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (trajectory) trajectory->finish();
@@ -223,12 +226,10 @@ void add_run(CLI::App& app, int& status) {
         "CSV file for all particles at one time: time,kind,mass,x,y,z,vx,vy,vz,density (fluid too).");
     command->add_option("--at", options->snapshot_at, "Time of the snapshot, s. Default: the end.")
         ->needs(snapshot)
-        ->check(CLI::NonNegativeNumber);
-    command
-        ->add_option("--perturbation", options->perturbation.amplitude,
-                     "Random shift of all starting positions, at most this along each axis.")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--perturbation-seed", options->perturbation.seed, "The same seed gives the same shifts.")
+        ->check(seconds());
+    command->add_option("--perturbation", options->perturbation,
+                        "Random shift of all starting positions, at most this along each axis, 0 to 1.");
+    command->add_option("--perturbation-seed", options->perturbation_seed, "The same seed gives the same shifts.")
         ->capture_default_str();
     add_backend_options(command, options->backend);
     add_execution_options(command, options->execution);

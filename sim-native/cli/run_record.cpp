@@ -1,5 +1,10 @@
 #include "run_record.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -9,43 +14,83 @@
 #include "natator/error.h"
 
 namespace natator::cli {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+    throw InputError("--output " + natator::quoted(path) + ": " + what);
+}
+
+/// Whether an object has a value for which `is` holds.
+bool has(const json& object, const char* key, bool (json::*is)() const noexcept) {
+    return object.is_object() && object.contains(key) && (object.at(key).*is)();
+}
+
+/// Whether a line holds what `converge` reads of a run.
+bool is_run(const json& line) {
+    if (!has(line, "of", &json::is_object) || !has(line, "result", &json::is_object)) return false;
+    const json& result = line.at("result");
+    return has(result, "status", &json::is_string) && has(result, "stopped", &json::is_string) &&
+           has(result, "simulated", &json::is_number) &&
+           (result.at("status") != "ok" || has(result, "distance", &json::is_number));
+}
+
+}  // namespace
 
 RunRecord::RunRecord(const std::string& path) : path_(path) {
-    std::error_code failed;
     if (path.empty()) return;
-    if (!std::filesystem::exists(path, failed)) {  // known to be writable before anything is computed
-        if (!std::ofstream(path, std::ios::app))
-            throw std::runtime_error("--output " + natator::quoted(path) + ": cannot be written");
-        return;
+    try {
+        lock();
+        read();
+    } catch (...) {
+        ::close(lock_);
+        throw;
     }
-    if (!std::filesystem::is_regular_file(path, failed))
-        throw InputError("--output " + natator::quoted(path) + ": is no regular file; must be one, or a new name");
-    std::ifstream file(path, std::ios::binary);
+}
+
+RunRecord::~RunRecord() {
+    if (lock_ >= 0) ::close(lock_);
+}
+
+/// Opens the file, which is made if it is not there: so it is known to be writable before anything is computed.
+void RunRecord::lock() {
+    std::error_code failed;
+    const bool exists = std::filesystem::exists(path_, failed);
+    if (exists && !std::filesystem::is_regular_file(path_, failed)) refuse(path_, "is no regular file; must be one, or a new name");
+    lock_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | (exists ? 0 : O_CREAT), 0666);
+    if (lock_ < 0 && exists) refuse(path_, "cannot be read");
+    if (lock_ < 0) throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written");
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)  // else a file system without locks
+        refuse(path_, "is in use by another natator-sim converge");
+}
+
+void RunRecord::read() {
+    std::ifstream file(path_, std::ios::binary);
     std::ostringstream content;
     content << file.rdbuf();
-    if (!file) throw InputError("--output " + natator::quoted(path) + ": cannot be read");
+    if (!file) refuse(path_, "cannot be read");
     const std::string text = std::move(content).str();
     std::size_t begin = 0;
     for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-        const nlohmann::json line = nlohmann::json::parse(text.substr(begin, end - begin), nullptr, false);
-        if (!line.is_object() || !line.contains("of") || !line.contains("result"))
-            throw InputError("--output " + natator::quoted(path) + ": line " + std::to_string(lines_.size() + 1) +
-                             " is no run of natator-sim converge; must be such a file, or a new name");
+        const json line = json::parse(text.substr(begin, end - begin), nullptr, false);
+        if (!is_run(line))
+            refuse(path_, "line " + std::to_string(lines_.size() + 1) +
+                              " is no run of natator-sim converge; must be such a file, or a new name");
         lines_.push_back(line);
     }
     if (begin < text.size() && lines_.empty())
-        throw InputError("--output " + natator::quoted(path) +
-                         ": holds no run of natator-sim converge; must be such a file, or a new name");
-    if (begin < text.size()) std::filesystem::resize_file(path, begin);
+        refuse(path_, "holds no run of natator-sim converge; must be such a file, or a new name");
+    if (begin < text.size()) std::filesystem::resize_file(path_, begin);
 }
 
-nlohmann::json RunRecord::find(const nlohmann::json& of) const {
-    for (const nlohmann::json& line : lines_)
+json RunRecord::find(const json& of) const {
+    for (const json& line : lines_)
         if (line.at("of") == of) return line.at("result");
     return nullptr;
 }
 
-void RunRecord::add(const nlohmann::json& of, const nlohmann::json& request, const nlohmann::ordered_json& result) {
+void RunRecord::add(const json& of, const json& request, const nlohmann::ordered_json& result) {
     if (path_.empty()) return;
     nlohmann::ordered_json line;
     line["of"] = of;

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "commands.h"
+#include "io/strict_json.h"
 #include "job.h"
 #include "json_argument.h"
 #include "natator/error.h"
+#include "options.h"
 #include "stream_session.h"
 
 namespace natator::cli {
@@ -55,7 +57,7 @@ void run_stream(StreamOptions& options) {
 
 int stream_scene(StreamOptions& options) {
     if (!stream::is_rate(options.settings.rate))
-        throw InputError("--rate " + nlohmann::json(options.settings.rate).dump() +
+        throw InputError("--rate " + shown(options.settings.rate) +
                          ": must be 0 or a number in [0.001, 1000]");
     options.settings.fields = read_fields(options.fields);
     options.precision == "double" ? run_stream<double>(options) : run_stream<float>(options);
@@ -92,7 +94,7 @@ void add_stream(CLI::App& app, int& status) {
         ->add_option("--rate", settings.rate,
                      "Simulated seconds per second of wall time, at most; 0: as fast as possible.")
         ->capture_default_str();
-    command->add_option("--until", settings.until, "End at this time, s.")->check(CLI::NonNegativeNumber);
+    command->add_option("--until", settings.until, "End at this time, s.")->check(seconds());
     command->add_flag("--lossless", settings.lossless, "Wait for credit instead of dropping frames.");
     command->add_flag("--paused", settings.paused, "Begin paused.");
     add_execution_options(command, options->execution);

@@ -28,8 +28,8 @@ void StreamSession<Real>::run(LineQueue& commands) {
     for (;;) {
         for (const std::string& line : commands.take_waiting()) carry_out(line);
         offer_frame();
-        if (at_end() && !due_) return print(stream_message("STOP", stream_stop()));
-        if (commands.exhausted()) return;
+        end_if_reached();
+        if (ended_ || commands.exhausted()) return;
         if (!running() || due_) {
             commands.wait();
         } else if (LineQueue::Clock::now() < pace_.next()) {
@@ -49,6 +49,7 @@ void StreamSession<Real>::carry_out(const std::string& line) {
     try {
         const json value = parse_command(line);
         answer_["id"] = request_id(value);
+        refuse_if(ended_);
         answer_["ok"] = true;
         std::visit([this](const auto& command) { apply(command); }, parse_stream_command(value));
     } catch (const InputError& error) {
@@ -79,6 +80,7 @@ void StreamSession<Real>::apply(const stream::Pause&) {
 template <class Real>
 void StreamSession<Real>::apply(const stream::Step& step) {
     refuse_if_unstable();
+    refuse_if(at_end());
     check(step);
     offer_frame();
     if (due_ && settings_.lossless) throw InputError("command: do = \"step\": the last frame still waits for credit");
@@ -92,6 +94,7 @@ void StreamSession<Real>::apply(const stream::Step& step) {
     }
     due_ = stable;
     offer_frame();
+    if (stable) end_if_reached();
     if (step.sense) answer_["senses"] = senses();
 }
 
@@ -235,6 +238,19 @@ void StreamSession<Real>::refuse_if_unstable() const {
     if (simulation_.instability())
         throw InputError("the simulation is unstable since " + json(simulation_.instability()->time).dump() +
                          " s: needs reset, other overrides or another scene");
+}
+
+/// Says that the time asked for is over, when its last frame no longer waits.
+template <class Real>
+void StreamSession<Real>::end_if_reached() {
+    if (ended_ || !at_end() || due_) return;
+    ended_ = true;
+    print(stream_message("STOP", stream_stop()));
+}
+
+template <class Real>
+void StreamSession<Real>::refuse_if(bool over) const {
+    if (over) throw InputError("the stream has reached its end, --until " + number_text(*settings_.until) + " s");
 }
 
 template <class Real>

@@ -54,6 +54,8 @@ private:
     void offer_frame();
     void drop_frame();
     void refuse_if_unstable() const;
+    void refuse_if(bool over) const;
+    void end_if_reached();
     bool running() const { return running_ && !simulation_.instability(); }
     bool at_end() const;
 
@@ -65,6 +67,7 @@ private:
     bool sense_each_ = false;        ///< a SENS before every frame
     nlohmann::ordered_json answer_;  ///< of the command that is carried out
     int credit_ = 0;             ///< frames that may be sent
+    bool ended_ = false;         ///< the last STOP is out: no command does anything more
     bool due_ = false;           ///< the present frame is still to be offered
     std::uint32_t scene_ = 0;    ///< number of the last SCEN
     nlohmann::ordered_json last_scene_;  ///< the whole of it, also where only changes were sent

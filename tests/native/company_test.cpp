@@ -126,6 +126,27 @@ TEST(Company, AMeshIsAnObstacleOfItsForm) {
     EXPECT_TRUE(along_y.holds({3.5, 1, 0.8}));
 }
 
+TEST(Company, AnObstacleThatIsTooLargeIsNamed) {
+    const auto refusal = [](const json& last) {
+        const json sphere{{"shape", "sphere"}, {"centre", {1, 1, 1}}, {"radius", 0.5}, {"spacing", 0.005}};
+        try {
+            build_model(load_scene("open-water/water", json{{"obstacles", {sphere, last}}}));
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(refusal({{"shape", "sphere"}, {"centre", {3, 1, 1}}, {"radius", 1}, {"spacing", 0.001}})
+                  .find("obstacles[1]: up to 8012006001 particles: must be at most 16000000"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"shape", "box"}, {"centre", {3, 1, 1}}, {"size", {1, 1, 1}}, {"spacing", 0.005}})
+                  .find("obstacles together): must be at most 16000000"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"shape", "sphere"}, {"centre", {3, 1, 1}}, {"radius", 1}, {"file", "none.obj"}})
+                  .find("obstacles[1].file: unknown key (= \"none.obj\")"),
+              std::string::npos);
+}
+
 TEST(Company, AnObstacleFromAMeshIsInTheModelAndInTheDefinition) {
     const Scene scene = load_scene("company/hoop", json::object());
     const Model model = build_model(scene);

@@ -158,6 +158,7 @@ TEST_F(Mesh, IsTheSameFromEveryKindOfFile) {
     const Model whole = model_of_mesh(creature(write("quads.obj", quads)));
     const Model cut = model_of_mesh(creature(write("box.obj", box({0, 0, 0}, {2, 0.5, 0.25}).obj())));
     EXPECT_EQ(whole.position, cut.position);
+    EXPECT_EQ(model_of_mesh(creature(write("marked.obj", "\xef\xbb\xbf" + quads))).position, cut.position);
     EXPECT_EQ(whole.particles(), 20 * 5 * 2);
 
     const Model obj = model_of_mesh(creature(write("a.obj", shape.obj())));
@@ -375,6 +376,9 @@ const BadMesh bad_meshes[] = {
     {"huge", [] { return std::string("v 0 0 1e12\n"); }, "bad.obj", {"line 1", "within 1e9"}},
     {"corner", [] { return std::string("v 0 0 0\nv 1 0 0\nf 1 2 3\n"); }, "bad.obj", {"line 3", "corner \"3\"", "2 vertices"}},
     {"corner0", [] { return std::string("v 0 0 0\nf 0 1 1\n"); }, "bad.obj", {"line 2", "corner \"0\""}},
+    {"texture", [] { return std::string("v 0 0 0\nv 1 0 0\nf 1/a/b 2 1\n"); }, "bad.obj", {"line 3", "corner \"1/a/b\"", "7/1/2"}},
+    {"slashes", [] { return std::string("v 0 0 0\nf 1/1/1/1 1 1\n"); }, "bad.obj", {"line 2", "corner \"1/1/1/1\""}},
+    {"marked", [] { return "\xef\xbb\xbf" + std::string("v 0 0 0\nv 1 0 0\nf 1 2 3\n"); }, "bad.obj", {"line 3", "2 vertices"}},
     {"face", [] { return std::string("v 0 0 0\nf 1 1\n"); }, "bad.obj", {"line 2", "2 corners"}},
     {"repeated", [] { return std::string("v 0 0 0\nv 1 0 0\nf 1 1 2\n"); }, "bad.obj", {"line 3", "no area"}},
     {"hole", [] { return without_a_face().obj(); }, "bad.obj", {"a hole at the edge from", "(0, 0, 0)", "alone"}},

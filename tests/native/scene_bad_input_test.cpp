@@ -21,7 +21,9 @@ const BadInput bad_scenes[] = {
     {R"({"fluid":{"sapcing":1}})", "fluid.sapcing", "did you mean spacing?"},
     {R"({"fluid":{"mass":{"botom":1}}})", "fluid.mass.botom", "did you mean bottom?"},
     {R"({"creature":{"jointz":[4,8]}})", "creature.jointz", "did you mean joints?"},
-    {R"({"creature":{"slices":[{"height":5,"width":3,"cuont":2}]}})", "creature.slices[0].cuont", "count"},
+    {R"({"creature":{"slices":[{"height":5,"width":3,"cuont":2}]}})", "creature.slices[0].cuont", "did you mean count?"},
+    {R"({"creature":{"profile":{"length":1,"foo":1}}})", "profile.foo", "allowed: length, height, width, fin, joints"},
+    {R"({"foo":1})", "foo", "allowed: "},
     {R"({"settling":{"steps":1}})", "settling.steps", "allowed: updates, timeStep, substeps"},
     {R"({"stopping":{"planecontact":true}})", "stopping.planecontact", "did you mean planeContact?"},
     // Wrong types.

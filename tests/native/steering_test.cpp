@@ -157,10 +157,10 @@ TEST(SteeringTest, WhatCannotBeIsRefusedAndChangesNothing) {
     other.drive({0.5, 0.5});
     EXPECT_EQ(refusal_of([&] { simulation.drive({1}); }),
               "drive has length 1: must have length 2, one value per actuator of the creature");
-    EXPECT_EQ(refusal_of([&] { simulation.drive({1, none}); }), "drive[1] = nan: must be a number in [-2, 2]");
+    EXPECT_EQ(refusal_of([&] { simulation.drive({1, none}); }), "drive[1] = NaN: must be a number in [-2, 2]");
     EXPECT_EQ(refusal_of([&] { simulation.drive({2.5, 0}); }), "drive[0] = 2.5: must be a number in [-2, 2]");
     EXPECT_EQ(refusal_of([&] { simulation.steer({{1, -1}, {0, 0}}); }), "scale[1] = -1: must be a number in [0, 4]");
-    EXPECT_EQ(refusal_of([&] { simulation.steer({{1, 1}, {0, none}}); }), "offset[1] = nan: must be a number in [-2, 2]");
+    EXPECT_EQ(refusal_of([&] { simulation.steer({{1, 1}, {0, none}}); }), "offset[1] = NaN: must be a number in [-2, 2]");
     EXPECT_EQ(refusal_of([&] { simulation.steer({{1, 1}, {}}); }),
               "offset has length 0: must have length 2, one value per actuator of the creature");
     EXPECT_EQ(refusal_of([&] { simulation.steer({{2, 1}, {0.5, 0}}); }),

@@ -74,11 +74,14 @@ Outcome run_simulator(const std::vector<std::string>& arguments, const std::stri
     return run_program(simulator(), arguments, input, out_path);
 }
 
-Outcome run_with_memory(std::size_t bytes, const std::vector<std::string>& arguments, const std::string& input) {
-    std::vector<std::string> all{"-c", "ulimit -v " + std::to_string(bytes >> 10) + " && exec \"$0\" \"$@\"",
-                                 simulator()};
+Outcome run_limited(const std::string& limits, const std::vector<std::string>& arguments, const std::string& input) {
+    std::vector<std::string> all{"-c", limits + " && exec \"$0\" \"$@\"", simulator()};
     all.insert(all.end(), arguments.begin(), arguments.end());
     return run_program("/bin/sh", all, input, "");
+}
+
+Outcome run_with_memory(std::size_t bytes, const std::vector<std::string>& arguments, const std::string& input) {
+    return run_limited("ulimit -v " + std::to_string(bytes >> 10), arguments, input);
 }
 
 int lines(const std::string& text) {

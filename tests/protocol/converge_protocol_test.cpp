@@ -1,5 +1,7 @@
 // natator-sim converge: what comes out, what is kept, and what is refused.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -139,6 +141,42 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
     std::ofstream(record) << "not a run\n";
     refused({"converge", "-", "--output", record}, swim.dump(), "line 1");
     EXPECT_EQ(recorded(), "not a run\n");
+}
+
+TEST_F(ConvergeTest, ARecordedLineThatIsNoRunIsRefused) {
+    const std::vector<std::string> command = {"converge", "-", "--starts", "2", "--levels", "time/2", "--output", record};
+    ASSERT_EQ(run_simulator(command, swim.dump()).exit_code, 0);
+    const std::string all = recorded(), second = all.substr(all.find('\n') + 1);
+    json first = json::parse(all.substr(0, all.find('\n')));
+    const std::vector<std::pair<json::json_pointer, json>> faults{
+        {"/result"_json_pointer, "x"},          {"/result/distance"_json_pointer, "x"},
+        {"/result/distance"_json_pointer, {}},  {"/result/simulated"_json_pointer, "x"},
+        {"/result/status"_json_pointer, 1},     {"/result/stopped"_json_pointer, {}},
+        {"/of"_json_pointer, 1}};
+    for (const auto& [where, value] : faults) {
+        json line = first;
+        line[where] = value;
+        std::ofstream(record, std::ios::trunc) << first.dump() << "\n" << line.dump() << "\n" << second;
+        const Outcome outcome = run_simulator(command, swim.dump());
+        EXPECT_EQ(outcome.exit_code, 2) << where << outcome.err;
+        EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find("line 2 is no run of natator-sim converge"), std::string::npos) << where << outcome.err;
+    }
+}
+
+/// Two at once would do the same runs, and write each twice.
+TEST_F(ConvergeTest, AFileThatAnotherHasIsRefused) {
+    const std::vector<std::string> command = {"converge", "-", "--starts", "2", "--levels", "time/2", "--output", record};
+    const int other = ::open(record.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    ASSERT_EQ(::flock(other, LOCK_EX), 0);
+    const Outcome refused = run_simulator(command, swim.dump());
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(lines(refused.err), 1) << refused.err;
+    EXPECT_NE(refused.err.find(record + "\": is in use by another natator-sim converge"), std::string::npos) << refused.err;
+    EXPECT_EQ(recorded(), "");
+    ::close(other);
+    EXPECT_EQ(run_simulator(command, swim.dump()).exit_code, 0);
+    EXPECT_EQ(lines(recorded()), 4);
 }
 
 TEST_F(ConvergeTest, AFileThatCannotBeMadeIsAFailureBeforeAnyRun) {

@@ -264,6 +264,36 @@ TEST(StreamCommandTest, AnUnstableSceneStopsAndStartsAnewWhenItIsMended) {
     EXPECT_LT(frame.number, client.frame().number);
 }
 
+/// What a step causes comes before its answer, the end too; nothing is simulated behind it.
+TEST(StreamCommandTest, TheEndComesBeforeTheAnswerOfTheStepThatReachesIt) {
+    StreamClient client(paused_in(vacuum, {"--until", "0.05"}));
+    client.expect("SCEN");
+    client.send_line(R"({"id":1,"do":"step","frames":10,"sense":true})" "\n" R"({"id":2,"do":"step","sense":true})");
+    EXPECT_EQ(client.expect("STOP"), json::parse(R"({"reason":"until"})"));
+    const json answer = client.expect("ANSW");
+    EXPECT_EQ(answer["ok"], true);
+    EXPECT_EQ(answer["senses"]["frame"], 3);
+    if (const auto later = client.next()) {  // else the program was faster
+        EXPECT_EQ(later->letters, "ANSW");
+        EXPECT_EQ(later->value(), json({{"id", 2}, {"error", "the stream has reached its end, --until 0.05 s"}}));
+        EXPECT_FALSE(client.next());
+    }
+    EXPECT_EQ(client.wait(), 0);
+}
+
+TEST(StreamCommandTest, AFrameThatWaitsForCreditComesBeforeTheEnd) {
+    StreamClient client(paused_in(vacuum, {"--until", "0.05", "--lossless"}));
+    client.expect("SCEN");
+    take_start(client);
+    EXPECT_EQ(client.ask({{"do", "step"}, {"frames", 10}})["ok"], true);
+    EXPECT_NE(client.ask(step)["error"].get<std::string>().find("has reached its end"), std::string::npos);
+    EXPECT_TRUE(client.passed().empty());
+    client.ask(credit(1));
+    EXPECT_EQ(client.frame().number, 3u);
+    client.expect("STOP");
+    EXPECT_FALSE(client.next());
+}
+
 TEST(StreamCommandTest, ACommandThatIsTooLongIsRefused) {
     StreamClient client(paused_in(vacuum));
     client.expect("SCEN");

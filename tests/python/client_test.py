@@ -54,6 +54,11 @@ class EvaluationTest(unittest.TestCase):
         with self.assertRaisesRegex(natator.ProgramError, "closed"):
             simulator.evaluate(TANK, GAIT)
 
+    def test_workers_are_counted(self):
+        for bad in (0, -1, 1.5, True, "2"):
+            with self.assertRaisesRegex(natator.InputError, "workers = .*: must be a whole number from 1 on"):
+                natator.Simulator(bad)
+
     def test_an_unstable_one_is_a_result(self):
         result = natator.evaluate(TANK, GAIT, duration=1, overrides={"solver": {"relaxationMode": "global"}})
         self.assertEqual((result["status"], result["fitness"]), ("unstable", 0))
@@ -131,7 +136,9 @@ class StreamTest(unittest.TestCase):
     def test_refusals_say_what_and_change_nothing(self):
         with natator.Stream(TANK) as stream:
             for bad, reason in (([1, 3], r"drive\[1\] = 3: must be a number in \[-2, 2\]"), ([1], "must have length 2"),
-                                ([np.nan, 0], "not valid JSON")):
+                                ([np.nan, 0], r"drive\[0\] = nan: must be a finite number"),
+                                ([[0, 0], [0, np.inf]], r"drive\[1\]\[1\] = inf: must be a finite number"),
+                                ([0, "1"], "drive = .*: must be numbers"), ([[0, 0], [0]], "drive: must be numbers, in rows")):
                 with self.assertRaisesRegex(natator.InputError, reason):
                     stream.step(drive=bad)
             with self.assertRaisesRegex(natator.InputError, "flow.0..slice = 99"):
@@ -141,6 +148,21 @@ class StreamTest(unittest.TestCase):
             stream.step()
         with self.assertRaisesRegex(natator.InputError, "unknown scene \"none/such\""):
             natator.Stream("none/such")
+
+    def test_nothing_is_rounded_or_taken_for_a_number(self):
+        with natator.Stream(TANK) as stream:
+            for bad in (1.5, True, np.True_, "1", 0, -1):
+                with self.assertRaisesRegex(natator.InputError, "frames = .*: must be a whole number from 1 on"):
+                    stream.step(bad)
+            with self.assertRaisesRegex(natator.InputError, "start = 1.5: must be a whole number from 0 on"):
+                stream.reset(start=1.5)
+            with self.assertRaisesRegex(natator.InputError, r"offset\[1\] = nan"):
+                stream.steer(offset=[0, np.nan])
+            with self.assertRaisesRegex(natator.InputError, r"flow\[0\].slice = 1.5"):
+                stream.sense(flow=[(1.5, "left")])
+            with self.assertRaisesRegex(natator.InputError, "gait.frequency = '1': must be numbers"):
+                stream.set_gait(natator.Gait("1", [1, 1], [0, 0]))
+            self.assertEqual(stream.step(np.int64(1)).frame, 1)
 
     def test_instability_is_an_error_until_a_reset(self):
         with natator.Stream(TANK, gait=GAIT) as stream:

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,27 +9,30 @@
 
 namespace natator {
 
+class WholeFile;
+
 /// Writes the body's path as CSV while it is computed: one line per slice (or particle) and frame, frame 0 being the
 /// settled start. Columns: frame, time (s), slice (0 = head) or particle (by slice from the head, y, z), x, y, z
-/// (length).
+/// (length). The file takes its place when it is finished; what stood there before stays until then.
 class TrajectoryCsv {
 public:
     enum class Rows { slices, particles };
 
     /// Throws std::runtime_error when the file can't be written; so do the other members.
     TrajectoryCsv(const std::string& path, const std::vector<Slice>& slices, Rows rows);
+    ~TrajectoryCsv();  ///< without finish() there is no file
 
     void add_frame(double time, const std::vector<Eigen::Vector3d>& body_positions);
     void finish();
 
 private:
     void add_row(double time, std::size_t index, const Eigen::Vector3d& place);
-    void check() const;
+    void check(bool written) const;
 
     std::string path_;
     std::vector<Slice> slices_;
     Rows rows_;
-    std::ofstream file_;
+    std::unique_ptr<WholeFile> file_;
     int frame_ = 0;
 };
 

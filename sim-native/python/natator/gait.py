@@ -1,8 +1,11 @@
 """Gaits: how muscles are driven."""
 
+import operator
 from dataclasses import dataclass
 
 import numpy as np
+
+from natator.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -21,9 +24,9 @@ class Gait:
 
     def to_json(self):
         """As a request has it."""
-        gait = {"frequency": float(self.frequency), "amplitude": numbers(self.amplitude), "phase": numbers(self.phase),
-                "power": float(self.power)}
-        return gait if self.offset is None else gait | {"offset": numbers(self.offset)}
+        gait = {"frequency": number("gait.frequency", self.frequency), "amplitude": numbers("gait.amplitude", self.amplitude),
+                "phase": numbers("gait.phase", self.phase), "power": number("gait.power", self.power)}
+        return gait if self.offset is None else gait | {"offset": numbers("gait.offset", self.offset)}
 
 
 def wave(actuators, frequency=1.5, amplitude=0.8, waves=0.6):
@@ -41,9 +44,41 @@ def wave_in(scene):
     return Gait(gait.frequency, gait.amplitude + rest, gait.phase + rest)
 
 
-def numbers(values):
-    """A list of numbers, from any sequence or array."""
-    return [float(value) for value in np.asarray(values, dtype=float).ravel()]
+def rows(name, values):
+    """An array of finite numbers, from any sequence or array; neither texts nor truths count as such."""
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise InputError(f"{name}: must be numbers, in rows of the same length") from error
+    if array.dtype.kind not in "iuf":
+        raise InputError(f"{name} = {values!r}: must be numbers")
+    for place in np.argwhere(~np.isfinite(array)):
+        at = "".join(f"[{i}]" for i in place)
+        raise InputError(f"{name}{at} = {array[tuple(place)]}: must be a finite number")
+    return array.astype(float)
+
+
+def numbers(name, values):
+    """A list of numbers."""
+    return rows(name, values).ravel().tolist()
+
+
+def number(name, value):
+    array = rows(name, value)
+    if array.ndim:
+        raise InputError(f"{name} = {value!r}: must be one number")
+    return float(array)
+
+
+def whole(name, value, least):
+    """An int from `least` on; nothing is rounded."""
+    try:
+        count = None if isinstance(value, (bool, np.bool_)) else operator.index(value)
+    except TypeError:
+        count = None
+    if count is None or count < least:
+        raise InputError(f"{name} = {value!r}: must be a whole number from {least} on")
+    return count
 
 
 def as_json(gait):

@@ -6,18 +6,18 @@ from concurrent.futures import ThreadPoolExecutor
 
 from natator import program as programs
 from natator.errors import InputError, ProgramError
-from natator.gait import as_json
+from natator.gait import as_json, whole
 
 
 class Simulator:
     """Keeps programs that evaluate requests, one for each worker; each is single-threaded.
 
-    workers: how many at a time, by default as many as there are processors. With --backend cuda one worker does, which
+    workers: how many at a time, from 1, by default as many as there are processors. With --backend cuda one worker does, which
     computes what it is given together. arguments: more arguments of `natator-sim serve`. To be closed; a context manager.
     """
 
     def __init__(self, workers=None, arguments=(), program=None):
-        count = workers or (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count())
+        count = whole("workers", workers, 1) if workers is not None else _processors()
         self._processes = []
         try:
             for _ in range(count):
@@ -70,6 +70,10 @@ def evaluate(scene, gait=None, program=None, **request):
     """Simulator.evaluate by a program of its own."""
     with Simulator(workers=1, program=program) as simulator:
         return simulator.evaluate(scene, gait, **request)
+
+
+def _processors():
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
 
 def _exchange(process, requests):

@@ -8,7 +8,7 @@ import numpy as np
 
 from natator import program as programs
 from natator.errors import InputError, ProgramError, Unstable
-from natator.gait import as_json, numbers
+from natator.gait import as_json, numbers, rows, whole
 
 SIDES = ("left", "right", "above", "below")
 
@@ -99,8 +99,10 @@ class Stream:
         """Says what is to be sensed from now on, and gives the senses now. flow: places of the skin as (slice, side), side
         one of "left", "right", "above", "below"; within: of a place water counts, length; target: where the swimmer shall
         go, length. What is left out stays as it was."""
-        command = {"do": "sense", "target": None if target is None else numbers(target), "within": within, "flow": None
-                   if flow is None else [{"slice": int(place), "side": side} for place, side in flow], **more}
+        places = None if flow is None else [{"slice": whole(f"flow[{i}].slice", place, 0), "side": side}
+                                            for i, (place, side) in enumerate(flow)]
+        command = {"do": "sense", "target": None if target is None else numbers("target", target), "within": within,
+                   "flow": places, **more}
         return self._senses(self.ask({key: value for key, value in command.items() if value is not None}))
 
     def step(self, frames=None, drive=None, scale=None, offset=None):
@@ -114,13 +116,12 @@ class Stream:
         """The first half of `step`: does not wait. Several may be begun before the first is ended."""
         command = {"do": "step", "sense": True}
         if frames is not None:
-            command["frames"] = int(frames)
+            command["frames"] = whole("frames", frames, 1)
         if drive is not None:
-            values = np.asarray(drive, float)
-            command["drive"] = values.tolist()
+            command["drive"] = rows("drive", drive).tolist()
         for name, values in (("scale", scale), ("offset", offset)):
             if values is not None:
-                command[name] = numbers(values)
+                command[name] = numbers(name, values)
         if self._framed:
             self.send({"do": "credit"})
         self.send(command)
@@ -133,7 +134,7 @@ class Stream:
 
     def steer(self, scale=None, offset=None):
         """From the next frame on; without arguments the gait alone drives again."""
-        self.ask({"do": "steer", **{name: numbers(values) for name, values in (("scale", scale), ("offset", offset))
+        self.ask({"do": "steer", **{name: numbers(name, values) for name, values in (("scale", scale), ("offset", offset))
                                     if values is not None}})
 
     def set_gait(self, gait):
@@ -147,7 +148,7 @@ class Stream:
 
     def begin_reset(self, start=None):
         """The first half of `reset`: does not wait."""
-        self.send({"do": "reset"} if start is None else {"do": "reset", "start": int(start)})
+        self.send({"do": "reset"} if start is None else {"do": "reset", "start": whole("start", start, 0)})
 
     def end_reset(self):
         """The second half."""

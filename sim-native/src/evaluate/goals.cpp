@@ -21,7 +21,8 @@ using Measure = Goal::Measure;
 void check_place(const Scene& scene, const Model& model, std::size_t number, const Eigen::Vector3d& way) {
     const Eigen::Vector3d there = rest_centre(model) + way;
     std::ostringstream text;
-    text << "its place, (" << there.x() << ", " << there.y() << ", " << there.z() << "), ";
+    text << "its place, (" << computed_text(there.x()) << ", " << computed_text(there.y()) << ", "
+         << computed_text(there.z()) << "), ";
     for (std::size_t k = 0; k < scene.planes.size(); ++k) {
         const Plane& plane = scene.planes[k];
         const bool upright = std::abs(plane.normal.y()) < 0.5;
@@ -33,7 +34,7 @@ void check_place(const Scene& scene, const Model& model, std::size_t number, con
     if (!scene.fluid) return;
     const double surface = scene.fluid->origin.y() + (scene.fluid->count.y() - 0.5) * scene.fluid->spacing;
     if (way.y() != 0 && there.y() > surface) {
-        text << "lies above the water, which ends at y = " << surface;
+        text << "lies above the water, which ends at y = " << computed_text(surface);
         refuse(scene, number, text.str());
     }
 }

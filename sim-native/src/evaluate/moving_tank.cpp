@@ -45,8 +45,8 @@ TankFollower::TankFollower(const Scene& scene, const Model& model) : model_(mode
         const double room = std::min(centre[axis] - low, high - centre[axis]);
         if (room < reach) {
             std::ostringstream text;
-            text << "the body's centre is " << room << " from the nearer end of the tank along " << name_of_axis(axis)
-                 << "; must be at least " << reach << " (half the body, a step and two kernel radii)";
+            text << "the body's centre is " << computed_text(room) << " from the nearer end of the tank along "
+                 << name_of_axis(axis) << "; must be at least " << computed_text(reach) << " (half the body, a step and two kernel radii)";
             refuse(scene, text.str());
         }
         axes_.push_back({axis, low, high, centre[axis]});

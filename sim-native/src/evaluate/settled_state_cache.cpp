@@ -1,7 +1,5 @@
 #include "natator/settled_state_cache.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "byte_writer.h"
+#include "io/whole_file.h"
 #include "measure/fnv1a.h"
 #include "settled_state_key.h"
 
@@ -135,15 +134,9 @@ void SettledStateCache::keep(const Model& model, const Settling& settling, const
 
     std::error_code error;
     fs::create_directories(folder_, error);
-    const fs::path target = file_for(folder_, key);
-    fs::path temporary = target;
-    temporary += ".";
-    temporary += std::to_string(getpid());
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (file) fs::rename(temporary, target, error);
-    if (!file || error) fs::remove(temporary, error);
+    WholeFile file(file_for(folder_, key), std::ios::binary);
+    file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    static_cast<void>(file.finish());  // what is not kept is settled anew
     prune(folder_, most_files);
 }
 

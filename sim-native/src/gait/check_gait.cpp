@@ -1,17 +1,14 @@
 #include "check_values.h"
 
-#include <sstream>
-
+#include "io/strict_json.h"
 #include "natator/actuate.h"
 #include "natator/error.h"
 
 namespace natator {
 void check_range(const std::string& name, double value, double low, double high, bool open, const char* unit) {
     if ((open ? value > low : value >= low) && value <= high) return;  // false for what is no number
-    std::ostringstream text;
-    text << name << " = " << value << ": must be a number in " << (open ? '(' : '[') << low << ", " << high << "]"
-         << unit;
-    throw InputError(text.str());
+    throw InputError(name + " = " + number_text(value) + ": must be a number in " + (open ? '(' : '[') + computed_text(low) +
+                     ", " + computed_text(high) + "]" + unit);
 }
 
 void check_values(const std::string& name, const std::vector<double>& values, int actuators, double low, double high,

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "check_values.h"
+#include "io/strict_json.h"
 #include "natator/error.h"
 
 namespace natator {
@@ -43,9 +44,10 @@ void check_steering(const Steering& steering, const Gait& gait, int actuators) {
         const double most = steering.scale[i] * beat + std::abs(steering.offset[i]);
         if (most <= most_drive) continue;
         std::ostringstream text;
-        text << "scale[" << i << "] = " << steering.scale[i] << " and offset[" << i << "] = " << steering.offset[i]
-             << ": scale times the gait's own largest drive, " << beat << ", plus |offset| must be at most "
-             << most_drive << ", is " << most << " (a muscle has no length below 0)";
+        text << "scale[" << i << "] = " << number_text(steering.scale[i]) << " and offset[" << i
+             << "] = " << number_text(steering.offset[i]) << ": scale times the gait's own largest drive, " << computed_text(beat)
+             << ", plus |offset| must be at most " << most_drive << ", is " << computed_text(most)
+             << " (a muscle has no length below 0)";
         throw InputError(text.str());
     }
 }

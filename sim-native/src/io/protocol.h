@@ -28,6 +28,10 @@ Request parse_request(const nlohmann::json& value);
 /// The request's id, or null if it has no usable one.
 nlohmann::json request_id(const nlohmann::json& value);
 
+/// How far starts are shifted, and which of these shifts, as requests have it.
+double read_perturbation_amplitude(const nlohmann::json& value, const fields::Place& place);
+std::uint64_t read_perturbation_seed(const nlohmann::json& value, const fields::Place& place);
+
 /// An array of numbers, one per actuator, as gaits and commands have them. Their number and range are not checked.
 std::vector<double> read_actuator_values(const nlohmann::json& value, const fields::Place& place);
 

@@ -16,13 +16,8 @@ double read_number(const json& value, const Place& place) {
 
 Perturbation read_perturbation(const json& value, const Place& place) {
     fields::check_keys(value, place, {"amplitude", "seed"});
-    Perturbation perturbation;
-    fields::read(fields::required(value, place, "amplitude"), place.key("amplitude"), {0, 1, false, "length"},
-                 perturbation.amplitude);
-    const json& seed = fields::required(value, place, "seed");
-    if (!seed.is_number_unsigned()) fields::refuse(place.key("seed"), seed, "a whole number in [0, 2^64)");
-    perturbation.seed = seed.get<std::uint64_t>();
-    return perturbation;
+    return {read_perturbation_amplitude(fields::required(value, place, "amplitude"), place.key("amplitude")),
+            read_perturbation_seed(fields::required(value, place, "seed"), place.key("seed"))};
 }
 
 Gait read_gait(const json& value, const Place& place) {
@@ -38,6 +33,17 @@ Gait read_gait(const json& value, const Place& place) {
 }
 
 }  // namespace
+
+double read_perturbation_amplitude(const json& value, const Place& place) {
+    double amplitude = 0;
+    fields::read(value, place, {0, 1, false, "length"}, amplitude);
+    return amplitude;
+}
+
+std::uint64_t read_perturbation_seed(const json& value, const Place& place) {
+    if (!value.is_number_unsigned()) fields::refuse(place, value, "a whole number in [0, 2^64)");
+    return value.get<std::uint64_t>();
+}
 
 std::vector<double> read_actuator_values(const json& value, const fields::Place& place) {
     if (!value.is_array()) fields::refuse(place, value, "an array of numbers, one per actuator");

@@ -1,13 +1,14 @@
-#include <fstream>
 #include <stdexcept>
 
 #include "io/strict_json.h"
+#include "io/whole_file.h"
 #include "natator/snapshot.h"
 
 namespace natator {
 
 void write_snapshot(const std::string& path, const Model& model, const Snapshot& snapshot) {
-    std::ofstream file(path);
+    WholeFile whole(path);
+    std::ofstream& file = whole.stream();
     file.precision(9);
     file << "time,kind,mass,x,y,z,vx,vy,vz,density\n";
     for (int i = 0; i < model.particles(); ++i) {
@@ -17,8 +18,7 @@ void write_snapshot(const std::string& path, const Model& model, const Snapshot&
              << x.x() << ',' << x.y() << ',' << x.z() << ',' << v.x() << ',' << v.y() << ',' << v.z() << ','
              << snapshot.density[i] << '\n';
     }
-    file.close();
-    if (!file) throw std::runtime_error("file " + quoted(path) + ": cannot be written");
+    if (!whole.finish()) throw std::runtime_error("file " + quoted(path) + ": cannot be written");
 }
 
 }  // namespace natator

@@ -1,6 +1,8 @@
 #include "io/strict_json.h"
 
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <vector>
@@ -105,7 +107,21 @@ json read_json_file(const std::string& path) {
     return parse_json(read_all(file.get(), source), source);
 }
 
+std::string number_text(double value) {
+    if (std::isnan(value)) return "NaN";
+    if (std::isinf(value)) return value < 0 ? "-Infinity" : "Infinity";
+    std::array<char, 32> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string computed_text(double value) {
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%.12g", value);
+    return text.data();
+}
+
 std::string shown(const json& value) {
+    if (value.is_number_float() && !std::isfinite(value.get<double>())) return number_text(value.get<double>());
     return on_one_line(value, max_shown);
 }
 

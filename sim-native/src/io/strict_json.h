@@ -16,7 +16,13 @@ std::string read_all(std::FILE* file, const std::string& source);
 /// Reads a JSON file. Throws InputError when it is absent, unreadable, too large (over 16 MiB) or not valid.
 nlohmann::json read_json_file(const std::string& path);
 
-/// A value as it is shown in messages: on one line, shortened to about 60 characters.
+/// A number as it is shown in messages: the shortest text that reads back as it.
+std::string number_text(double value);
+
+/// The same of one that was computed: to 12 digits, without the rounding of its computation.
+std::string computed_text(double value);
+
+/// A value as it is shown in messages: on one line, shortened to about 60 characters; of no JSON, NaN and Infinity too.
 std::string shown(const nlohmann::json& value);
 
 /// Text in quotes as it is shown in messages: on one line, shortened to about 400 characters.

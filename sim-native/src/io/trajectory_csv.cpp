@@ -1,16 +1,19 @@
 #include <stdexcept>
 
 #include "io/strict_json.h"
+#include "io/whole_file.h"
 #include "natator/trajectory.h"
 
 namespace natator {
 
 TrajectoryCsv::TrajectoryCsv(const std::string& path, const std::vector<Slice>& slices, Rows rows)
-    : path_(path), slices_(slices), rows_(rows), file_(path) {
-    file_.precision(9);
-    file_ << "frame,time," << (rows == Rows::slices ? "slice" : "particle") << ",x,y,z\n";
-    check();
+    : path_(path), slices_(slices), rows_(rows), file_(std::make_unique<WholeFile>(path)) {
+    file_->stream().precision(9);
+    file_->stream() << "frame,time," << (rows == Rows::slices ? "slice" : "particle") << ",x,y,z\n";
+    check(file_->stream().good());
 }
+
+TrajectoryCsv::~TrajectoryCsv() = default;
 
 void TrajectoryCsv::add_frame(double time, const std::vector<Eigen::Vector3d>& body_positions) {
     if (rows_ == Rows::particles) {
@@ -28,20 +31,19 @@ void TrajectoryCsv::add_frame(double time, const std::vector<Eigen::Vector3d>& b
         }
     }
     ++frame_;
-    check();
+    check(file_->stream().good());
 }
 
 void TrajectoryCsv::finish() {
-    file_.close();
-    check();
+    check(file_->finish());
 }
 
 void TrajectoryCsv::add_row(double time, std::size_t index, const Eigen::Vector3d& place) {
-    file_ << frame_ << ',' << time << ',' << index << ',' << place.x() << ',' << place.y() << ',' << place.z() << '\n';
+    file_->stream() << frame_ << ',' << time << ',' << index << ',' << place.x() << ',' << place.y() << ',' << place.z() << '\n';
 }
 
-void TrajectoryCsv::check() const {
-    if (!file_) throw std::runtime_error("file " + quoted(path_) + ": cannot be written");
+void TrajectoryCsv::check(bool written) const {
+    if (!written) throw std::runtime_error("file " + quoted(path_) + ": cannot be written");
 }
 
 }  // namespace natator

@@ -98,8 +98,21 @@ private:
     std::map<std::tuple<double, double, double>, int> known_;
 };
 
+/// What stands behind the first slash of an .obj corner, the numbers of a texture and of a normal: either may be left out.
+void check_other_numbers(std::string_view word, const Words& words) {
+    std::size_t slashes = 0;
+    for (std::size_t begin = word.find('/'); begin != std::string_view::npos; begin = word.find('/', begin), ++slashes) {
+        std::string_view digits = word.substr(++begin);
+        digits = digits.substr(0, digits.find('/'));
+        if (digits.starts_with('-')) digits.remove_prefix(1);
+        if (slashes == 2 || digits.find_first_not_of("0123456789") != std::string_view::npos)
+            words.refuse("corner " + quoted(std::string(word)) + ": must be whole numbers, as 7, 7/1, 7//2 or 7/1/2");
+    }
+}
+
 /// A corner of an .obj face: the number before the first slash, from 1, or from -1 backwards.
 int obj_corner(std::string_view word, const std::vector<int>& vertices, const Words& words) {
+    check_other_numbers(word, words);
     const std::string_view digits = word.substr(0, word.find('/'));
     long number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -112,6 +125,8 @@ int obj_corner(std::string_view word, const std::vector<int>& vertices, const Wo
 }
 
 TriangleMesh read_obj(std::string_view text) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     Words words(text);
     MeshBuilder builder;
     std::vector<int> vertices;

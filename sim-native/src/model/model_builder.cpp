@@ -40,13 +40,24 @@ std::int64_t particles_of(const Creature& creature) {
 void check_size(const Scene& scene) {
     std::int64_t particles = scene.creature ? particles_of(*scene.creature) : 0;
     for (const Companion& companion : scene.companions) particles += particles_of(companion.creature);
-    for (const Obstacle& obstacle : scene.obstacles) particles += most_particles(obstacle);
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
+        const double most = most_particles(scene.obstacles[k]);
+        if (most > limits::particles)
+            refuse(scene, "obstacles[" + std::to_string(k) + "]: up to " + number_text(most) +
+                              " particles: must be at most " + std::to_string(limits::particles));
+        particles += static_cast<std::int64_t>(most);
+    }
     if (scene.fluid) {
         const auto count = scene.fluid->count.cast<std::int64_t>();
         particles += count.x() * count.y() * count.z();
     }
     const std::string body = scene.creature ? shape_key(*scene.creature) : "slices";
-    const std::string found = std::to_string(particles) + " particles (fluid.count and creature." + body + " together)";
+    std::string parts = "creature." + body;
+    if (!scene.companions.empty()) parts += ", companions";
+    if (!scene.obstacles.empty()) parts += ", obstacles";
+    const bool two = scene.companions.empty() && scene.obstacles.empty();
+    const std::string found =
+        std::to_string(particles) + " particles (fluid.count" + (two ? " and " : ", ") + parts + " together)";
     if (particles == 0) refuse(scene, "0 particles: needs a creature or fluid");
     if (particles > limits::particles) refuse(scene, found + ": must be at most " + std::to_string(limits::particles));
 }

@@ -41,10 +41,9 @@ bool Obstacle::holds(const Eigen::Vector3d& place) const {
     return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) { return (way - point).norm() <= near; });
 }
 
-std::int64_t most_particles(const Obstacle& obstacle) {
-    if (obstacle.shape == Obstacle::Shape::mesh) return static_cast<std::int64_t>(obstacle.points.size());
-    const double count = (2 * points_aside(obstacle).array() + 1).prod();
-    return static_cast<std::int64_t>(std::min(count, 1e15));
+double most_particles(const Obstacle& obstacle) {
+    if (obstacle.shape == Obstacle::Shape::mesh) return static_cast<double>(obstacle.points.size());
+    return (2 * points_aside(obstacle).array() + 1).prod();
 }
 
 void add_obstacle(const Obstacle& obstacle, Model& model) {

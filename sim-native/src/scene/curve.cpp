@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
+
+#include "io/strict_json.h"
 
 namespace natator::fields {
 namespace {
@@ -77,11 +78,11 @@ Curve read_curve(const json& value, const Place& place, const Range& range, doub
             refuse(place.item(i).item(0), value[i][0],
                    "more than " + value[i - 1][0].dump() + ", where the point before is: curves ascend along the body");
     }
-    std::ostringstream at_begin, at_end;
-    at_begin << "at " << begin << " of the length, so that the curve covers " << begin << " to " << end;
-    at_end << (end < 1 ? "at least " : "at ") << end << " of the length, so that the curve covers " << begin << " to " << end;
-    if (points.front().at > begin) refuse(place.item(0).item(0), value.front()[0], at_begin.str());
-    if (points.back().at < end) refuse(place.item(value.size() - 1).item(0), value.back()[0], at_end.str());
+    const std::string first = number_text(begin), last = number_text(end);
+    const std::string covers = " of the length, so that the curve covers " + first + " to " + last;
+    if (points.front().at > begin) refuse(place.item(0).item(0), value.front()[0], "at " + first + covers);
+    if (points.back().at < end)
+        refuse(place.item(value.size() - 1).item(0), value.back()[0], (end < 1 ? "at least " : "at ") + last + covers);
     return Curve(std::move(points));
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "io/strict_json.h"
 #include "natator/error.h"
@@ -34,15 +33,21 @@ std::string lower(std::string_view text) {
     return result;
 }
 
+/// Edits that leave a resemblance: of three letters or four, one may be wrong.
+std::size_t most_edits(std::string_view a, std::string_view b) {
+    const std::size_t letters = std::min(a.size(), b.size());
+    return letters >= 5 ? 2 : letters >= 3 ? 1 : 0;
+}
+
 /// Names the allowed key that an unknown one most resembles, or else all of them.
 std::string advice(std::string_view unknown, const std::vector<std::string_view>& allowed) {
     constexpr std::size_t longest_compared = 64;
     std::string_view best;
-    std::size_t least = 3;  // more edits than 2 are no resemblance
+    std::size_t least = unknown.size();
     if (unknown.size() <= longest_compared) {
         for (const std::string_view key : allowed) {
             const std::size_t distance = edits(lower(unknown), lower(key));
-            if (distance < least && distance < key.size()) {
+            if (distance < least && distance <= most_edits(unknown, key)) {
                 least = distance;
                 best = key;
             }
@@ -81,10 +86,8 @@ void refuse(const Place& place, const std::string& what) {
 }
 
 std::string Range::text() const {
-    std::ostringstream text;
-    text << "in " << (low_open ? '(' : '[') << low << ", " << high << ']';
-    if (*unit != '\0') text << " (" << unit << ')';
-    return text.str();
+    const std::string limits = number_text(low) + ", " + number_text(high) + "]";
+    return std::string("in ") + (low_open ? '(' : '[') + limits + (*unit != '\0' ? std::string(" (") + unit + ")" : "");
 }
 
 void read(const json& value, const Place& place, const Range& range, double& out) {

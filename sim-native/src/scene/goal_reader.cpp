@@ -1,6 +1,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "io/strict_json.h"
 #include "readers.h"
 
 namespace natator::fields {
@@ -35,7 +36,7 @@ void read_target(const json& value, const Place& place, Goal& goal) {
     if (value.contains("within")) read(value.at("within"), place.key("within"), {0, 10000, true, "degrees or length"}, goal.within);
     if (far <= goal.within) {
         std::ostringstream text;
-        text << "farther than `within`, " << goal.within << ", from the start";
+        text << "farther than `within`, " << number_text(goal.within) << ", from the start";
         refuse(at, target, text.str());
     }
 }

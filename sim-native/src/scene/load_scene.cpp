@@ -127,7 +127,8 @@ json scene_definition(const std::string& name, const json& overrides, const std:
         }
     if (json* const obstacles = array_in(document, "obstacles"))
         for (std::size_t k = 0; k < obstacles->size(); ++k)
-            add_digest(obstacles->at(k), place.key("obstacles").item(k), data);
+            if (json& one = obstacles->at(k); one.is_object() && one.value("shape", json()) == "mesh")
+                add_digest(one, place.key("obstacles").item(k), data);
     return document;
 }
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "curve.h"
+#include "io/strict_json.h"
 #include "profile_slices.h"
 #include "readers.h"
 
@@ -33,9 +34,8 @@ Lattice read_lattice(const json& value, const Place& place, double spacing) {
     read(required(value, place, "length"), place.key("length"), {0, 1000, true, "length"}, length);
     const double slices = std::round(length / spacing);
     if (slices < 2 || slices > most_slices) {
-        std::ostringstream text;
-        text << "2 to " << most_slices << " spacings of " << spacing;
-        refuse(place.key("length"), value.at("length"), text.str());
+        refuse(place.key("length"), value.at("length"),
+               "2 to " + std::to_string(most_slices) + " spacings of " + number_text(spacing));
     }
     return {static_cast<int>(slices), spacing};
 }
@@ -50,17 +50,15 @@ std::optional<Fin> read_fin(const json& profile, const Place& place, const Latti
     Fin fin{read_curve(height, at.key("height"), extent, 1, 1), lattice.spacing};
     const double latest = lattice.part(lattice.slices - 1), earliest = lattice.part(0);
     if (!(fin.height.first() > earliest && fin.height.first() <= latest)) {
-        std::ostringstream text;
-        text << "more than " << earliest << " and at most " << latest
-             << " of the length, where the first and the last slice are: a fin has a body before it and a slice of its own";
-        refuse(at.key("height").item(0).item(0), height[0][0], text.str());
+        refuse(at.key("height").item(0).item(0), height[0][0],
+               "more than " + computed_text(earliest) + " and at most " + computed_text(latest) +
+                   " of the length, where the first and the last slice are: a fin has a body before it and a slice of its own");
     }
     if (value.contains("thickness")) {
         read(value.at("thickness"), at.key("thickness"), extent, fin.thickness);
         if (fin.thickness < lattice.spacing / 2 || fin.thickness > max_across * lattice.spacing) {
-            std::ostringstream text;
-            text << "half a spacing of " << lattice.spacing << " to " << max_across << " spacings";
-            refuse(at.key("thickness"), value.at("thickness"), text.str());
+            refuse(at.key("thickness"), value.at("thickness"),
+                   "half a spacing of " + number_text(lattice.spacing) + " to " + std::to_string(max_across) + " spacings");
         }
     }
     return fin;
@@ -72,12 +70,12 @@ double across(const Curve& curve, const Place& place, const Lattice& lattice, in
     const double spacings = value / lattice.spacing;
     if (spacings >= least_across && spacings <= max_across) return spacings;
     std::ostringstream text;
-    text << value << " at " << lattice.part(slice) << " of the length, slice " << slice << " of " << lattice.slices << ": ";
+    text << computed_text(value) << " at " << lattice.part(slice) << " of the length, slice " << slice << " of " << lattice.slices << ": ";
     if (spacings < least_across)
-        text << "thinner than two particles across; must be at least " << least_across * lattice.spacing << ", "
+        text << "thinner than two particles across; must be at least " << computed_text(least_across * lattice.spacing) << ", "
              << least_across << " spacings";
     else
-        text << "must be at most " << max_across << " spacings of " << lattice.spacing;
+        text << "must be at most " << max_across << " spacings of " << number_text(lattice.spacing);
     refuse(place, text.str());
 }
 

@@ -86,9 +86,8 @@ void check_viscosity(const Scene& scene, const Place& place) {
     if (scene.settling.updates > 0) h = std::max(h, scene.settling.time_step / scene.settling.substeps);
     const double most = 0.1 * scene.solver.fluidRestDistance * scene.solver.fluidRestDistance / h;
     if (!(scene.solver.kinematicViscosity > most)) return;
-    std::ostringstream text;
-    text << "at most " << most << " (0.1 fluidRestDistance^2 / longest substep, settling included)";
-    fields::refuse(place.key("solver").key("kinematicViscosity"), scene.solver.kinematicViscosity, text.str());
+    fields::refuse(place.key("solver").key("kinematicViscosity"), scene.solver.kinematicViscosity,
+                   "at most " + computed_text(most) + " (0.1 fluidRestDistance^2 / longest substep, settling included)");
 }
 
 /// Mirrors fill space only where they meet at right angles, or face each other.

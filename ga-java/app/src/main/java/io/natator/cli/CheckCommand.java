@@ -67,8 +67,8 @@ final class CheckCommand implements Callable<Integer> {
         Double underWater = WaterCheck.shareUnderWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),
                 List.of(controls.duration() / 2, controls.duration()), execution);
         Controls all = controls.withUnderWater(underWater);
-        all.write(run.directory());
         new ControlReport(spec.commandLine().getOut()).print(all);
+        all.write(run.directory());
         return ExitCode.OK;
     }
 }

@@ -5,6 +5,7 @@ import io.natator.config.EncodingKind;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
+import io.natator.file.GeneratedPage;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.TimeLimit;
@@ -113,6 +114,7 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
         check("--restart", restart, 0, Limits.SECONDS);
         check("--slow-share", slowShare, 0, 1);
         check("--slow-factor", slowFactor, 1, MOST_TIMES_AS_SLOW);
+        GeneratedPage.check(directory);
         Path times = directory.resolve("times.csv");
         try {
             Files.createDirectories(directory);

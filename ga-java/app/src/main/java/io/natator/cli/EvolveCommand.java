@@ -20,6 +20,8 @@ import io.natator.config.Preset;
 import io.natator.config.WeightedObjective;
 import io.natator.simulator.SceneInfo;
 import java.io.IOException;
+import java.nio.file.FileAlreadyExistsException;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.Callable;
@@ -178,23 +180,34 @@ final class EvolveCommand implements Callable<Integer> {
         }
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));
         EvolutionSettings settings = settings(execution);
-        Path directory = outputDir != null ? outputDir : freeFolder(settings.scene());
         Archipelago.Plan islands = islandOptions.plan(settings);
         RunPreview preview = new RunPreview(settings, islands, execution);
         if (dryRun) {
-            preview.print(directory, spec.commandLine().getOut());
+            preview.print(directory(settings), spec.commandLine().getOut());
             return ExitCode.OK;
         }
         if (islands != null) {
+            Path directory = directory(settings);
             Archipelago archipelago = Archipelago.create(directory, islands);
             preview.printAnyway(directory, spec.commandLine().getOut());
             new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
             return ExitCode.OK;
         }
-        RunFolder folder = RunFolder.create(directory, settings);
-        preview.print(folder, spec.commandLine().getOut());
-        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
+        begin(outputDir != null ? RunFolder.create(outputDir, settings) : createFree(settings), preview, execution);
         return ExitCode.OK;
+    }
+
+    /** Evolves; what is refused with the first generation leaves no folder that would be in the way of the corrected command. */
+    private void begin(RunFolder folder, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
+        preview.print(folder, spec.commandLine().getOut());
+        try {
+            new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
+        } catch (InvalidInputException e) {
+            if (folder.checkpoint() == null) {
+                RunFolder.delete(folder.directory());
+            }
+            throw e;
+        }
     }
 
     static void checkStopAfter(Double seconds) {
@@ -245,17 +258,38 @@ final class EvolveCommand implements Callable<Integer> {
                 : evaluations != null ? EvolutionSettings.NO_LIMIT : preset.generations();
     }
 
+    private Path directory(EvolutionSettings settings) {
+        return outputDir != null ? outputDir : freeFolder(settings.scene());
+    }
+
+    /** In a new folder that is this command's, though others that begin now look for one too. */
+    private RunFolder createFree(EvolutionSettings settings) {
+        while (true) {
+            Path folder = freeFolder(settings.scene());
+            try {
+                Files.createDirectories(folder.toAbsolutePath().getParent());
+                Files.createDirectory(folder);
+                return RunFolder.create(folder, settings);
+            } catch (FileAlreadyExistsException e) {
+                if (!Files.isDirectory(folder)) {
+                    throw cannotBeMade(folder, e);
+                }
+            } catch (IOException e) {
+                throw cannotBeMade(folder, e);
+            }
+        }
+    }
+
+    private static InvalidInputException cannotBeMade(Path folder, IOException e) {
+        return new InvalidInputException("output folder " + folder + " cannot be made: " + FileErrors.reason(folder, e), e);
+    }
+
     /** runs/creature-1-seed-7, or with -2, -3 … if that is taken. */
     private Path freeFolder(String sceneName) {
         String name = Path.of(sceneName).getFileName().toString().replaceFirst("\\.json$", "") + "-seed-" + seed;
         Path folder = Path.of("runs", name);
-        try {
-            for (int number = 2; RunFolder.isOccupied(folder); number++) {
-                folder = Path.of("runs", name + "-" + number);
-            }
-        } catch (IOException e) {
-            throw new InvalidInputException("output folder " + folder + " cannot be read: "
-                    + FileErrors.reason(folder, e), e);
+        for (int number = 2; Files.exists(folder); number++) {
+            folder = Path.of("runs", name + "-" + number);
         }
         return folder;
     }

@@ -12,6 +12,8 @@ import java.nio.file.Path;
 /** A gait that the user names by a file, and the body that a run's {@code best.json} has beside it. */
 final class GaitFile {
 
+    private static final int LONGEST = 60;
+
     private GaitFile() {
     }
 
@@ -28,13 +30,34 @@ final class GaitFile {
             throw new InvalidInputException("--gait " + file + ": body is " + body + "; expected a JSON Merge Patch on the scene");
         }
         JsonNode gait = content.has("gait") ? content.get("gait") : content;
-        if (gait instanceof ObjectNode keys) {
-            keys.remove("$schema");
+        if (!(gait instanceof ObjectNode keys)) {
+            throw new InvalidInputException("--gait " + file + ": gait is " + shortened(gait)
+                    + "; expected an object with frequency, amplitude and phase");
         }
+        keys.remove("$schema");
+        requireNumbers(file, "", gait);
         try {
             return new Swimmer(Json.tree(gait, Gait.class), body);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("--gait " + file + ": " + Json.reason(e), e);
         }
+    }
+
+    /** A gait has numbers only, in lists or not: no text that looks like one, and no null for what can be left out. */
+    private static void requireNumbers(Path file, String place, JsonNode node) {
+        if (node.isObject()) {
+            node.properties().forEach(one -> requireNumbers(file, place + (place.isEmpty() ? "" : ".") + one.getKey(), one.getValue()));
+        } else if (node.isArray()) {
+            for (int i = 0; i < node.size(); i++) {
+                requireNumbers(file, place + "[" + i + "]", node.get(i));
+            }
+        } else if (!node.isNumber()) {
+            throw new InvalidInputException("--gait " + file + ": " + place + " is " + shortened(node) + "; expected a number");
+        }
+    }
+
+    private static String shortened(JsonNode node) {
+        String text = node.toString();
+        return text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text;
     }
 }

@@ -72,6 +72,7 @@ public final class Main implements Callable<Integer> {
                 .setExecutionExceptionHandler(OneLineErrors::failure);
         EnumNames.install(command);
         SectionedHelp.install(command);
+        EmptyValues.refuse(command);
         return command;
     }
 

@@ -10,7 +10,6 @@ import java.io.UncheckedIOException;
 import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardOpenOption;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
@@ -87,10 +86,16 @@ final class NewCommand implements Callable<Integer> {
 
     private static void write(Path file, String content) {
         try {
-            Files.writeString(file, content, StandardOpenOption.CREATE_NEW);
+            Files.createFile(file);
         } catch (FileAlreadyExistsException e) {
             throw new InvalidInputException(occupied(file), e);
         } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + file + ": " + FileErrors.reason(file, e), e);
+        }
+        try {
+            Files.writeString(file, content);
+        } catch (IOException e) {
+            file.toFile().delete();
             throw new UncheckedIOException("cannot write " + file + ": " + FileErrors.reason(file, e), e);
         }
     }

@@ -57,6 +57,13 @@ final class OneLineErrors {
         return ExitCode.SOFTWARE;
     }
 
+    /** Says what is wrong, if anything is, with what goes on all the same. */
+    static void warn(CommandLine command, String message) {
+        if (message != null) {
+            print(command, "warning: " + message);
+        }
+    }
+
     private static void print(CommandLine command, String message) {
         String line = message.strip().replaceAll("\\s*\\R\\s*", " | ");
         command.getErr().println(command.getCommandSpec().qualifiedName() + ": " + line);

@@ -42,6 +42,7 @@ final class ReportCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         StoredRun run = Archipelago.stored(directory);
+        OneLineErrors.warn(spec.commandLine(), run.damage());
         ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(Backend.CPU), run.settings());
         Path folder = outputDir != null ? outputDir : run.directory().resolve("report");
         try {

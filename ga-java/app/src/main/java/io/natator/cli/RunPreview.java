@@ -57,7 +57,7 @@ final class RunPreview {
                         : execution.workers() + " at once",
                 ProgressEstimate.readable(limited.timeout().toSeconds()));
         out.printf("  run folder  %s%n", folder);
-        printTime(limited, duration, (islands == null ? 1 : islands.islands()) * estimate.expected(), out);
+        printTime(limited, scene, duration, (islands == null ? 1 : islands.islands()) * estimate.expected(), out);
         out.flush();
     }
 
@@ -85,10 +85,10 @@ final class RunPreview {
         }
     }
 
-    private void printTime(ExecutionSettings limited, double duration, long evaluations, PrintWriter out)
+    private void printTime(ExecutionSettings limited, SceneInfo scene, double duration, long evaluations, PrintWriter out)
             throws InterruptedException {
         int together = execution.trials(settings.population());
-        try (Evaluator evaluator = Evaluator.open(limited.withCache(null))) {
+        try (Evaluator evaluator = EvolutionRun.telling(settings, Evaluator.open(limited.withCache(null)), scene)) {
             double whole = new EvaluationTime(settings, evaluator).of(together, duration);
             out.printf(Locale.ROOT, "  time        at most %s: %d evaluations take %.2f s, if none ends early%n",
                     ProgressEstimate.readable(Math.round(Math.ceil((double) evaluations / together) * whole)),

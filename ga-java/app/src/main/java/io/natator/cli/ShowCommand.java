@@ -44,6 +44,7 @@ final class ShowCommand implements Callable<Integer> {
             IslandsReport.print(Archipelago.in(folder), out);
         }
         StoredRun run = Archipelago.stored(folder);
+        OneLineErrors.warn(spec.commandLine(), run.damage());
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {
@@ -100,7 +101,7 @@ final class ShowCommand implements Callable<Integer> {
             return "generation 0 under way: " + run.evaluations().size() + " evaluations";
         }
         GenerationSummary last = run.state().history().get(run.state().generation());
-        long more = run.evaluations().size() - run.state().evaluations();
+        long more = Math.max(run.evaluations().size() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
@@ -135,7 +136,7 @@ final class ShowCommand implements Callable<Integer> {
             out.println("not simulated");
             out.printf(Locale.ROOT, "  early stop  %.1f %% of the time: %d of %d evaluations ended early, as if %.0f "
                     + "had not been made%n", 100 * statistics.shareOfEarlyStops(), statistics.stoppedEarly(),
-                    statistics.evaluations(), statistics.shareOfEarlyStops() * statistics.evaluations());
+                    statistics.simulations(), statistics.shareOfEarlyStops() * statistics.simulations());
             out.printf("  unchanged   %d chromosomes, evaluated in an earlier generation%n", statistics.unchanged());
             out.printf("  cache       %d evaluations, made by an earlier run%n", statistics.fromCache());
         }

@@ -5,11 +5,14 @@ import static org.assertj.core.api.Assertions.assertThat;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
 
 /** What can't be run is refused in one line with exit status 2, and nothing is written. */
@@ -84,6 +87,8 @@ class BadUsageTest extends FakeSimulatorTest {
         "--workers 5000|workers is 5000; expected a whole number from 1 to 1024",
         "--population 2000000000|population is 2000000000; expected a whole number from 2 to 100000",
         "--duration -1|duration is -1.0",
+        "--duration 1e9|duration is 1.0E9; expected a number of seconds above 0, up to 1000000",
+        "--islands 3 --seed 9223372036854775806|seed is 9223372036854775806; expected at most 9223372036854775805, as 3 islands",
         "--gaussian-deviation 0|gaussian-deviation is 0.0",
         "--operators magic|expected corrected or stock",
         "--encoding magic|expected dense, sparse, dense-steered or sparse-steered",
@@ -107,6 +112,56 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(err.toString()).startsWith("natator evolve: ").contains(message);
         assertThat(out.toString()).isEmpty();
         assertThat(folder.resolve("never")).doesNotExist();
+    }
+
+    /** What only a result tells is refused by a dry run as well, and leaves nothing that would be in the way. */
+    @ParameterizedTest
+    @ValueSource(strings = {"", "--dry-run"})
+    void whatTheSimulatorDoesNotMeasureIsRefused(String option) {
+        List<String> options = new ArrayList<>(List.of("--optimizer", "nsga2", "--objectives", "distance,goals"));
+        if (!option.isEmpty()) {
+            options.add(option);
+        }
+
+        assertThat(evolve("run", options.toArray(String[]::new))).isEqualTo(2);
+
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).startsWith("natator evolve: objective goals: the scene has none");
+        assertThat(folder.resolve("run")).doesNotExist();
+    }
+
+    @Test
+    void studiesAndReportsOverwriteNobodysPage() throws IOException {
+        assertThat(evolve("run")).isZero();
+        Path mine = Files.writeString(Files.createDirectory(folder.resolve("mine")).resolve("README.md"), "my notes");
+        for (String[] command : new String[][] {{"report", folder.resolve("run").toString()}, {"compare-optimizers"}}) {
+            err.getBuffer().setLength(0);
+            List<String> arguments = new ArrayList<>(List.of(command));
+            arguments.addAll(List.of("--output-dir", folder.resolve("mine").toString()));
+            assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
+            assertThat(err.toString()).contains("has a README.md that natator did not write").hasLineCount(1);
+        }
+        assertThat(mine).hasContent("my notes");
+        err.getBuffer().setLength(0);
+        assertThat(natator("compare-optimizers", "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(err.toString()).contains("is the folder of a run").hasLineCount(1);
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "evolve --scene EMPTY|natator evolve: --scene is empty", "evolve --scene=EMPTY|natator evolve: --scene is empty",
+        "evolve --output-dir EMPTY|natator evolve: --output-dir is empty",
+        "evaluate --scene pool/creature-1 --gait EMPTY|natator evaluate: --gait is empty",
+        "show EMPTY|natator show: RUN is empty", "report EMPTY|natator report: RUN is empty",
+        "compare a EMPTY|natator compare: RUN is empty",
+        "resume EMPTY|natator resume: RUN is empty"})
+    void anEmptyValueIsOneLine(String arguments, String message) {
+        String[] given = Stream.of(arguments.split(" ")).map(one -> one.replace("EMPTY", "")).toArray(String[]::new);
+
+        assertThat(natator(given)).isEqualTo(2);
+        assertThat(err.toString().strip()).isEqualTo(message + "; expected a value: is a variable of the shell not set? See "
+                + message.substring(0, message.indexOf(':')) + " --help");
+        assertThat(out.toString()).isEmpty();
     }
 
     @Test

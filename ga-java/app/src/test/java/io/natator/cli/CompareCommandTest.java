@@ -124,6 +124,19 @@ class CompareCommandTest extends FakeSimulatorTest {
     }
 
     @Test
+    void aCheckThatCannotBeKeptIsToldAllTheSame() throws IOException {
+        assertThat(evolve("run")).isZero();
+        Files.createDirectories(folder.resolve("run/check.json/in the way"));
+        out.getBuffer().setLength(0);
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("check", "--starts", "2", folder.resolve("run").toString())).isEqualTo(1);
+
+        assertThat(out.toString()).contains("mirrored", "verdict");
+        assertThat(err.toString()).startsWith("natator check: cannot write ").hasLineCount(1);
+    }
+
+    @Test
     void checkNeedsTwoStartsAndARun() throws IOException {
         assertThat(evolve("run")).isZero();
         out.getBuffer().setLength(0);

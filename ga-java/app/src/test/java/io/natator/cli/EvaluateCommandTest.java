@@ -81,6 +81,30 @@ class EvaluateCommandTest extends FakeSimulatorTest {
         assertThat(err.toString()).startsWith("natator evaluate: ").contains(message);
     }
 
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "{'frequency':'1','amplitude':[1,1],'phase':[0,0.5]}|frequency is \"1\"; expected a number",
+        "{'frequency':'NaN','amplitude':[1,1],'phase':[0,0.5]}|frequency is \"NaN\"; expected a number",
+        "{'frequency':1,'amplitude':[1,'1'],'phase':[0,0.5]}|amplitude[1] is \"1\"; expected a number",
+        "{'frequency':1,'amplitude':[1,true],'phase':[0,0.5]}|amplitude[1] is true; expected a number",
+        "{'frequency':1,'amplitude':[null,1],'phase':[0,0.5]}|amplitude[0] is null; expected a number",
+        "{'gait':{'frequency':1,'amplitude':[1,1],'phase':[0,0.5],'power':null}}|power is null; expected a number",
+        "{'frequency':1,'amplitude':1,'phase':[0,0.5]}|amplitude: expected a list",
+        "{'frequency':1,'phase':[0,0.5]}|amplitude is missing",
+        "{'amplitude':[1,1],'phase':[0,0.5]}|frequency: expected a number",
+        "{'frequency':1,'amplitude':[1],'phase':[0,0.5]}|gait has 1 amplitudes and 2 phases; expected as many of both",
+        "{'frequency':1,'amplitude':[1,1],'phase':[0,0.5],'speed':1}|speed: unknown key; expected some of ",
+        "[null,1]|gait is [null,1]; expected an object with frequency, amplitude and phase",
+        "{'gait':null}|gait is null; expected an object with frequency, amplitude and phase",
+        "null|gait is null; expected an object with frequency, amplitude and phase"})
+    void gaitFilesAreNoMoreThanGaits(String json, String message) throws IOException {
+        Path gait = Files.writeString(folder.resolve("gait.json"), json.replace('\'', '"'));
+
+        assertThat(natator("evaluate", "--scene", "thesis/creature-1", "--gait", gait.toString())).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).startsWith("natator evaluate: --gait " + gait + ": " + message).doesNotContain("line -1");
+    }
+
     @Test
     void anEvaluationThatFailsSaysWhyAndEndsWithStatus1() throws IOException {
         assertThat(natator("evaluate", "--scene", "fault/exit", "--gait", "1.5", "0.1", "0.2", "0.3")).isEqualTo(1);

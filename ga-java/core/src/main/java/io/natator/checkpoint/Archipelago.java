@@ -43,6 +43,11 @@ public record Archipelago(Path directory, Plan plan) {
          */
         public Plan {
             Migration.checkIslands(islands);
+            long greatest = Long.MAX_VALUE - (islands - 1);
+            if (settings.seed() > greatest) {
+                throw new InvalidInputException("seed is " + settings.seed() + "; expected at most " + greatest + ", as " + islands
+                        + " islands have it and the seeds after it");
+            }
             if (migrants < 0) {
                 throw new InvalidInputException("migrants are " + migrants + "; expected a whole number from 0");
             }

@@ -1,6 +1,7 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
+import com.fasterxml.jackson.annotation.JsonInclude;
 
 /**
  * What a run did not have to simulate; {@code savings.json}.
@@ -11,18 +12,26 @@ import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
  * @param stoppedEarly     of the evaluations, those that ended before their time
  * @param simulatedSeconds time simulated in all evaluations, those from the cache included
  * @param wholeSeconds     the same, had none ended early
+ * @param refused          of the evaluations, those of bodies that were not simulated; null where an earlier version counted
+ *                         them as simulated in the whole seconds
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
+@JsonInclude(JsonInclude.Include.NON_NULL)
 public record EvaluationStatistics(long evaluations, long unchanged, long fromCache, long stoppedEarly,
-        double simulatedSeconds, double wholeSeconds) {
+        double simulatedSeconds, double wholeSeconds, Long refused) {
 
-    /** Of an evaluation that nothing ends early, in seconds; 0 without evaluations. */
-    public double duration() {
-        return evaluations == 0 ? 0 : wholeSeconds / evaluations;
+    /** Evaluations that were not refused, so that there was something to simulate. */
+    public long simulations() {
+        return refused == null ? evaluations : evaluations - refused;
     }
 
-    /** Share of the simulated time that early stops saved; 0 without evaluations. */
+    /** Of an evaluation that nothing ends early, in seconds; 0 without simulations. */
+    public double duration() {
+        return simulations() == 0 ? 0 : wholeSeconds / simulations();
+    }
+
+    /** Share of the simulated time that early stops saved; 0 without any, whatever sums of seconds round to. */
     public double shareOfEarlyStops() {
-        return wholeSeconds > 0 ? 1 - simulatedSeconds / wholeSeconds : 0;
+        return stoppedEarly > 0 && wholeSeconds > 0 ? Math.max(1 - simulatedSeconds / wholeSeconds, 0) : 0;
     }
 }

@@ -131,15 +131,23 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
-        int recorded = folder.log.rows().size();
-        if (folder.checkpoint != null && recorded < folder.checkpoint.evaluations()) {
+        String damage = damage(directory, folder.checkpoint, folder.log.rows().size());
+        if (damage != null) {
             folder.close();
-            throw new InvalidInputException(directory + " is damaged: " + EVALUATIONS + " has " + recorded
-                    + " whole lines; expected at least the " + folder.checkpoint.evaluations() + " of " + CHECKPOINT);
+            throw new InvalidInputException(damage);
         }
         folder.checkDepartures();
         folder.dropFailures();
         return folder;
+    }
+
+    /**
+     * What of a run is lost, in one line; null if nothing is. Evaluations are on the disk before the checkpoint that counts
+     * them, so there are never fewer of a sound run, also while it is written.
+     */
+    static String damage(Path directory, EvolutionState checkpoint, int recorded) {
+        return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
+                + " has " + recorded + " whole lines; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
     }
 
     /** After each exchange up to the checkpoint somebody left, if only nobody: the next island has gone on by that. */

@@ -64,6 +64,15 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
                 evaluations(directory), statistics, vacuumRecords(directory));
     }
 
+    /**
+     * What of the run is lost though nobody trimmed it, in one line; null if nothing is. It was trimmed where there is no
+     * population either; {@link CompactRun}.
+     */
+    public String damage() {
+        boolean compact = state != null && state.population().isEmpty() && evaluations.isEmpty();
+        return compact ? null : RunFolder.damage(directory, state, evaluations.size());
+    }
+
     /** The settings of the run in a folder. */
     public static EvolutionSettings settings(Path directory) {
         if (!exists(directory)) {

@@ -8,12 +8,15 @@ import com.fasterxml.jackson.databind.exc.ValueInstantiationException;
 import java.util.Arrays;
 import java.util.Collection;
 import java.util.Locale;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 
 /** What is wrong with a JSON text, without the names that classes and settings have in this program. */
 final class JsonErrors {
 
     private static final int LONGEST = 60;
+    private static final Pattern REFUSED_VALUE = Pattern.compile("^Cannot coerce \\w+ value \\(\"?(.*?)\"?\\) to ");
 
     private JsonErrors() {
     }
@@ -25,17 +28,30 @@ final class JsonErrors {
                     .collect(Collectors.joining(", "));
         }
         if (e instanceof ValueInstantiationException) {
-            return e.getCause() instanceof InvalidInputException || e.getCause() instanceof IllegalArgumentException
-                    ? e.getCause().getMessage() : "expected an object with all its keys";
+            if (e.getCause() instanceof InvalidInputException || e.getCause() instanceof IllegalArgumentException) {
+                return e.getCause().getMessage();
+            }
+            return isMissing(e.getCause()) ? e.getCause().getMessage() + " is missing" : "expected an object with all its keys";
         }
         String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON");
         if (e instanceof MismatchedInputException mismatch && mismatch.getTargetType() != null
                 && !message.startsWith("Trailing token") && !message.startsWith("no value")) {
             return "expected " + described(mismatch.getTargetType())
-                    + (e instanceof InvalidFormatException invalid ? ", not " + shortened(invalid.getValue()) : "");
+                    + (e instanceof InvalidFormatException invalid ? ", not " + shortened(invalid.getValue()) : taken(message));
         }
         return message.replaceFirst(" \\(set .*", "").replaceAll(" ?\\((start marker )?at \\[Source:.*", "")
                 .replaceAll(" \\(bound as [^)]*\\).*", "");
+    }
+
+    /** Whether a record required a key by its name and did not get it. */
+    private static boolean isMissing(Throwable cause) {
+        return cause instanceof NullPointerException && cause.getMessage() != null && cause.getMessage().matches("\\w+");
+    }
+
+    /** The value that Jackson says it does not take for another type. */
+    private static String taken(String message) {
+        Matcher value = REFUSED_VALUE.matcher(message);
+        return value.find() ? ", not " + shortened(value.group(1)) : "";
     }
 
     private static String shortened(Object value) {

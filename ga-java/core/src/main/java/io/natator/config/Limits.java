@@ -11,6 +11,8 @@ public final class Limits {
     public static final int STARTS = 1000;
     /** Seeds, or repetitions, of a study. */
     public static final int REPETITIONS = 10_000;
+    /** A simulated time, in seconds, as the native program has it. */
+    public static final double DURATION = 1e6;
     /** A time by the clock, three years in seconds. */
     public static final double SECONDS = 1e8;
 

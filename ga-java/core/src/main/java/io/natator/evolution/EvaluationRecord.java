@@ -4,6 +4,7 @@ import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
 import java.util.List;
+import java.util.Objects;
 
 /**
  * One simulation of an evolution; one line of {@code evaluations.jsonl}.
@@ -17,9 +18,10 @@ import java.util.List;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record EvaluationRecord(int generation, List<Double> genes, Gait gait, SimulationResult result, Integer start) {
 
-    /** Copies the genes. */
+    /** Copies the genes, which it has to have as well as a result. */
     public EvaluationRecord {
-        genes = List.copyOf(genes);
+        genes = List.copyOf(Objects.requireNonNull(genes, "genes"));
+        Objects.requireNonNull(result, "result");
     }
 
     /** From the scene's own start. */

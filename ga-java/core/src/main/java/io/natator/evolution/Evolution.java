@@ -6,8 +6,11 @@ import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import java.util.ArrayList;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Objects;
+import java.util.Set;
+import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 
 /**
@@ -27,6 +30,8 @@ public final class Evolution {
     private long evaluations;
     /** Results of the current generation's simulations, in the order of their ids. */
     private final List<SimulationResult> simulated = new ArrayList<>();
+    /** Genes that are new in the current generation. */
+    private final Set<List<Double>> born = new HashSet<>();
 
     /** A simulation to be made: of these genes, from this start. */
     private record Run(List<Double> genes, Integer start) {
@@ -77,6 +82,7 @@ public final class Evolution {
                 List<Individual> parents = state == null ? List.of() : parents(state);
                 generation = state == null ? 0 : state.generation() + 1;
                 simulated.clear();
+                born.clear();
                 state = finish(state, optimizer.next(generation, parents));
             }
             return state;
@@ -120,16 +126,24 @@ public final class Evolution {
         double[] scores = population.stream().mapToDouble(Individual::score).toArray();
         List<GenerationSummary> history = new ArrayList<>(before == null ? List.of() : before.history());
         history.add(GenerationSummary.of(generation, scores, simulated.size(),
-                count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED)));
+                count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED)).withUnchanged(unchanged(population)));
         EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions);
         listeners.forEach(listener -> listener.generationFinished(state));
         return state;
+    }
+
+    /** How many of a population were not simulated for it: those from before, and twins of newborns. */
+    private int unchanged(List<Individual> population) {
+        Set<List<Double>> found = population.stream().map(Individual::genes).collect(Collectors.toSet());
+        found.retainAll(born);
+        return population.size() - found.size();
     }
 
     /** New genomes as individuals: each run from all starts of the generation. */
     private List<Individual> evaluate(List<List<Double>> proposed) {
         int starts = settings.starts();
         List<List<Double>> genomes = proposed.subList(0, (int) Math.min(proposed.size(), budgetLeft() / starts));
+        born.addAll(genomes);
         int planned = (int) Math.min((long) genomes.size() * starts + settings.repeats(), budgetLeft());
         listeners.forEach(listener -> listener.generationStarted(generation, planned));
         List<Run> runs = new ArrayList<>();

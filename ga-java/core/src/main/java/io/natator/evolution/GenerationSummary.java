@@ -1,5 +1,6 @@
 package io.natator.evolution;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonPropertyOrder;
 import java.util.Arrays;
 
@@ -13,13 +14,22 @@ import java.util.Arrays;
  * @param median      median distance
  * @param worst       least distance
  * @param population  chromosomes in the generation
- * @param evaluations of them newly simulated; the others were unchanged
+ * @param evaluations simulations for it
  * @param unstable    simulations that became unstable
  * @param failed      simulations without a valid answer
+ * @param unchanged   of the chromosomes, those that were not newly simulated; null where an earlier version did not count them
  */
-@JsonPropertyOrder({"generation", "best", "mean", "median", "worst", "population", "evaluations", "unstable", "failed"})
+@JsonInclude(JsonInclude.Include.NON_NULL)
+@JsonPropertyOrder({"generation", "best", "mean", "median", "worst", "population", "evaluations", "unstable", "failed",
+    "unchanged"})
 public record GenerationSummary(int generation, double best, double mean, double median, double worst, int population,
-        int evaluations, int unstable, int failed) {
+        int evaluations, int unstable, int failed, Integer unchanged) {
+
+    /** A summary without a count of what was unchanged. */
+    public GenerationSummary(int generation, double best, double mean, double median, double worst, int population,
+            int evaluations, int unstable, int failed) {
+        this(generation, best, mean, median, worst, population, evaluations, unstable, failed, null);
+    }
 
     /**
      * Summarises the distances of all chromosomes of a generation.
@@ -37,5 +47,15 @@ public record GenerationSummary(int generation, double best, double mean, double
         double mean = Arrays.stream(sorted).sum() / count;
         return new GenerationSummary(generation, sorted[count - 1], mean, median, sorted[0], count, evaluations,
                 unstable, failed);
+    }
+
+    /** The same with a count of the chromosomes that were not newly simulated. */
+    GenerationSummary withUnchanged(int count) {
+        return new GenerationSummary(generation, best, mean, median, worst, population, evaluations, unstable, failed, count);
+    }
+
+    /** Chromosomes that were not newly simulated, or as far as that is known. */
+    public int unchangedOrRest() {
+        return unchanged != null ? unchanged : Math.max(population - evaluations, 0);
     }
 }

@@ -9,9 +9,6 @@ import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
 import io.natator.simulator.SimulationResult;
-import java.util.HashSet;
-import java.util.List;
-import java.util.Set;
 import java.util.function.LongSupplier;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -26,10 +23,10 @@ final class EvaluationCounter implements EvolutionListener {
     private final LongSupplier found;
     private final long foundBefore;
     private long evaluations;
+    private long refused;
     private long stoppedEarly;
-    private double simulated;
-    /** Of runs with several starts, whose evaluations are not one of each new chromosome. */
-    private final Set<List<Double>> newborns = new HashSet<>();
+    /** Seconds; exactly 0 if nothing ended early. */
+    private double saved;
 
     /**
      * Counts on from the folder's checkpoint.
@@ -62,20 +59,20 @@ final class EvaluationCounter implements EvolutionListener {
     public void evaluated(EvaluationRecord evaluation) {
         SimulationResult result = evaluation.result();
         evaluations++;
-        if (evaluation.start() != null) {
-            newborns.add(evaluation.genes());
+        if (result.status() == SimulationResult.Status.REFUSED) {
+            refused++;
         }
         if (result.isStoppedEarly()) {
             stoppedEarly++;
+            saved += duration - result.simulatedOf(duration);
         }
-        simulated += result.simulatedOf(duration);
     }
 
     @Override
     public void generationFinished(EvolutionState state) {
-        long population = state.history().stream().mapToLong(GenerationSummary::population).sum();
-        long unchanged = population - (newborns.isEmpty() ? evaluations : newborns.size());
+        long unchanged = state.history().stream().mapToLong(GenerationSummary::unchangedOrRest).sum();
+        double whole = (evaluations - refused) * duration;
         folder.write(new EvaluationStatistics(evaluations, unchanged, foundBefore + found.getAsLong(), stoppedEarly,
-                simulated, evaluations * duration));
+                whole - saved, whole, refused));
     }
 }

@@ -135,7 +135,7 @@ public final class EvolutionRun {
         all.addAll(listeners);
         Evaluator checked = settings.evolve() == null ? evaluator
                 : new BodyCheckEvaluator(evaluator, settings, execution.simulator());
-        EvolutionState state = new Evolution(settings, measuring(rewarding(settings, checked), scene), all, folder.recorded(),
+        EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded(),
                 exchange).run(folder.checkpoint());
         BestGait best = folder.writeResults(state);
         if (best != null) {
@@ -146,8 +146,18 @@ public final class EvolutionRun {
         return new Outcome(state, best);
     }
 
+    /**
+     * An evaluator that tells, as the run's own will, what the run asks of results beside the distance: its objectives, or what its map tells
+     * gaits apart by. What the simulator does not measure in the scene it refuses with the first result.
+     *
+     * @param evaluator carries out the evaluations; closed with this one
+     */
+    public static Evaluator telling(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
+        return measuring(settings, settings.objectives() != null ? rewarding(settings, evaluator) : evaluator, scene);
+    }
+
     /** An evaluator whose results tell what the optimizer asks for. */
-    private Evaluator measuring(Evaluator evaluator, SceneInfo scene) {
+    private static Evaluator measuring(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
         if (settings.optimizer() != OptimizerKind.MAP_ELITES) {
             return evaluator;
         }

@@ -4,8 +4,10 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.catchThrowableOfType;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.encoding.Gait;
+import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
@@ -23,6 +25,9 @@ class JsonErrorsTest {
         "{'frequency':null}|frequency: expected a number",
         "{'amplitude':3}|amplitude: expected a list",
         "{'amplitude':['x']}|amplitude: expected a number, not 'x'",
+        "{'frequency':'1'}|frequency: expected a number, not '1'",
+        "{'frequency':true}|frequency: expected a number",
+        "{'amplitude':['1']}|amplitude: expected a number, not '1'",
         "{'frequency':1,'amplitude':[1],'phase':[0],'speed':1}|speed: unknown key; expected some of ",
         "[]|expected an object",
         "{'frequency':1|Unexpected end-of-input",
@@ -38,11 +43,23 @@ class JsonErrorsTest {
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
         "{'backend':'gpu'}|backend: expected one of cpu, cuda, auto, not 'gpu'",
         "{'population':1.5}|population: expected a whole number",
+        "{'population':'40'}|population: expected a whole number, not '40'",
+        "{'vacuumCheck':'true'}|vacuumCheck: expected true or false, not 'true'",
+        "{'vacuumCheck':1}|vacuumCheck: expected true or false, not '1'",
+        "{'backend':0}|backend: expected one of cpu, cuda, auto, not '0'",
+        "{'scene':5}|scene: expected a text, not '5'",
         "{'vacuumCheck':'perhaps'}|vacuumCheck: expected true or false, not 'perhaps'",
         "{'scene':'x','encoding':'dense','actuators':2,'population':1,'generations':1,'seed':1,'operators':'stock',"
             + "'gaussianDeviation':0.05}|population is 1; expected a whole number from 2 to 100000"})
     void settingsToo(String json, String start) {
         assertThat(reason(json, EvolutionSettings.class)).startsWith(start);
+    }
+
+    /** Of what was parsed before, Jackson knows no place. */
+    @Test
+    void aPlaceThatIsNotKnownIsLeftOut() {
+        assertThat(Json.reason(catchThrowableOfType(JsonProcessingException.class,
+                () -> Json.tree(Json.parse("{\"frequency\":1}", JsonNode.class), Gait.class)))).isEqualTo("amplitude is missing");
     }
 
     @ParameterizedTest

@@ -14,8 +14,14 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
+import io.natator.config.Judge;
+import io.natator.config.Objective;
+import io.natator.config.OptimizerKind;
+import io.natator.config.WeightedObjective;
 import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.Individual;
 import io.natator.evolution.ToySimulator;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.FakeSimulator;
@@ -27,10 +33,16 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Comparator;
+import java.util.HashSet;
 import java.util.List;
+import java.util.Locale;
+import java.util.Set;
+import java.util.stream.Collectors;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 class EvolutionRunTest {
 
@@ -115,6 +127,58 @@ class EvolutionRunTest {
         assertThat(statistics.wholeSeconds()).isEqualTo(4.0 * end.evaluations());
         assertThat(statistics.stoppedEarly()).isZero();
         assertThat(statistics.shareOfEarlyStops()).isZero();
+    }
+
+    /** Counted in another way: from what was recorded of each generation. A run that goes on from its middle counts the same. */
+    @ParameterizedTest
+    @CsvSource({"map-elites, 1", "map-elites, 2", "jgap, 1", "jgap, 2", "random, 1", "cma-es, 2", "nsga2, 1"})
+    void unchangedIsWhatWasNotNewlySimulated(String optimizer, int starts) throws InterruptedException, IOException {
+        OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
+        EvolutionSettings settings = SETTINGS.withStarts(starts, Judge.MEAN).withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
+                : List.of(new WeightedObjective(Objective.DISTANCE, null), new WeightedObjective(Objective.WORK, null)));
+        List<EvolutionState> states = new ArrayList<>();
+        EvolutionListener recorder = new EvolutionListener() {
+            @Override
+            public void generationFinished(EvolutionState state) {
+                states.add(state);
+            }
+        };
+        try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
+                Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+            new EvolutionRun(run).run(execution, evaluator, recorder);
+        }
+
+        Set<List<Double>> known = new HashSet<>();
+        long unchanged = 0;
+        for (EvolutionState state : states) {
+            Set<List<Double>> born = evaluations("run").stream().filter(one -> one.generation() == state.generation())
+                    .map(EvaluationRecord::genes).filter(genes -> !known.contains(genes)).collect(Collectors.toSet());
+            unchanged += state.population().size() - state.population().stream().map(Individual::genes).distinct()
+                    .filter(born::contains).count();
+            known.addAll(born);
+        }
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("run"));
+        assertThat(statistics.unchanged()).isEqualTo(unchanged).isGreaterThanOrEqualTo(0);
+
+        String whole = Files.readString(folder.resolve("run/savings.json"));
+        Files.writeString(folder.resolve("run/checkpoint.json"), Json.document(states.get(2)));
+        try (RunFolder again = RunFolder.open(folder.resolve("run"));
+                Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
+            new EvolutionRun(again).run(execution, evaluator);
+        }
+        assertThat(folder.resolve("run/savings.json")).hasContent(whole);
+    }
+
+    /** Sums of 0.1 s are not whole multiples of it, and a body that is none is no saved time. */
+    @Test
+    void nothingIsSavedWhereNothingEndsEarly() throws InterruptedException {
+        run("short", SETTINGS.with(to -> to.duration(0.1)), execution);
+
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("short"));
+        assertThat(statistics.simulatedSeconds()).isEqualTo(statistics.wholeSeconds());
+        assertThat(statistics.shareOfEarlyStops()).isEqualTo(0.0);
+        assertThat(new EvaluationStatistics(30, 0, 0, 0, 3.0000000000000004, 3, null).shareOfEarlyStops())
+                .as("of an earlier version").isEqualTo(0.0);
     }
 
     private List<EvaluationRecord> evaluations(String name) {

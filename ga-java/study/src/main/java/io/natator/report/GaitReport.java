@@ -9,6 +9,7 @@ import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.file.GeneratedPage;
 import io.natator.config.Numbers;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EliteMap;
@@ -51,12 +52,13 @@ public final class GaitReport {
      * A report on a run.
      *
      * @param folder where {@code README.md}, {@code report.html} and the pictures go
-     * @throws InvalidInputException if the run has no best gait yet
+     * @throws InvalidInputException if the run has no best gait yet, or the folder has a page of somebody's own
      */
     public GaitReport(StoredRun run, Path folder) {
         if (run.best() == null) {
             throw new InvalidInputException(run.directory() + " has no best gait yet; finish it by natator resume");
         }
+        GeneratedPage.check(folder);
         this.run = run;
         this.folder = folder;
     }
@@ -87,7 +89,8 @@ public final class GaitReport {
         motion(page, recording);
         flow(page, recording);
         numbers(page, recording);
-        return page.write("README.md");
+        page.text(GeneratedPage.MARK);
+        return page.write(GeneratedPage.NAME);
     }
 
     private Controls controls() {

@@ -1,5 +1,6 @@
 package io.natator.study;
 
+import io.natator.file.GeneratedPage;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Locale;
@@ -11,7 +12,7 @@ final class ComparisonReport {
     private static final String PAGE = """
             # Swimming speeds beside NVIDIA Flex 1.2.0
 
-            Generated; do not edit. Made with
+            %s Made with
 
             ```
             %s
@@ -53,7 +54,7 @@ final class ComparisonReport {
     static String markdown(List<Comparison> comparisons, String command, String variantsFile) {
         List<Comparison> fluid = comparisons.stream().filter(one -> one.variant().inFluid()).toList();
         List<Comparison> vacuum = comparisons.stream().filter(one -> !one.variant().inFluid()).toList();
-        return PAGE.formatted(command, variantsFile, summary("in fluid", fluid) + summary("in vacuum", vacuum),
+        return PAGE.formatted(GeneratedPage.MARK, command, variantsFile, summary("in fluid", fluid) + summary("in vacuum", vacuum),
                 table(fluid), table(vacuum));
     }
 

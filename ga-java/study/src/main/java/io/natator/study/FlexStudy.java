@@ -6,6 +6,7 @@ import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Limits;
+import io.natator.file.GeneratedPage;
 import io.natator.simulator.Evaluator;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -38,6 +39,7 @@ public record FlexStudy(Path variantsFile, Path directory, int runs) {
                     + variants.stream().map(Variant::name).toList());
         }
         Limits.checkCount("--runs", runs, Limits.REPETITIONS);
+        GeneratedPage.check(directory);
         try {
             Files.createDirectories(directory);
         } catch (IOException e) {
@@ -62,7 +64,7 @@ public record FlexStudy(Path variantsFile, Path directory, int runs) {
         Files.writeString(directory.resolve("comparison.csv"), ComparisonTable.csv(comparisons));
         draw("in fluid", comparisons.stream().filter(one -> one.variant().inFluid()).toList(), "comparison-fluid");
         draw("in vacuum", comparisons.stream().filter(one -> !one.variant().inFluid()).toList(), "comparison-vacuum");
-        Path page = directory.resolve("README.md");
+        Path page = directory.resolve(GeneratedPage.NAME);
         return Files.writeString(page, ComparisonReport.markdown(comparisons, command(), variantsFile.toString()));
     }
 

@@ -1,6 +1,7 @@
 package io.natator.export;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.FileErrors;
@@ -133,8 +134,11 @@ public final class Export {
                 swim.waterSurface().close();
             }
         }
-        Files.writeString(path.resolve(ExportFolder.METADATA),
-                Json.document(metadata(scene, source, frames)));
+        ObjectNode metadata = metadata(scene, source, frames);
+        ArrayNode files = metadata.putArray(ExportFolder.FILES);
+        ExportFolder.files(path).forEach(files::add);
+        files.add(ExportFolder.METADATA);
+        Files.writeString(path.resolve(ExportFolder.METADATA), Json.document(metadata));
         return new Written(frames, swim.hasWater() ? swim.water().size() : 0, swim.solids().size());
     }
 

@@ -1,7 +1,9 @@
 package io.natator.export;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
 import java.io.Closeable;
 import java.io.IOException;
 import java.nio.channels.FileChannel;
@@ -11,7 +13,9 @@ import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.nio.file.StandardOpenOption;
 import java.util.Comparator;
+import java.util.HashSet;
 import java.util.List;
+import java.util.Set;
 import java.util.stream.Stream;
 
 /**
@@ -22,6 +26,8 @@ final class ExportFolder implements Closeable {
 
     /** In every export. */
     static final String METADATA = "metadata.json";
+    /** Its entry with the names of all files of the export: whoever replaces it removes these alone. */
+    static final String FILES = "files";
     private static final String LOCK = "export.lock";
 
     private final Path target;
@@ -73,7 +79,7 @@ final class ExportFolder implements Closeable {
         return fresh;
     }
 
-    private static void failUnlessReplaceable(Path folder, Path target, boolean replace) {
+    private static void failUnlessReplaceable(Path folder, Path target, boolean replace) throws IOException {
         if (!replace) {
             throw new InvalidInputException("output folder " + folder + " is not empty; choose another by "
                     + "--output-dir, or replace the export in it by --force");
@@ -81,6 +87,22 @@ final class ExportFolder implements Closeable {
         if (!Files.isRegularFile(target.resolve(METADATA))) {
             throw new InvalidInputException("output folder " + folder + " holds no export: it has no " + METADATA
                     + "; choose another by --output-dir");
+        }
+        Set<String> ofExport = new HashSet<>();
+        Json.read(target.resolve(METADATA), JsonNode.class, METADATA).path(FILES).forEach(name -> ofExport.add(name.asText()));
+        for (String name : files(target)) {
+            if (!ofExport.contains(name)) {
+                throw new InvalidInputException("output folder " + folder + " holds " + name
+                        + ", which is no part of the export in it; move it away, or choose another folder by --output-dir");
+            }
+        }
+    }
+
+    /** Names of all files in a folder and in its folders, in order, with slashes between; none of a lock. */
+    static List<String> files(Path folder) throws IOException {
+        try (Stream<Path> all = Files.walk(folder)) {
+            return all.filter(path -> !Files.isDirectory(path)).map(path -> folder.relativize(path).toString().replace('\\', '/'))
+                    .filter(name -> !name.equals(LOCK)).sorted().toList();
         }
     }
 

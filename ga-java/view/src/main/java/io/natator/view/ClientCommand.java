@@ -20,6 +20,8 @@ record ClientCommand(String what, ObjectNode content) {
     /** What comes first and starts a simulator; the only command that is for the server. */
     static final String START = "start";
     private static final String FILE_ENDING = ".json";
+    /** A name without a folder. */
+    private static final Pattern MESH = Pattern.compile("\\w[\\w-]*+\\.\\w++");
     /** Nothing is tried twice (possessive quantifiers), so that a long name takes no stack. */
     private static final Pattern NAME = Pattern.compile("\\w[\\w-]*+(?:/\\w[\\w-]*+)*+");
 
@@ -79,13 +81,27 @@ record ClientCommand(String what, ObjectNode content) {
                 throw new InvalidInputException(key + ": expected an object");
             }
         }
-        String creature = content.path("overrides").path("creature").path("name").asText();
-        if (creature.endsWith(FILE_ENDING) && !files.contains(creature)) {
-            throw new InvalidInputException("overrides.creature.name: expected a named creature");
+        content.properties().forEach(entry -> check(entry.getValue(), entry.getKey(), files));
+    }
+
+    /** Of whatever the scene may consist of: its creature, companions, obstacles, and what a scene has in future. */
+    private static void check(JsonNode node, String where, Set<String> files) {
+        if (node.isArray()) {
+            for (int i = 0; i < node.size(); i++) {
+                check(node.get(i), where + "[" + i + "]", files);
+            }
         }
-        String mesh = content.path("overrides").path("creature").path("mesh").path("file").asText();
-        if (mesh.contains("/")) {
-            throw new InvalidInputException("overrides.creature.mesh.file: expected a bundled mesh");
+        node.properties().forEach(entry -> check(entry.getValue(), where + "." + entry.getKey(), files));
+        if (!node.isTextual()) {
+            return;
+        }
+        String text = node.textValue();
+        if (where.endsWith(".file") && !MESH.matcher(text).matches() && !files.contains(text)) {
+            throw new InvalidInputException(where + ": expected a bundled mesh");
+        }
+        if (text.endsWith(FILE_ENDING) && !files.contains(text)) {
+            throw new InvalidInputException(where + ": expected a named " + (where.endsWith("creature.name") ? "creature" : "one")
+                    + ", no file");
         }
     }
 }

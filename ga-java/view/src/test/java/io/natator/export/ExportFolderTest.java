@@ -61,8 +61,9 @@ class ExportFolderTest {
 
     @Test
     void anExportIsReplacedOnlyIfWanted() throws IOException {
-        write("first", false);
+        write("{\"files\":[\"metadata.json\",\"swim.csv\",\"water/1.ply\"]}", false);
         Files.writeString(target.resolve("swim.csv"), "of the first");
+        Files.writeString(Files.createDirectories(target.resolve("water")).resolve("1.ply"), "of the first");
 
         assertThatThrownBy(() -> ExportFolder.begin(target, false)).isInstanceOf(InvalidInputException.class)
                 .hasMessage("output folder " + target + " is not empty; choose another by --output-dir, or replace the "
@@ -71,6 +72,17 @@ class ExportFolderTest {
         assertThat(target.resolve(ExportFolder.METADATA)).hasContent("second");
         assertThat(target.resolve("swim.csv")).doesNotExist();
         assertThat(parent).isDirectoryNotContaining(path -> !path.equals(target));
+    }
+
+    @Test
+    void whatSomebodyPutBesideAnExportIsNotRemoved() throws IOException {
+        write("{\"files\":[\"metadata.json\"]}", false);
+        Path notes = Files.writeString(Files.createDirectories(target.resolve("figures")).resolve("notes.txt"), "mine");
+
+        assertThatThrownBy(() -> ExportFolder.begin(target, true)).isInstanceOf(InvalidInputException.class)
+                .hasMessage("output folder " + target + " holds figures/notes.txt, which is no part of the export in it; move it away, "
+                        + "or choose another folder by --output-dir");
+        assertThat(notes).hasContent("mine");
     }
 
     @Test

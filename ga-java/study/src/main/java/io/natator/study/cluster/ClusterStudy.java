@@ -1,6 +1,7 @@
 package io.natator.study.cluster;
 
 import io.natator.file.AtomicFile;
+import io.natator.file.GeneratedPage;
 import io.natator.plot.Picture;
 import io.natator.simulator.PartSize;
 import io.natator.study.Sample;
@@ -67,7 +68,7 @@ public final class ClusterStudy {
         List<List<Point>> curves = variants().stream().map(this::curve).toList();
         AtomicFile.write(folder.resolve("efficiency.csv"), csv(curves));
         Picture.save(chart(curves), folder.resolve("efficiency"));
-        Path page = folder.resolve("README.md");
+        Path page = folder.resolve(GeneratedPage.NAME);
         AtomicFile.write(page, page(curves, command));
         return page;
     }

@@ -3,6 +3,7 @@ package io.natator.study.optimizer;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
+import io.natator.file.GeneratedPage;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
@@ -23,7 +24,7 @@ final class OptimizerReport {
     private static final String PAGE = """
             # Optimizers side by side
 
-            Generated; do not edit. Made with
+            %s Made with
 
             ```
             %s
@@ -50,7 +51,7 @@ final class OptimizerReport {
 
     static Path write(List<OptimizerRun> finished, int all, String command, Path directory,
             Map<String, FreshResults> again) {
-        StringBuilder page = new StringBuilder(PAGE.formatted(command, finished.size(), all));
+        StringBuilder page = new StringBuilder(PAGE.formatted(GeneratedPage.MARK, command, finished.size(), all));
         StringBuilder csv = new StringBuilder(
                 "scene,optimizer,population,runs,evaluations,lower_quartile,median,upper_quartile,mean,sd,least,greatest\n");
         StringBuilder medians = new StringBuilder(FreshTables.MEDIANS);
@@ -68,7 +69,7 @@ final class OptimizerReport {
             Files.writeString(directory.resolve("comparison.csv"), csv);
             Files.writeString(directory.resolve("fresh.csv"), medians);
             Files.writeString(directory.resolve("tests.csv"), tests);
-            return Files.writeString(directory.resolve("README.md"), page);
+            return Files.writeString(directory.resolve(GeneratedPage.NAME), page);
         } catch (IOException e) {
             throw new UncheckedIOException("cannot write the results: " + e.getMessage(), e);
         }

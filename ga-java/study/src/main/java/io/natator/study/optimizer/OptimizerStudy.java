@@ -5,6 +5,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
+import io.natator.file.GeneratedPage;
 import io.natator.run.Lanes;
 import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
@@ -37,11 +38,15 @@ public final class OptimizerStudy {
      * @param cmaEsPopulation evaluations in a generation of CMA-ES, or null for its inventor's 4 + ⌊3 ln n⌋ with n genes
      * @param rankStarts     fresh starts by which the gaits of each run's last generation are ranked; 0: they are not
      * @param directory      where the run folders and results go
-     * @throws InvalidInputException if the last generation of a run that is only a line is to be ranked
+     * @throws InvalidInputException if the folder is a run's or has a page of somebody's own, or if the last generation of a run that is only a line is to be ranked
      */
     public OptimizerStudy(Map<String, EvolutionSettings> scenes, List<OptimizerVariant> variants, int seeds,
             Integer cmaEsPopulation, int rankStarts, Path directory) {
         Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
+        GeneratedPage.check(directory);
+        if (StoredRun.exists(directory)) {
+            throw new InvalidInputException("output folder " + directory + " is the folder of a run; choose another by --output-dir");
+        }
         this.directory = directory;
         this.rankStarts = rankStarts;
         scenes.keySet().forEach(scene -> again.put(scene, new FreshResults(directory, scene)));

@@ -3,6 +3,7 @@ package io.natator.study.thesis;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
+import io.natator.file.GeneratedPage;
 import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
 import io.natator.report.ReportDocument;
@@ -64,10 +65,10 @@ final class ThesisReport {
         page.heading(2, "Pictures").folded("all pictures", this::addPictures);
         addCommentary(page);
         page.heading(2, "How it was made").list(scale());
-        page.text("Generated; do not edit.");
+        page.text(GeneratedPage.MARK);
         addCommands(page);
         try {
-            return page.write("README.md");
+            return page.write(GeneratedPage.NAME);
         } catch (IOException e) {
             throw new UncheckedIOException("cannot write the report: " + e.getMessage(), e);
         }

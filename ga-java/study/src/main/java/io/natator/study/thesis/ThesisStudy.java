@@ -5,6 +5,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
+import io.natator.file.GeneratedPage;
 import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
 import io.natator.report.RecordingFactory;
@@ -39,6 +40,7 @@ public final class ThesisStudy implements AutoCloseable {
      */
     public ThesisStudy(Path directory, EvolutionPlan plan, int starts, Double duration) {
         Limits.checkCount("--runs", starts, Limits.REPETITIONS);
+        GeneratedPage.check(directory);
         this.directory = directory;
         this.duration = duration;
         ThesisData data = ThesisData.load();

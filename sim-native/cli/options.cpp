@@ -1,0 +1,40 @@
+#include "options.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+#include "natator/error.h"
+
+namespace natator::cli {
+namespace {
+
+constexpr const char* empty_value = "the value is empty; must be left out or have one";
+
+}  // namespace
+
+void refuse_empty_values(CLI::App& app) {
+    for (CLI::Option* option : app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 0; }))
+        option->check([](const std::string& value) {
+            return std::string(value.empty() ? empty_value : "");
+        });
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_empty_values(*command);
+}
+
+void refuse_empty_values(int argc, const char* const* argv) {
+    for (int i = 1; i < argc; ++i)
+        if (const std::string_view word = argv[i]; word.starts_with("--") && word.find('=') == word.size() - 1)
+            throw InputError(std::string(word.substr(0, word.size() - 1)) + ": " + empty_value);
+}
+
+CLI::Validator seconds() {
+    const auto check = [](const std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool good = text.empty() || (*end == '\0' && std::isfinite(value) && value >= 0);
+        return good ? std::string() : "expected a number of seconds from 0, not " + text;
+    };
+    return CLI::Validator(check, "SECONDS");
+}
+
+}  // namespace natator::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+namespace natator {
+
+/// A file that is there whole or not at all: it is written beside its place, as `file.PID`, and takes it when it is finished.
+/// What stood there before stays until then. What is there and is no regular file, as a pipe, is written directly; so is a
+/// file in a folder that takes no new ones, and one that standard output or error goes to.
+class WholeFile {
+public:
+    explicit WholeFile(const std::filesystem::path& path, std::ios::openmode mode = {});
+    ~WholeFile();  ///< removes what was not finished
+    WholeFile(const WholeFile&) = delete;
+    WholeFile& operator=(const WholeFile&) = delete;
+
+    std::ofstream& stream() { return stream_; }
+    /// Puts the file in its place. False if that or any write before failed.
+    [[nodiscard]] bool finish();
+
+private:
+    std::filesystem::path target_, written_;
+    std::ofstream stream_;
+    bool finished_ = false;
+};
+
+}  // namespace natator

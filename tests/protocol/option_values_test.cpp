@@ -1,0 +1,86 @@
+// Values of options that are refused, in one line and before anything is computed.
+#include <gtest/gtest.h>
+
+#include "../native/test_name.h"
+#include "child_process.h"
+
+namespace natator::test {
+namespace {
+
+const std::string vacuum_scene = "thesis/creature-1-vacuum";
+
+struct BadValue {
+    std::vector<std::string> arguments;
+    const char* expected;  ///< must be in the message
+};
+
+void PrintTo(const BadValue& bad, std::ostream* out) {
+    for (const std::string& argument : bad.arguments) print_name(argument + "_", out);
+}
+
+const char* const is_empty = ": the value is empty; must be left out or have one";
+
+const BadValue bad_values[] = {
+    {{"run", vacuum_scene, "--gait", ""}, is_empty},
+    {{"run", vacuum_scene, "--overrides", ""}, is_empty},
+    {{"run", vacuum_scene, "--scheme", ""}, is_empty},
+    {{"run", vacuum_scene, "--trajectory", ""}, is_empty},
+    {{"run", vacuum_scene, "--trajectory="}, "--trajectory: the value is empty"},
+    {{"run", vacuum_scene, "--trajectory=", "--no-cache"}, "--trajectory: the value is empty"},
+    {{"run", vacuum_scene, "--snapshot", ""}, is_empty},
+    {{"run", vacuum_scene, "--snapshot", "/dev/null", "--at", ""}, "--at: the value is empty"},
+    {{"run", vacuum_scene, "--perturbation-seed", ""}, is_empty},
+    {{"run", ""}, "scene: the value is empty"},
+    {{"stream", vacuum_scene, "--gait", ""}, is_empty},
+    {{"stream", vacuum_scene, "--overrides", ""}, is_empty},
+    {{"stream", vacuum_scene, "--scheme", ""}, is_empty},
+    {{"stream", vacuum_scene, "--until", ""}, is_empty},
+    {{"stream", vacuum_scene, "--fields", ""}, "--fields: "},
+    {{"info", ""}, is_empty},
+    {{"info", vacuum_scene, "--overrides", ""}, is_empty},
+    {{"converge", ""}, "request: the value is empty"},
+    {{"converge", "-", "--output", ""}, is_empty},
+    {{"particles", "x.json", "--output", ""}, is_empty},
+    {{"stream", vacuum_scene, "--until", "nan"}, "--until: expected a number of seconds from 0, not nan"},
+    {{"stream", vacuum_scene, "--until", "inf"}, "--until: expected a number of seconds from 0, not inf"},
+    {{"stream", vacuum_scene, "--until", "-1"}, "--until: expected a number of seconds from 0, not -1;"},
+    {{"stream", vacuum_scene, "--until", "soon"}, "--until: expected a number of seconds from 0, not soon"},
+    {{"stream", vacuum_scene, "--rate", "nan"}, "--rate NaN: must be 0 or a number in [0.001, 1000]"},
+    {{"run", vacuum_scene, "--duration", "nan"}, "duration = NaN: must be a number in (0, 1e+06] (s)"},
+    {{"run", vacuum_scene, "--duration", "inf"}, "duration = Infinity: must be"},
+    {{"run", vacuum_scene, "--snapshot", "/dev/null", "--at", "-1"}, "--at: expected a number of seconds from 0"},
+    {{"run", vacuum_scene, "--perturbation", "1.5"}, "--perturbation: value = 1.5: must be a number in [0, 1] (length)"},
+    {{"run", vacuum_scene, "--perturbation", "-1"}, "must be a number in [0, 1]"},
+    {{"run", vacuum_scene, "--perturbation", "nan"}, "--perturbation: value = NaN: must be a number in [0, 1]"},
+    {{"run", vacuum_scene, "--perturbation-seed", "-1"},
+     "--perturbation-seed: value = -1: must be a whole number in [0, 2^64)"},
+    {{"run", vacuum_scene, "--perturbation-seed", "18446744073709551616"}, "must be a whole number in [0, 2^64)"},
+    {{"run", vacuum_scene, "--perturbation-seed", "99999999999999999999999"}, "must be a whole number in [0, 2^64)"},
+    {{"run", vacuum_scene, "--perturbation-seed", "1.5"}, "= 1.5: must be a whole number"},
+    {{"run", vacuum_scene, "--perturbation-seed", "one"}, "= \"one\": must be a whole number"},
+};
+
+class OptionValueTest : public testing::TestWithParam<BadValue> {};
+
+TEST_P(OptionValueTest, IsRefusedInOneLine) {
+    const Outcome outcome = run_simulator(GetParam().arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    EXPECT_LT(outcome.err.size(), 200u) << outcome.err;
+    EXPECT_NE(outcome.err.find(GetParam().expected), std::string::npos) << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OptionValueTest, testing::ValuesIn(bad_values));
+
+/// The limits themselves are allowed.
+TEST(OptionValueTest, WhatIsWithinTheLimitsIsAccepted) {
+    const Outcome outcome = run_simulator({"run", vacuum_scene, "--duration", "0.02", "--perturbation", "1",
+                                           "--perturbation-seed", "18446744073709551615"});
+    EXPECT_NE(outcome.exit_code, 2) << outcome.err;
+    EXPECT_NE(outcome.exit_code, 1) << outcome.err;
+    EXPECT_EQ(run_simulator({"stream", vacuum_scene, "--paused", "--until", "0"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace natator::test

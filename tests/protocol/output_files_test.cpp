@@ -1,0 +1,105 @@
+// The files that natator-sim run writes: there whole, or as they were.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "child_process.h"
+
+namespace natator::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string header_of_trajectory = "frame,time,slice,x,y,z";
+
+class OutputFilesTest : public testing::Test {
+protected:
+    void SetUp() override {
+        folder = fs::path(testing::TempDir()) / ("natator-output-" + std::to_string(::getpid()) + "-" +
+                                                 testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::create_directories(folder);
+        file = (folder / "out.csv").string();
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    static std::vector<std::string> run_writing(const char* option, const std::string& path) {
+        return {"run", "thesis/creature-1-vacuum", "--duration", "0.5", "--no-cache", option, path};
+    }
+    static std::string first_line(const std::string& path) {
+        std::ifstream in(path);
+        std::string line;
+        std::getline(in, line);
+        return line;
+    }
+    std::size_t files() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+    }
+
+    fs::path folder;
+    std::string file;
+};
+
+/// Files of more than a few kilobytes cannot be written: the signal for that ends the program in the middle.
+TEST_F(OutputFilesTest, ARunThatIsKilledLeavesTheFileAsItWas) {
+    for (const char* option : {"--trajectory", "--snapshot"}) {
+        std::ofstream(file) << "computed before\n";
+        const Outcome outcome = run_limited("ulimit -f 8", run_writing(option, file));
+        EXPECT_EQ(outcome.exit_code, -1) << option;
+        EXPECT_EQ(first_line(file), "computed before") << option;
+    }
+}
+
+TEST_F(OutputFilesTest, AFullDiskLeavesTheFileAsItWasAndNothingBesideIt) {
+    for (const char* option : {"--trajectory", "--snapshot"}) {
+        std::ofstream(file) << "computed before\n";
+        const Outcome outcome = run_limited("trap '' XFSZ; ulimit -f 8", run_writing(option, file));
+        EXPECT_EQ(outcome.exit_code, 1) << option;
+        EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+        EXPECT_EQ(first_line(file), "computed before") << option;
+        EXPECT_EQ(files(), 1u) << option;
+    }
+}
+
+TEST_F(OutputFilesTest, AWholeFileTakesThePlaceAndTheRightsOfTheOneBefore) {
+    std::ofstream(file) << "computed before\n";
+    fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+    const std::string link = (folder / "link.csv").string();
+    fs::create_symlink("out.csv", link);
+    ASSERT_EQ(run_simulator(run_writing("--trajectory", link)).exit_code, 0);
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(first_line(file), header_of_trajectory);
+    EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(OutputFilesTest, WhatIsNoRegularFileIsWrittenDirectly) {
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    std::string read;
+    std::thread reader([&] { read = first_line(file); });
+    const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.02", "--trajectory", file});
+    reader.join();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(read, header_of_trajectory);
+    EXPECT_TRUE(fs::is_fifo(file));
+    EXPECT_EQ(run_simulator(run_writing("--snapshot", "/dev/null")).exit_code, 0);
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+/// Its summary goes there too: the file must stay the same one.
+TEST_F(OutputFilesTest, TheFileOfStandardOutputIsWrittenDirectly) {
+    std::ofstream(file).close();
+    ASSERT_EQ(run_simulator(run_writing("--trajectory", "/dev/stdout"), "", file).exit_code, 0);
+    std::ifstream in(file);
+    const std::string all{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_NE(all.find("\n30,0.5,16,"), std::string::npos);
+    EXPECT_NE(all.find("hash  "), std::string::npos);
+    EXPECT_EQ(files(), 1u);
+}
+
+}  // namespace
+}  // namespace natator::test
