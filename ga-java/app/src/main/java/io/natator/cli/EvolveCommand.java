@@ -197,15 +197,13 @@ final class EvolveCommand implements Callable<Integer> {
         return ExitCode.OK;
     }
 
-    /** Evolves; what is refused with the first generation leaves no folder that would be in the way of the corrected command. */
+    /** Evolves; what is refused with the first evaluation leaves no folder that would be in the way of the corrected command. */
     private void begin(RunFolder folder, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
         preview.print(folder, spec.commandLine().getOut());
         try {
             new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
         } catch (InvalidInputException e) {
-            if (folder.checkpoint() == null) {
-                RunFolder.delete(folder.directory());
-            }
+            RunFolder.deleteUnlessBegun(folder.directory());
             throw e;
         }
     }

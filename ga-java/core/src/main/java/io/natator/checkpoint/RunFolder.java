@@ -114,6 +114,18 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
     }
 
+    /** Removes the folder of a run that has recorded no evaluation. */
+    public static void deleteUnlessBegun(Path directory) {
+        try {
+            Path log = directory.resolve(EVALUATIONS);
+            if (!Files.exists(directory.resolve(CHECKPOINT)) && (!Files.exists(log) || Files.size(log) == 0)) {
+                delete(directory);
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot read " + AtomicFile.reason(directory, e), e);
+        }
+    }
+
     /** Whether there is anything at this path but an empty folder. */
     public static boolean isOccupied(Path directory) throws IOException {
         if (!Files.isDirectory(directory)) {

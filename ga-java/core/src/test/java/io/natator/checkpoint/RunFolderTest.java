@@ -64,6 +64,21 @@ class RunFolderTest {
         return simulator;
     }
 
+    @Test
+    void onlyAFolderWithoutAnEvaluationIsRemoved() throws IOException {
+        RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
+        RunFolder.deleteUnlessBegun(run);
+        assertThat(run).doesNotExist();
+
+        evolve(RunFolder.create(run, settings(OperatorSet.CORRECTED)));
+        Map<String, String> before = lastingFiles(run);
+        RunFolder.deleteUnlessBegun(run);
+        assertThat(lastingFiles(run)).isEqualTo(before);
+        Files.delete(run.resolve("checkpoint.json"));
+        RunFolder.deleteUnlessBegun(run);
+        assertThat(run.resolve("evaluations.jsonl")).isNotEmptyFile();
+    }
+
     /** The files that must not depend on anything but the settings. */
     private static Map<String, String> lastingFiles(Path folder) throws IOException {
         Map<String, String> files = new TreeMap<>();
