@@ -2,18 +2,16 @@
 
 namespace natator::bench {
 
-const std::vector<WaterCase>& water_cases() {
-    static const std::vector<WaterCase> cases{
-        {"vortex",
-         "amplitude",
-         {"amplitude after one turnover", "numerical Reynolds number", "gain of kinetic energy",
-          "gain of kinetic and potential energy"},
-         run_vortex},
-        {"stirred-vortex",
-         "amplitude",
-         {"amplitude after one turnover", "numerical Reynolds number", "gain of kinetic energy",
-          "gain of kinetic and potential energy"},
-         run_stirred_vortex},
+namespace {
+
+std::vector<WaterCase> all_cases() {
+    const std::vector<std::string> of_vortex{"amplitude after one turnover", "numerical Reynolds number",
+                                             "gain of kinetic energy", "gain of kinetic and potential energy"};
+    const std::vector<std::string> of_channel{"viscosity (length^2/s)", "drag of the walls (of the exact)",
+                                              "slip length (particle distances)"};
+    return {
+        {"vortex", "amplitude", of_vortex, run_vortex},
+        {"stirred-vortex", "amplitude", of_vortex, run_stirred_vortex},
         {"viscous-vortex", "amplitude", {"viscosity (length^2/s)"}, run_viscous_vortex},
         {"standing-wave", "elevation of the mode (length)", {"period (s)", "decay (1/s)"}, run_standing_wave},
         {"tilted-gravity",
@@ -28,14 +26,8 @@ const std::vector<WaterCase>& water_cases() {
          "pressure (of the hydrostatic)",
          {"pressure (of the hydrostatic)", "depth (length)", "speed at rest (length/s)"},
          run_column, true},
-        {"couette",
-         "drag of the walls (of the exact)",
-         {"viscosity (length^2/s)", "drag of the walls (of the exact)", "slip length (particle distances)"},
-         run_couette, true},
-        {"poiseuille",
-         "drag of the walls (of the exact)",
-         {"viscosity (length^2/s)", "drag of the walls (of the exact)", "slip length (particle distances)"},
-         run_poiseuille, true},
+        {"couette", "drag of the walls (of the exact)", of_channel, run_couette, true},
+        {"poiseuille", "drag of the walls (of the exact)", of_channel, run_poiseuille, true},
         {"spinning-sphere", "torque (of Kirchhoff's)", {"torque (of Kirchhoff's)"}, run_spinning_sphere, true},
         {"slow-sphere", "torque (of Kirchhoff's)", {"torque (of Kirchhoff's)"}, run_slow_sphere, true},
         {"towed-sphere",
@@ -59,6 +51,12 @@ const std::vector<WaterCase>& water_cases() {
           "drift to the side (lengths)"},
          run_travelling_wave, true},
     };
+}
+
+}  // namespace
+
+const std::vector<WaterCase>& water_cases() {
+    static const std::vector<WaterCase> cases = all_cases();
     return cases;
 }
 

@@ -183,17 +183,17 @@ final class EvolveCommand implements Callable<Integer> {
         Archipelago.Plan islands = islandOptions.plan(settings);
         RunPreview preview = new RunPreview(settings, islands, execution);
         if (dryRun) {
-            preview.print(directory(settings), spec.commandLine().getOut());
+            preview.print(outputDir != null ? outputDir : freeFolder(settings.scene()), spec.commandLine().getOut());
             return ExitCode.OK;
         }
+        Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());
         if (islands != null) {
-            Path directory = directory(settings);
             Archipelago archipelago = Archipelago.create(directory, islands);
             preview.printAnyway(directory, spec.commandLine().getOut());
             new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
             return ExitCode.OK;
         }
-        begin(outputDir != null ? RunFolder.create(outputDir, settings) : createFree(settings), preview, execution);
+        begin(RunFolder.create(directory, settings), preview, execution);
         return ExitCode.OK;
     }
 
@@ -256,18 +256,13 @@ final class EvolveCommand implements Callable<Integer> {
                 : evaluations != null ? EvolutionSettings.NO_LIMIT : preset.generations();
     }
 
-    private Path directory(EvolutionSettings settings) {
-        return outputDir != null ? outputDir : freeFolder(settings.scene());
-    }
-
-    /** In a new folder that is this command's, though others that begin now look for one too. */
-    private RunFolder createFree(EvolutionSettings settings) {
+    /** A new folder that is this command's, though others that begin now look for one too. */
+    private Path reserveFolder(String sceneName) {
         while (true) {
-            Path folder = freeFolder(settings.scene());
+            Path folder = freeFolder(sceneName);
             try {
                 Files.createDirectories(folder.toAbsolutePath().getParent());
-                Files.createDirectory(folder);
-                return RunFolder.create(folder, settings);
+                return Files.createDirectory(folder);
             } catch (FileAlreadyExistsException e) {
                 if (!Files.isDirectory(folder)) {
                     throw cannotBeMade(folder, e);

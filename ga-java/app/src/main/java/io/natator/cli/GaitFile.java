@@ -12,8 +12,6 @@ import java.nio.file.Path;
 /** A gait that the user names by a file, and the body that a run's {@code best.json} has beside it. */
 final class GaitFile {
 
-    private static final int LONGEST = 60;
-
     private GaitFile() {
     }
 
@@ -31,7 +29,7 @@ final class GaitFile {
         }
         JsonNode gait = content.has("gait") ? content.get("gait") : content;
         if (!(gait instanceof ObjectNode keys)) {
-            throw new InvalidInputException("--gait " + file + ": gait is " + shortened(gait)
+            throw new InvalidInputException("--gait " + file + ": gait is " + Json.shown(gait)
                     + "; expected an object with frequency, amplitude and phase");
         }
         keys.remove("$schema");
@@ -52,12 +50,7 @@ final class GaitFile {
                 requireNumbers(file, place + "[" + i + "]", node.get(i));
             }
         } else if (!node.isNumber()) {
-            throw new InvalidInputException("--gait " + file + ": " + place + " is " + shortened(node) + "; expected a number");
+            throw new InvalidInputException("--gait " + file + ": " + place + " is " + Json.shown(node) + "; expected a number");
         }
-    }
-
-    private static String shortened(JsonNode node) {
-        String text = node.toString();
-        return text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text;
     }
 }

@@ -10,6 +10,7 @@ import java.io.UncheckedIOException;
 import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.nio.file.StandardOpenOption;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
@@ -86,14 +87,9 @@ final class NewCommand implements Callable<Integer> {
 
     private static void write(Path file, String content) {
         try {
-            Files.createFile(file);
+            Files.writeString(file, content, StandardOpenOption.CREATE_NEW);
         } catch (FileAlreadyExistsException e) {
             throw new InvalidInputException(occupied(file), e);
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot write " + file + ": " + FileErrors.reason(file, e), e);
-        }
-        try {
-            Files.writeString(file, content);
         } catch (IOException e) {
             file.toFile().delete();
             throw new UncheckedIOException("cannot write " + file + ": " + FileErrors.reason(file, e), e);

@@ -101,6 +101,11 @@ public final class Json {
         }
     }
 
+    /** The beginning of a value, as messages have it. */
+    public static String shown(JsonNode value) {
+        return JsonErrors.shown(value);
+    }
+
     /** Why the text was refused, as one line with the field, and the place if that is known. */
     public static String reason(JsonProcessingException e) {
         String message = JsonErrors.message(e);

@@ -55,8 +55,13 @@ final class JsonErrors {
     }
 
     private static String shortened(Object value) {
+        return "'" + shown(value) + "'";
+    }
+
+    /** The beginning of a value, as messages have it. */
+    static String shown(Object value) {
         String text = String.valueOf(value);
-        return "'" + (text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text) + "'";
+        return text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text;
     }
 
     private static String described(Class<?> type) {

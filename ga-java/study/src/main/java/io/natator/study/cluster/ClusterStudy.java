@@ -135,7 +135,7 @@ public final class ClusterStudy {
         lines.add("""
                 # How well a cluster would be used
 
-                Generated; do not edit. A simulation, not a measurement of a cluster. Made with
+                %s A simulation, not a measurement of a cluster. Made with
 
                 ```
                 %s
@@ -148,7 +148,7 @@ public final class ClusterStudy {
                 is not slow. Lost and repeated work, slow machines, and waiting for the last evaluation of a generation lower it.
 
                 ![efficiency against executors](efficiency.png)
-                """.formatted(command, times.length, sorted[sorted.length / 2], sorted[0], sorted[sorted.length - 1],
+                """.formatted(GeneratedPage.MARK, command, times.length, sorted[sorted.length / 2], sorted[0], sorted[sorted.length - 1],
                 described(), REPEATS));
         StringBuilder table = new StringBuilder("| load | below 0.8 from | ");
         Arrays.stream(EXECUTORS).forEach(each -> table.append(each).append(" | "));

@@ -38,7 +38,8 @@ public final class OptimizerStudy {
      * @param cmaEsPopulation evaluations in a generation of CMA-ES, or null for its inventor's 4 + ⌊3 ln n⌋ with n genes
      * @param rankStarts     fresh starts by which the gaits of each run's last generation are ranked; 0: they are not
      * @param directory      where the run folders and results go
-     * @throws InvalidInputException if the folder is a run's or has a page of somebody's own, or if the last generation of a run that is only a line is to be ranked
+     * @throws InvalidInputException if the folder is a run's or has a page of somebody's own, or if the last generation of
+     *                               a run that is only a line is to be ranked
      */
     public OptimizerStudy(Map<String, EvolutionSettings> scenes, List<OptimizerVariant> variants, int seeds,
             Integer cmaEsPopulation, int rankStarts, Path directory) {

@@ -17,6 +17,7 @@ import java.util.List;
 import java.util.Objects;
 import java.util.function.Supplier;
 import java.util.function.ToDoubleFunction;
+import java.util.stream.Stream;
 
 /**
  * Measured evaluations of the study. What was measured once stays, whatever program and
@@ -85,8 +86,11 @@ final class MeasurementLog implements AutoCloseable {
 
     /** What came of the runs that are measured. */
     List<SimulationResult> results(Experiment experiment) {
-        return experiment.runs().stream().map(request -> rows.find(key(request))).filter(Objects::nonNull)
-                .map(Measurement::result).toList();
+        return measured(experiment).map(Measurement::result).toList();
+    }
+
+    private Stream<Measurement> measured(Experiment experiment) {
+        return experiment.runs().stream().map(request -> rows.find(key(request))).filter(Objects::nonNull);
     }
 
     /** Ways along x of the runs that stayed stable by the whole time, whether they lasted so long or not; scene units per second. */
@@ -113,8 +117,7 @@ final class MeasurementLog implements AutoCloseable {
 
     /** Whether any of the runs that are measured was on a GPU. */
     boolean isOnGpu(Experiment experiment) {
-        return experiment.runs().stream().map(request -> rows.find(key(request))).filter(Objects::nonNull)
-                .anyMatch(row -> row.backend() != Backend.CPU);
+        return measured(experiment).anyMatch(row -> row.backend() != Backend.CPU);
     }
 
     /** How many runs became unstable. */

@@ -4,7 +4,6 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.report.ReportDocument;
-import io.natator.verdict.Verdict;
 import java.util.Arrays;
 import java.util.DoubleSummaryStatistics;
 import java.util.List;
@@ -12,7 +11,6 @@ import java.util.Locale;
 import java.util.Objects;
 import java.util.Optional;
 import java.util.stream.Collectors;
-import java.util.stream.Stream;
 
 /** What was asked, what was simulated, and how it was judged: what a reviewer reads before any number. */
 final class MethodsSection {
@@ -58,8 +56,7 @@ final class MethodsSection {
 
     /** Of what may swim there. */
     private String reynolds() {
-        DoubleSummaryStatistics all = Stream.concat(results.catalogue().published(Water.OPEN_WATER).stream(), results.evolved(Water.OPEN_WATER).stream())
-                .filter(subject -> results.verdict(subject).filter(verdict -> verdict.kind() != Verdict.Kind.DOES_NOT_SWIM).isPresent())
+        DoubleSummaryStatistics all = results.subjects().filter(subject -> subject.water() == Water.OPEN_WATER).filter(results::maySwim)
                 .map(subject -> results.controls(subject).orElseThrow().water().reynolds()).filter(Objects::nonNull)
                 .mapToDouble(Double::doubleValue).summaryStatistics();
         return all.getCount() == 0 ? "." : String.format(Locale.ROOT, ": what swims there has a Reynolds number of %.0f to %.0f, as the larva of a fish.",

@@ -7,6 +7,7 @@ import io.natator.kinematics.FishMode;
 import io.natator.kinematics.ModeFit;
 import io.natator.study.Sample;
 import io.natator.verdict.ControlVerdict;
+import io.natator.verdict.Verdict;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -124,6 +125,11 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
     /** Whether a gait swims; empty while something is missing. */
     Optional<ControlVerdict> verdict(Subject subject) {
         return controls(subject).map(ControlVerdict::of);
+    }
+
+    /** Whether no control has shown that a gait does not swim; false while something is missing. */
+    boolean maySwim(Subject subject) {
+        return verdict(subject).filter(verdict -> verdict.kind() != Verdict.Kind.DOES_NOT_SWIM).isPresent();
     }
 
     private SwimSample swim(Subject subject, Condition condition) {

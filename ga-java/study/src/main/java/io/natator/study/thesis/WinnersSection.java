@@ -4,7 +4,6 @@ import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.SwimSample;
 import io.natator.encoding.Gait;
 import io.natator.report.ReportDocument;
-import io.natator.verdict.Verdict;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
@@ -13,7 +12,6 @@ import java.util.SortedSet;
 import java.util.TreeMap;
 import java.util.TreeSet;
 import java.util.stream.IntStream;
-import java.util.stream.Stream;
 
 /** Every gait with its error bar, its verdict and what these rest on. */
 final class WinnersSection {
@@ -32,7 +30,7 @@ final class WinnersSection {
         page.text("Speeds in body lengths per second. Re and St: means of the runs in open water, of what may swim; in `flex` there are none.");
         for (Water water : Water.values()) {
             page.heading(3, water == Water.FLEX ? "The thesis' tank, flex" : "Open water, conserving");
-            List<Subject> subjects = Stream.concat(results.catalogue().published(water).stream(), results.evolved(water).stream())
+            List<Subject> subjects = results.subjects().filter(subject -> subject.water() == water)
                     .filter(subject -> results.speed(subject).isPresent()).toList();
             page.table(List.of("creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "Re", "St", "lasts"),
                     subjects.stream().map(this::speeds).toList());
@@ -86,7 +84,7 @@ final class WinnersSection {
         Speed speed = results.speed(subject).orElseThrow();
         double length = results.bodyLength(subject.creature());
         SwimSample water = results.controls(subject).map(Controls::water).orElse(null);
-        boolean maySwim = results.verdict(subject).filter(verdict -> verdict.kind() != Verdict.Kind.DOES_NOT_SWIM).isPresent();
+        boolean maySwim = results.maySwim(subject);
         return List.of("" + subject.creature(), subject.label(), speed.text(length), "± " + TableFormat.shortNumber(speed.scatter() / length),
                 signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
                 TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()), figure(maySwim ? water.reynolds() : null),
