@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels.cuh"
+#include "rows.h"
 #include "scan.h"
 #include "solver/step.h"
 #include "stage_clock.h"
@@ -70,7 +71,7 @@ struct LargeLaunch {
 
     /// Sets a table of each State to 0.
     void clear(int* table, int count) const {
-        check(cudaMemset2DAsync(table, slots.stride, 0, count * sizeof(int), states, stream), "clear");
+        clear_rows(table, slots.stride, count, states, stream);
     }
     /// Replaces its counts by the sums of all before each.
     void add_up(int* table, int count) const {
