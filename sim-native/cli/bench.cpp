@@ -15,6 +15,7 @@
 #include "speed.h"
 #include "stability.h"
 #include "stage_cost.h"
+#include "throughput.h"
 #include "validation.h"
 #include "water/water_study.h"
 
@@ -340,6 +341,45 @@ void add_speed(CLI::App* bench, int& status) {
     });
 }
 
+void add_throughput(CLI::App* bench, int& status) {
+    struct Options {
+        Common common;
+        std::vector<int> particles = throughput_particles(), batches = throughput_batches();
+        BackendChoice backend{.name = "cuda"};
+        int repeats = 3;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = bench->add_subcommand(
+        "throughput", "How much water a GPU computes in a second, over the size of a scene and of a batch.");
+    add_common(command, options->common, {"float"});
+    add_gpu_options(command, options->backend);
+    command->add_option("--particles", options->particles, "Fluid particles of a scene, about.")
+        ->check(CLI::Range(least_throughput_particles, most_throughput_particles))
+        ->capture_default_str();
+    command->add_option("--batch", options->batches, "Evaluations at a time; with many particles only 1 is done.")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    command->add_option("--repeats", options->repeats, "Runs of each; the fastest counts.")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        on_gpu(options->backend, {});
+        ThroughputStudy study{common.chosen_schemes(), common.chosen_precisions(), options->particles,
+                              options->batches,        options->backend.device,    options->repeats,
+                              common.quick,            options->backend.whole_gpu};
+        if (common.quick) {
+            study.particles = {1000, 8000};
+            study.batches = {1, 4};
+            study.repeats = 1;
+        }
+        ResultTable table(common.output, throughput_columns(), throughput_key_columns);
+        run_throughput_study(study, table, report);
+        if (common.output.empty()) print(table.text());
+        status = ok;
+    });
+}
+
 void add_stages(CLI::App* bench, int& status) {
     struct Options {
         Common common;
@@ -403,6 +443,7 @@ void add_studies(CLI::App& app, int& status) {
     add_speed(&app, status);
     add_stability(&app, status);
     add_stages(&app, status);
+    add_throughput(&app, status);
     add_validation(&app, status);
     add_water(&app, status);
 }
