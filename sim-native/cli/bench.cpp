@@ -6,6 +6,7 @@
 #include "backend.h"
 #include "commands.h"
 #include "ensemble.h"
+#include "gpu_roofline.h"
 #include "gpu_speed.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
@@ -415,21 +416,37 @@ void add_stages(CLI::App* bench, int& status) {
 }
 
 void add_roofline(CLI::App* bench, int& status) {
-    const auto common = std::make_shared<Common>();
+    struct Options {
+        Common common;
+        BackendChoice backend;
+    };
+    const auto options = std::make_shared<Options>();
     CLI::App* command = bench->add_subcommand(
-        "roofline", "How near the stages come to what the processor can do: measured roofs, counted operations.");
-    command->add_option("--scheme", common->schemes, "flex, conserving.")
+        "roofline", "How near the stages come to what the processor can do: measured roofs, counted operations. On a GPU: "
+                    "how near those of scheme conserving come to loops that only fetch.");
+    command->add_option("--scheme", options->common.schemes, "flex, conserving; the latter alone on a GPU.")
         ->check(CLI::IsMember({"flex", "conserving"}))
         ->capture_default_str();
-    command->add_option("--output,-o", common->output,
+    command->add_option("--output,-o", options->common.output,
                         "CSV file; rows that it holds already are kept. Default: standard output.");
-    command->add_flag("--quick", common->quick, "A few frames only.");
-    command->callback([common, &status] {
-        RooflineStudy study{.schemes = common->chosen_schemes()};
-        if (common->quick) study.frames = 2;
-        ResultTable table(common->output, roofline_columns(), roofline_key_columns);
+    command->add_flag("--quick", options->common.quick, "A few frames only.");
+    add_backend_options(command, options->backend);
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        if (on_gpu(options->backend, {})) {
+            if (std::ranges::count(common.schemes, "conserving") == 0)
+                throw InputError("bench roofline: --scheme: must be conserving on a GPU");
+            ResultTable table(common.output, gpu_roofline_columns(), gpu_roofline_key_columns);
+            run_gpu_roofline_study({.device = options->backend.device, .quick = common.quick}, table, report);
+            if (common.output.empty()) print(table.text());
+            status = ok;
+            return;
+        }
+        RooflineStudy study{.schemes = common.chosen_schemes()};
+        if (common.quick) study.frames = 2;
+        ResultTable table(common.output, roofline_columns(), roofline_key_columns);
         run_roofline_study(study, table, report);
-        if (common->output.empty()) print(table.text());
+        if (common.output.empty()) print(table.text());
         status = ok;
     });
 }

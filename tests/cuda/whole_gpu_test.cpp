@@ -1,4 +1,5 @@
 // A State computed by the whole GPU: against the CPU, and against itself.
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
+#include "solver/cuda/large/fetch_roof.h"
 
 namespace natator::test {
 namespace {
@@ -146,6 +148,20 @@ TEST_P(WholeGpu, AStateMayTakeMoreThanTwoGibibytes) {
     ASSERT_FALSE(gpu.update(state, substep, 1));
     const int middle = model.particles() / 2;
     EXPECT_EQ(gpu.neighbour_counts()[middle], GetParam() == Scheme::flex ? 18 : 80);
+}
+
+TEST(GpuRoof, FetchesThePairsOfAllStates) {
+    if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
+    Scene scene = tank(1, Scheme::conserving);
+    const Gait gait = wave(scene);
+    const cuda::FetchRoof one = cuda::measure_fetch_roof(scene, {gait}, 1, 0);
+    const cuda::FetchRoof two = cuda::measure_fetch_roof(scene, {gait, gait}, 1, 0);
+    EXPECT_GT(one.pairs, 30.0 * build_model(scene).particles());
+    EXPECT_EQ(two.pairs, 2 * one.pairs);
+    for (const double seconds : {one.velocities, one.impulses, one.density_constraint}) {
+        EXPECT_GT(seconds, 0);
+        EXPECT_TRUE(std::isfinite(seconds));
+    }
 }
 
 TEST(WholeGpuInstability, IsNamedAsTheCpuNamesIt) {

@@ -143,6 +143,7 @@ TEST(BenchProtocolTest, WithoutTheGpuThatWasAskedForThereIsOneLine) {
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"bench", "speed", "--quick", "--backend", "cuda"},
           std::vector<std::string>{"bench", "throughput", "--quick"},
+          std::vector<std::string>{"bench", "roofline", "--quick", "--backend", "cuda"},
           std::vector<std::string>{"particles", experiments, "--backend", "cuda"}}) {
         std::vector<std::string> arguments = command;
         arguments.insert(arguments.end(), {"--device", "1023"});

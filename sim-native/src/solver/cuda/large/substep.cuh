@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fetch.h"
 #include "kernels.cuh"
 #include "rows.h"
 #include "scan.h"
@@ -111,6 +112,10 @@ void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts);
 /// Likewise of the fluid, for scheme conserving: sums of the last substep's pressure impulses.
 template <class Real>
 void launch_pressure_impulses(const LargeLaunch<Real>& launch, Real* impulses);
+
+/// Reads what a pass over the pairs of the water reads, and writes its sum by State and slot.
+template <class Real>
+void launch_fetch(const LargeLaunch<Real>& launch, Fetch what, Real* sums);
 
 /// Adds the work of the muscles in the substep to that of the update, into what all share.
 template <class Real>
