@@ -12,7 +12,7 @@ namespace natator::cuda {
 /// the neighbour's velocity; for the push the neighbour's impulse instead.
 struct FetchRoof {
     double pairs = 0;               ///< in the lists of all States, mean of the frames
-    double velocities = 0;          ///< s: fetches what the impulses need, and sums it
+    double velocities = 0;          ///< s: fetches what the impulses need, unpacks and sums it
     double impulses = 0;            ///< s: likewise for the push
     double density_constraint = 0;  ///< s: a pass of a run, mean of its frames
 };

@@ -7,20 +7,20 @@ namespace {
 /// Sums all that is read, so that none of it can be left out. Batches as in water_impulses and push_water_apart.
 template <Fetch what, class Real>
 __device__ void fetch_pairs(const ModelView<Real>& model, const Slots<Real>& slots, int s, Real* sums) {
-    Vec3<Real> sum{0, 0, 0};
+    Real sum = 0;
     if constexpr (what == Fetch::velocities) {
         const auto add = [&](const Vec3<Real>& gradient, int, unsigned, const Quad<Real>& v) {
-            sum += gradient + xyz(v);
+            sum += gradient.x + gradient.y + gradient.z + v.x + v.y + v.z;
         };
         for_each_water_pair<2>(slots, s, add, slots.water.velocity);
     } else {
         const auto add = [&](const Vec3<Real>& gradient, int, unsigned, Real impulse) {
-            sum += gradient + Vec3<Real>{impulse, impulse, impulse};
+            sum += gradient.x + gradient.y + gradient.z + impulse;
         };
         const Real* const impulse = slots.water.impulse;
         for_each_water_pair(slots, s, add, impulse);
     }
-    const Real all = sum_of_lanes(sum.x + sum.y + sum.z);
+    const Real all = sum_of_lanes(sum);
     if (own_lane() == 0) sums[static_cast<std::size_t>(blockIdx.y) * model.particles + s] = all;
 }
 
