@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "model/fluid_block.h"
 #include "natator/error.h"
@@ -85,6 +86,15 @@ Subject make_subject(const std::string& name) {
     std::string known;
     for (const std::string& one : subject_names()) known += (known.empty() ? "" : ", ") + one;
     throw InputError("unknown bench scene \"" + name + "\": must be one of " + known);
+}
+
+nlohmann::json thesis_tank_with(const std::array<int, 3>& count, double spacing) {
+    constexpr double margin = 0.05;
+    const auto wall = [&](int axis) { return 2 * margin + spacing * (count[axis] - 1); };
+    nlohmann::json overrides;
+    overrides["fluid"] = {{"count", count}, {"spacing", spacing}};
+    overrides["planes"] = {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, wall(0)}, {0, 0, -1, wall(2)}};
+    return overrides;
 }
 
 Gait thesis_gait(int creature) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,9 @@ std::vector<std::string> subject_names();
 
 /// Throws InputError for an unknown name.
 Subject make_subject(const std::string& name);
+
+/// What makes another tank of the thesis': a block of so many particles of such a spacing, and the walls behind it.
+nlohmann::json thesis_tank_with(const std::array<int, 3>& count, double spacing);
 
 /// Best gaits of creatures 1 and 2 that the thesis found. Throws InputError for another creature.
 Gait thesis_gait(int creature);

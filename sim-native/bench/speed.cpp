@@ -33,25 +33,13 @@ constexpr std::array scenes = {
     NamedScene{"fluid-x64", "thesis/creature-1", 4, 0.1, 2},
 };
 
-/// Count `count` along an axis of the thesis' tank, times `scale`, and the wall behind it.
-double wall(int scale, int count) {
-    constexpr double spacing = 0.09, margin = 0.05;
-    return 2 * margin + spacing * (scale * count - 1);
-}
-
 Scene make_scene(const NamedScene& named, bool quick) {
     nlohmann::json overrides = {{"duration", quick ? 1.0 / 60 : named.duration},
                                 {"settling", {{"updates", quick ? 1 : named.settling}}},
                                 {"stopping", {{"planeContact", false}, {"noProgressAfter", 0}}}};
     if (named.scale > 1) {
-        constexpr std::array count{50, 7, 17};
         const int scale = named.scale;
-        overrides["fluid"]["count"] = {scale * count[0], scale * count[1], scale * count[2]};
-        overrides["planes"] = {{0, 1, 0, 0},
-                               {0, 0, 1, 0},
-                               {1, 0, 0, 0},
-                               {-1, 0, 0, wall(scale, count[0])},
-                               {0, 0, -1, wall(scale, count[2])}};
+        overrides.update(thesis_tank_with({scale * 50, scale * 7, scale * 17}, 0.09));
     }
     return load_scene(named.scene, overrides);
 }

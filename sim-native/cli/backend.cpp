@@ -12,6 +12,10 @@ void add_backend_options(CLI::App* command, BackendChoice& choice) {
     command->add_option("--backend", choice.name, "cpu, cuda (a GPU), or auto (a GPU where there is one).")
         ->check(CLI::IsMember({"cpu", "cuda", "auto"}))
         ->capture_default_str();
+    add_gpu_options(command, choice);
+}
+
+void add_gpu_options(CLI::App* command, BackendChoice& choice) {
     command->add_option("--device", choice.device, "Number of the GPU, see natator-sim info.")
         ->check(CLI::Range(0, 1023))
         ->capture_default_str();

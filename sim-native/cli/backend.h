@@ -16,6 +16,8 @@ struct BackendChoice {
 
 /// Adds --backend, --device and --whole-gpu.
 void add_backend_options(CLI::App* command, BackendChoice& choice);
+/// Adds the last two, for what only GPUs do.
+void add_gpu_options(CLI::App* command, BackendChoice& choice);
 
 /// True if the scene is to be computed on the GPU. `auto` takes the GPU where there is one that does the whole scene,
 /// else says on standard error, once for each reason, why it takes the CPU. Throws NoDevice for `cuda` without a GPU.

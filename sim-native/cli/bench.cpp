@@ -6,6 +6,7 @@
 #include "backend.h"
 #include "commands.h"
 #include "ensemble.h"
+#include "gpu_roofline.h"
 #include "gpu_speed.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
@@ -15,6 +16,7 @@
 #include "speed.h"
 #include "stability.h"
 #include "stage_cost.h"
+#include "throughput.h"
 #include "validation.h"
 #include "water/water_study.h"
 
@@ -340,6 +342,45 @@ void add_speed(CLI::App* bench, int& status) {
     });
 }
 
+void add_throughput(CLI::App* bench, int& status) {
+    struct Options {
+        Common common;
+        std::vector<int> particles = throughput_particles(), batches = throughput_batches();
+        BackendChoice backend{.name = "cuda"};
+        int repeats = 3;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = bench->add_subcommand(
+        "throughput", "How much water a GPU computes in a second, over the size of a scene and of a batch.");
+    add_common(command, options->common, {"float"});
+    add_gpu_options(command, options->backend);
+    command->add_option("--particles", options->particles, "Fluid particles of a scene, about.")
+        ->check(CLI::Range(least_throughput_particles, most_throughput_particles))
+        ->capture_default_str();
+    command->add_option("--batch", options->batches, "Evaluations at a time; with many particles only 1 is done.")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    command->add_option("--repeats", options->repeats, "Runs of each; the fastest counts.")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        on_gpu(options->backend, {});
+        ThroughputStudy study{common.chosen_schemes(), common.chosen_precisions(), options->particles,
+                              options->batches,        options->backend.device,    options->repeats,
+                              common.quick,            options->backend.whole_gpu};
+        if (common.quick) {
+            study.particles = {1000, 8000};
+            study.batches = {1, 4};
+            study.repeats = 1;
+        }
+        ResultTable table(common.output, throughput_columns(), throughput_key_columns);
+        run_throughput_study(study, table, report);
+        if (common.output.empty()) print(table.text());
+        status = ok;
+    });
+}
+
 void add_stages(CLI::App* bench, int& status) {
     struct Options {
         Common common;
@@ -375,21 +416,37 @@ void add_stages(CLI::App* bench, int& status) {
 }
 
 void add_roofline(CLI::App* bench, int& status) {
-    const auto common = std::make_shared<Common>();
+    struct Options {
+        Common common;
+        BackendChoice backend;
+    };
+    const auto options = std::make_shared<Options>();
     CLI::App* command = bench->add_subcommand(
-        "roofline", "How near the stages come to what the processor can do: measured roofs, counted operations.");
-    command->add_option("--scheme", common->schemes, "flex, conserving.")
+        "roofline", "How near the stages come to what the processor can do: measured roofs, counted operations. On a GPU: "
+                    "how near those of scheme conserving come to loops that only fetch.");
+    command->add_option("--scheme", options->common.schemes, "flex, conserving; the latter alone on a GPU.")
         ->check(CLI::IsMember({"flex", "conserving"}))
         ->capture_default_str();
-    command->add_option("--output,-o", common->output,
+    command->add_option("--output,-o", options->common.output,
                         "CSV file; rows that it holds already are kept. Default: standard output.");
-    command->add_flag("--quick", common->quick, "A few frames only.");
-    command->callback([common, &status] {
-        RooflineStudy study{.schemes = common->chosen_schemes()};
-        if (common->quick) study.frames = 2;
-        ResultTable table(common->output, roofline_columns(), roofline_key_columns);
+    command->add_flag("--quick", options->common.quick, "A few frames only.");
+    add_backend_options(command, options->backend);
+    command->callback([options, &status] {
+        const Common& common = options->common;
+        if (on_gpu(options->backend, {})) {
+            if (std::ranges::count(common.schemes, "conserving") == 0)
+                throw InputError("bench roofline: --scheme: must be conserving on a GPU");
+            ResultTable table(common.output, gpu_roofline_columns(), gpu_roofline_key_columns);
+            run_gpu_roofline_study({.device = options->backend.device, .quick = common.quick}, table, report);
+            if (common.output.empty()) print(table.text());
+            status = ok;
+            return;
+        }
+        RooflineStudy study{.schemes = common.chosen_schemes()};
+        if (common.quick) study.frames = 2;
+        ResultTable table(common.output, roofline_columns(), roofline_key_columns);
         run_roofline_study(study, table, report);
-        if (common->output.empty()) print(table.text());
+        if (common.output.empty()) print(table.text());
         status = ok;
     });
 }
@@ -403,6 +460,7 @@ void add_studies(CLI::App& app, int& status) {
     add_speed(&app, status);
     add_stability(&app, status);
     add_stages(&app, status);
+    add_throughput(&app, status);
     add_validation(&app, status);
     add_water(&app, status);
 }

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "gpu_test.h"
+#include "natator/model_builder.h"
 
 namespace natator::test {
 namespace {
@@ -93,6 +94,22 @@ TEST_P(GpuBatch, ArrangementsOfTheWaterShareABatch) {
                         evaluate_on_gpu(scene, together, {.precision = precision()})[k].distance, 1e-7);
         }
     }
+}
+
+TEST_P(GpuBatch, TellsTheMemoryThatItTakes) {
+    scene.duration = scene.time_step;
+    const std::size_t number = precision() == Precision::double_precision ? 8 : 4;
+    const std::size_t of_state = 2 * 4 * number * static_cast<std::size_t>(build_model(scene).particles());
+    std::vector<std::size_t> memory;
+    for (int run = 0; run < 2; ++run) {
+        BatchTimes times;
+        evaluate_on_gpu(scene, members(0, 3), {.precision = precision(), .times = &times});
+        EXPECT_EQ(times.at_a_time, 3);
+        memory.push_back(times.memory);
+    }
+    EXPECT_GT(memory[0], 3 * of_state) << "positions and velocities";
+    EXPECT_LT(memory[0], std::size_t{1} << 30);
+    EXPECT_EQ(memory[0], memory[1]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, GpuBatch,

@@ -79,7 +79,7 @@ suite conformance '*GpuMicro*:*GpuOneFrame*:*GpuEffects*'
 suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
 suite laws-of-conserving 'Gpu/Laws*:GpuParticles*:*GpuWater*:GpuPeriodic*'
 suite same-bits-in-any-batch '*GpuBatch*'
-suite one-scene-by-the-whole-GPU '*WholeGpu*'
+suite one-scene-by-the-whole-GPU '*WholeGpu*:GpuRoof*'
 $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
 
 # --- benchmarks -----------------------------------------------------------------------------------------------------------
@@ -90,6 +90,18 @@ check bench-speed "$simulator" bench speed --backend cuda "${scenes[@]}" --outpu
 check bench-single-scene "$simulator" bench speed --backend cuda --whole-gpu --scene creature-1 --batch 1 \
     --output "$output/gpu-speed.csv"
 check bench-large-scene "$simulator" bench speed --backend cuda --scene fluid-x64 --batch 1 --output "$output/gpu-speed.csv"
+
+rm -f "$output"/throughput.csv "$output"/gpu-roofline.csv
+check bench-throughput "$simulator" bench throughput --particles 1000 8000 64000 1000000 --batch 1 16 --repeats 2 \
+    --output "$output/throughput.csv"
+ten_million() {  # both schemes; a study goes on where one of its scenes can't be computed
+    "$simulator" bench throughput --particles 10000000 --batch 1 --repeats 1 --output "$output/throughput.csv" &&
+        awk -F, '$3 > 9e6 { ++rows } END { exit rows != 2 }' "$output/throughput.csv"
+}
+export -f ten_million
+export simulator output
+check bench-10-million-particles bash -uo pipefail -c ten_million
+check bench-roofline "$simulator" bench roofline --backend cuda --output "$output/gpu-roofline.csv"
 
 # 150 requests in a stream, as a generation asks them: process, reading, settling and answers included.
 generation() {
@@ -142,5 +154,12 @@ done
     printf '\n%-11s %-10s %-6s %5s %10s %10s %10s %12s\n' scene scheme real batch 'kernel s' 'settle s' 'whole s' 'M p-it/s'
     awk -F, 'NR > 1 { printf "%-11s %-10s %-6s %5s %10s %10s %10s %12s\n", $1, $2, $3, $4, $11, $12, $13, $14 }' \
         "$output/gpu-speed.csv"
+    printf '\n%-10s %-6s %10s %5s %-9s %10s %10s %12s %10s\n' scheme real fluid batch path 'ms a frame' 'M p-it/s' 'M pairs/s' \
+        'B/particle'
+    awk -F, 'NR > 1 { printf "%-10s %-6s %10s %5s %-9s %10s %10s %12s %10s\n", $1, $2, $3, $4, $6, $15, $16, $17, $19 }' \
+        "$output/throughput.csv"
+    printf '\n%-9s %-19s %-17s %5s %12s %10s %6s\n' kind name scene batch 'M pairs/s' 'GB/s' share
+    awk -F, 'NR > 1 { printf "%-9s %-19s %-17s %5s %12s %10s %6s\n", $1, $2, $3, $4, $9, $10, $11 }' \
+        "$output/gpu-roofline.csv"
 } | tee "$output/gpu-table.txt"
 exit "$failed"

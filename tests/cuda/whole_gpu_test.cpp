@@ -1,4 +1,5 @@
 // A State computed by the whole GPU: against the CPU, and against itself.
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
+#include "solver/cuda/large/fetch_roof.h"
 
 namespace natator::test {
 namespace {
@@ -137,6 +139,31 @@ TEST_P(WholeGpu, AFlatBlockAgreesWithTheCpu) {
 }
 
 /// Undivided relaxation explodes: the particle and the substep are the CPU's, the State is that before it.
+/// CUDA copies no rows that are further apart than that.
+TEST_P(WholeGpu, AStateMayTakeMoreThanTwoGibibytes) {
+    constexpr int across = 175;
+    const Model model = bare_model(GetParam(), lattice(across, across, across, 0.1), fluid_phase);
+    GpuSolver<float> gpu(model, {.path = GpuPath::whole_gpu});
+    State<float> state = initial_state<float>(model);
+    ASSERT_FALSE(gpu.update(state, substep, 1));
+    const int middle = model.particles() / 2;
+    EXPECT_EQ(gpu.neighbour_counts()[middle], GetParam() == Scheme::flex ? 18 : 80);
+}
+
+TEST(GpuRoof, FetchesThePairsOfAllStates) {
+    if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
+    Scene scene = tank(1, Scheme::conserving);
+    const Gait gait = wave(scene);
+    const cuda::FetchRoof one = cuda::measure_fetch_roof(scene, {gait}, 1, 0);
+    const cuda::FetchRoof two = cuda::measure_fetch_roof(scene, {gait, gait}, 1, 0);
+    EXPECT_GT(one.pairs, 30.0 * build_model(scene).particles());
+    EXPECT_EQ(two.pairs, 2 * one.pairs);
+    for (const double seconds : {one.velocities, one.impulses, one.density_constraint}) {
+        EXPECT_GT(seconds, 0);
+        EXPECT_TRUE(std::isfinite(seconds));
+    }
+}
+
 TEST(WholeGpuInstability, IsNamedAsTheCpuNamesIt) {
     if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
     Scene scene = tank(2, Scheme::flex);

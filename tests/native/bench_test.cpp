@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,16 +11,21 @@
 
 #include "converge/estimate.h"
 #include "ensemble.h"
+#include "evaluate/settle.h"
 #include "front_error.h"
 #include "natator/error.h"
+#include "natator/model_builder.h"
 #include "natator/momentum.h"
+#include "natator/solver.h"
 #include "physical_bounds.h"
+#include "physics/constants.h"
 #include "precision.h"
 #include "references.h"
 #include "scene/scene_json.h"
 #include "speed.h"
 #include "stability.h"
 #include "statistics.h"
+#include "throughput.h"
 #include "validation.h"
 
 namespace natator::bench {
@@ -193,6 +199,50 @@ TEST(SpeedTest, ProfilingChangesNoBit) {
     EXPECT_EQ(plain.hash, profiled.hash);
     EXPECT_GT(profile.seconds(), 0);
     EXPECT_EQ(profile.entries().front().stage, "predict");
+}
+
+int fluid_of(const Model& model) {
+    int fluid = 0;
+    for (int i = 0; i < model.particles(); ++i) fluid += model.is_fluid(i);
+    return fluid;
+}
+
+TEST(ThroughputTest, TanksHaveTheirParticlesBetweenTheirWalls) {
+    for (const int particles : {1000, 2000, 5660, 16000, 64000, 125000}) {
+        const Scene scene = throughput_scene(particles);
+        const Model model = build_model(scene);
+        const int across = scene.fluid->count.y() * scene.fluid->count.z();
+        EXPECT_NEAR(fluid_of(model), particles, std::max(across / 2.0, 500.0 * (across > 1000))) << particles;
+        EXPECT_EQ(fluid_of(model) + 255, model.particles()) << "the swimmer";
+        double nearest = 1;
+        std::vector<int> rests_on(model.planes.size(), 0);
+        for (const Eigen::Vector3d& place : model.position)
+            for (std::size_t k = 0; k < model.planes.size(); ++k) {
+                nearest = std::min(nearest, model.planes[k].distance(place));
+                rests_on[k] += model.planes[k].distance(place) < 0.051;
+            }
+        EXPECT_NEAR(nearest, 0.05, 1e-9) << particles;
+        for (const int resting : rests_on) EXPECT_GT(resting, 0) << "a wall stands off the water";
+    }
+}
+
+/// Else their time would go to parting overlaps, which water so deep has for longer if it begins at the thesis' spacing.
+TEST(ThroughputTest, TanksHaveNoOverlapsOnceSettled) {
+    Scene scene = throughput_scene(64000);
+    scene.scheme = Scheme::conserving;
+    const Model model = build_model(scene);
+    Solver<float> solver(model);
+    State<float> state = initial_state<float>(model);
+    ASSERT_FALSE(settle(scene.settling, solver, state));
+    const std::vector<float> densities = solver.densities();
+    EXPECT_LT(*std::max_element(densities.begin(), densities.end()), 1 + physics::overlap_tolerance);
+}
+
+TEST(ThroughputTest, BatchesTakeAboutTheSameTime) {
+    EXPECT_EQ(throughput_frames(Scheme::flex, 1000, 1), 240);
+    EXPECT_EQ(throughput_frames(Scheme::flex, 1'000'000, 1), 63);
+    EXPECT_EQ(throughput_frames(Scheme::conserving, 16'000, 150), 5);
+    EXPECT_EQ(throughput_frames(Scheme::conserving, 10'000'000, 1), 4);
 }
 
 /// Shocks, extremes and the calm case: each run ends, with finite figures, as one of the three verdicts.

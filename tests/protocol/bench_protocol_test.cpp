@@ -141,13 +141,32 @@ TEST(BenchProtocolTest, NoStageIsAboveTheRoofs) {
 TEST(BenchProtocolTest, WithoutTheGpuThatWasAskedForThereIsOneLine) {
     const std::string experiments = std::string(NATATOR_CONFORMANCE_DIR) + "/micro/a_free.json";
     for (const std::vector<std::string>& command :
-         {std::vector<std::string>{"bench", "speed", "--quick"}, std::vector<std::string>{"particles", experiments}}) {
+         {std::vector<std::string>{"bench", "speed", "--quick", "--backend", "cuda"},
+          std::vector<std::string>{"bench", "throughput", "--quick"},
+          std::vector<std::string>{"bench", "roofline", "--quick", "--backend", "cuda"},
+          std::vector<std::string>{"particles", experiments, "--backend", "cuda"}}) {
         std::vector<std::string> arguments = command;
-        arguments.insert(arguments.end(), {"--backend", "cuda", "--device", "1023"});
+        arguments.insert(arguments.end(), {"--device", "1023"});
         const Outcome outcome = run_simulator(arguments);
         EXPECT_EQ(outcome.exit_code, 4) << command.front();
         EXPECT_EQ(outcome.out, "");
         EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    }
+}
+
+TEST(BenchProtocolTest, ThroughputSaysWhatItTakes) {
+    const Outcome help = run_simulator({"bench", "throughput", "--help"});
+    EXPECT_EQ(help.exit_code, 0) << help.err;
+    for (const char* option : {"--particles", "--batch", "--whole-gpu", "--device", "--repeats", "1000 - 15000000"})
+        EXPECT_NE(help.out.find(option), std::string::npos) << option << " in " << help.out;
+    for (const std::vector<std::string>& bad :
+         std::vector<std::vector<std::string>>{{"--particles", "999"}, {"--particles", "15000001"}, {"--particles", "many"},
+                                               {"--batch", "0"}, {"--repeats", "0"}, {"--scheme", "both"}}) {
+        const Outcome outcome = run_simulator({"bench", "throughput", bad[0], bad[1]});
+        EXPECT_EQ(outcome.exit_code, 2) << bad[1];
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find(bad[0]), std::string::npos) << outcome.err;
     }
 }
 

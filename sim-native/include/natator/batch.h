@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,11 +33,13 @@ struct BatchMember {
     std::optional<int> arrangement{};  ///< of the water in scheme `conserving`: FluidBlock::disorder instead of the scene's
 };
 
-/// Where the time of a batch goes.
+/// Where the time of a batch goes, and what memory it takes.
 struct BatchTimes {
     double settling = 0;              ///< s between the start and the end of the kernels that settle the starts
     double kernel = 0;                ///< s of those that run the frames
     StageProfile* profile = nullptr;  ///< gets the kernel's time by stage, if there is one
+    std::size_t memory = 0;           ///< bytes of device memory at most, beside those of other threads' batches
+    int at_a_time = 0;                ///< members at most that were computed at a time
 };
 
 /// How a batch is computed.

@@ -2,6 +2,7 @@
 #include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/gpu_solver.h"
+#include "solver/cuda/large/fetch_roof.h"
 
 namespace natator {
 namespace {
@@ -23,6 +24,17 @@ std::optional<std::string> gpu_refusal(const Scene&) {
 std::vector<Evaluation> evaluate_on_gpu(const Scene&, const std::vector<BatchMember>&, const BatchOptions&) {
     refuse();
 }
+
+namespace cuda {
+
+FetchRoof measure_fetch_roof(const Scene&, const std::vector<Gait>&, int, int) {
+    refuse();
+}
+double measure_copy_bandwidth(int) {
+    refuse();
+}
+
+}  // namespace cuda
 
 template <class Real>
 class GpuSolver<Real>::Implementation {};

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "device_memory.h"
+
 namespace natator::cuda {
 
 /// Throws std::runtime_error with CUDA's own words.
@@ -35,9 +37,14 @@ public:
             throw std::bad_alloc();
         }
         check(status, "allocate");
+        DeviceMemory::take(size * sizeof(T));
     }
     explicit DeviceBuffer(const std::vector<T>& values) : DeviceBuffer(values.size()) { upload(values); }
-    ~DeviceBuffer() { cudaFree(data_); }
+    ~DeviceBuffer() {
+        if (!data_) return;
+        cudaFree(data_);
+        DeviceMemory::give_back(size_ * sizeof(T));
+    }
     DeviceBuffer(DeviceBuffer&& other) noexcept
         : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
     DeviceBuffer& operator=(DeviceBuffer&& other) noexcept {

@@ -131,7 +131,10 @@ private:
         batch.no_progress_frames =
             swims ? static_cast<int>(std::lround(scene_.stopping.no_progress_after / scene_.time_step)) : 0;
         runner_.run(batch, settled, times_ ? times_->profile : nullptr);
-        if (times_) times_->kernel += runner_.seconds();
+        if (times_) {
+            times_->kernel += runner_.seconds();
+            times_->at_a_time = std::max(times_->at_a_time, states.count());
+        }
 
         const std::vector<Progress> progress = runner_.progress();
         const std::vector<double> path = runner_.path();
@@ -171,6 +174,14 @@ std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<
     return all;
 }
 
+template <class Real>
+std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
+                                 const BatchOptions& options) {
+    if (by_whole_gpu(scene, model, options.whole_gpu)) return evaluate_large<Real>(scene, model, members, options.times);
+    Batch<Real> batch(scene, model, options.times);
+    return evaluate_in_parts(batch, members);
+}
+
 }  // namespace
 }  // namespace cuda
 
@@ -181,16 +192,12 @@ std::vector<Evaluation> evaluate_on_gpu(const Scene& scene, const std::vector<Ba
     if (members.empty()) return {};
     const Model model = build_model(scene);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
-    const bool in_double = options.precision == Precision::double_precision;
-    if (options.whole_gpu || !scene.goals.empty() || !scene.companions.empty() || model.scheme != Scheme::flex || model.particles() > cuda::most_particles_of_a_block)
-        return in_double ? cuda::evaluate_large<double>(scene, model, members, options.times)
-                         : cuda::evaluate_large<float>(scene, model, members, options.times);
-    if (in_double) {
-        cuda::Batch<double> batch(scene, model, options.times);
-        return cuda::evaluate_in_parts(batch, members);
-    }
-    cuda::Batch<float> batch(scene, model, options.times);
-    return cuda::evaluate_in_parts(batch, members);
+    const cuda::DeviceMemory::Mark memory;
+    const std::vector<Evaluation> evaluations = options.precision == Precision::double_precision
+                                                    ? cuda::evaluate<double>(scene, model, members, options)
+                                                    : cuda::evaluate<float>(scene, model, members, options);
+    if (options.times) options.times->memory = std::max(options.times->memory, memory.most());
+    return evaluations;
 }
 
 }  // namespace natator

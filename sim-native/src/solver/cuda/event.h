@@ -12,7 +12,7 @@ public:
     Event(const Event&) = delete;
     Event& operator=(const Event&) = delete;
 
-    void record() const { check(cudaEventRecord(event_), "event"); }
+    void record(cudaStream_t stream = nullptr) const { check(cudaEventRecord(event_, stream), "event"); }
     /// Both must have passed.
     double seconds_since(const Event& earlier) const {
         float milliseconds = 0;

@@ -74,7 +74,10 @@ public:
             update.start_time = frame * scene_.time_step;
             note(runner_.run(update, times_ ? times_->profile : nullptr), update);
         }
-        if (times_) times_->kernel += watch.seconds();
+        if (times_) {
+            times_->kernel += watch.seconds();
+            times_->at_a_time = std::max(times_->at_a_time, count);
+        }
         const std::vector<Real> densities = runner_.densities();
         const std::size_t fluid = runner_.model().view().fluid;
         for (int k = 0; k < count; ++k) {

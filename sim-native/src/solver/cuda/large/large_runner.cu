@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "natator/actuate.h"
+#include "rows.h"
 #include "scan.h"
 #include "solver/cuda/device_states.h"
+#include "solver/cuda/event.h"
 
 namespace natator::cuda {
 
@@ -126,15 +129,6 @@ namespace {
 template <class T>
 void copy(T* to, const T* from, std::size_t count, cudaStream_t stream) {
     if (count > 0) check(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDefault, stream), "copy");
-}
-
-/// Rows of `count`, whose begins are so many bytes apart.
-template <class T>
-void copy_rows(T* to, std::size_t to_stride, const T* from, std::size_t from_stride, std::size_t count, int rows,
-               cudaStream_t stream) {
-    if (count == 0) return;
-    check(cudaMemcpy2DAsync(to, to_stride, from, from_stride, count * sizeof(T), rows, cudaMemcpyDeviceToDevice, stream),
-          "copy");
 }
 
 }  // namespace
@@ -267,11 +261,8 @@ template <class Real>
 void LargeRunner<Real>::launch_substeps(const Update& update, int substeps, StageClock* clock,
                                         const Trace<Real>& trace) const {
     check(cudaMemsetAsync(base_.slots.at.shared, 0xff, base_.states * sizeof(LargeShared<Real>), base_.stream), "clear");
-    if (base_.keeps_forces && base_.model.solids > 0) {
-        const std::size_t bytes = base_.model.solids * sizeof(Quad<Real>);
-        check(cudaMemset2DAsync(base_.slots.water.impulse_on, base_.slots.stride, 0, bytes, base_.states, base_.stream),
-              "clear");
-    }
+    if (base_.keeps_forces)
+        clear_rows(base_.slots.water.impulse_on, base_.slots.stride, base_.model.solids, base_.states, base_.stream);
     if (clock) clock->mark(Stage::load);
     for (int k = 0; k < substeps; ++k) {
         LargeLaunch<Real> substep = launch_of(update, k);
@@ -432,6 +423,22 @@ std::vector<Quad<Real>> LargeRunner<Real>::impulses_on_solids() const {
               base_.states, base_.stream);
     wait();
     return impulses.download();
+}
+
+template <class Real>
+double LargeRunner<Real>::fetch_seconds(Fetch what) const {
+    constexpr int launches = 20;
+    const DeviceBuffer<Real> sums(std::size_t(base_.states) * base_.model.particles);
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < launches && base_.model.plan.water; ++k) {
+        const Event start, end;
+        start.record(base_.stream);
+        launch_fetch(base_, what, sums.data());
+        end.record(base_.stream);
+        wait();
+        least = std::min(least, end.seconds_since(start));
+    }
+    return least;
 }
 
 template class LargeRunner<float>;

@@ -77,6 +77,9 @@ public:
     std::vector<Real> pressure_impulses() const;
     /// What the water has given each solid in the last update, mass length/s, by State and device number; empty unless kept.
     std::vector<Quad<Real>> impulses_on_solids() const;
+    /// What a launch takes that only reads, for all States, what a pass over the pairs of the water reads; the least of some,
+    /// s. For measurements, after an update.
+    double fetch_seconds(Fetch what) const;
 
 private:
     void allocate();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "fetch.h"
 #include "kernels.cuh"
+#include "rows.h"
 #include "scan.h"
 #include "solver/step.h"
 #include "stage_clock.h"
@@ -70,7 +72,7 @@ struct LargeLaunch {
 
     /// Sets a table of each State to 0.
     void clear(int* table, int count) const {
-        check(cudaMemset2DAsync(table, slots.stride, 0, count * sizeof(int), states, stream), "clear");
+        clear_rows(table, slots.stride, count, states, stream);
     }
     /// Replaces its counts by the sums of all before each.
     void add_up(int* table, int count) const {
@@ -110,6 +112,10 @@ void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts);
 /// Likewise of the fluid, for scheme conserving: sums of the last substep's pressure impulses.
 template <class Real>
 void launch_pressure_impulses(const LargeLaunch<Real>& launch, Real* impulses);
+
+/// Reads what a pass over the pairs of the water reads, and writes its sum by State and slot.
+template <class Real>
+void launch_fetch(const LargeLaunch<Real>& launch, Fetch what, Real* sums);
 
 /// Adds the work of the muscles in the substep to that of the update, into what all share.
 template <class Real>

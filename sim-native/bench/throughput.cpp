@@ -1,0 +1,213 @@
+#include "throughput.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <variant>
+
+#include "bench_scenes.h"
+#include "in_precision.h"
+#include "natator/gpu_solver.h"
+#include "natator/model_builder.h"
+#include "scene/scene_json.h"
+#include "solver/cuda/large/evaluate_large.h"
+#include "timed_batch.h"
+
+namespace natator::bench {
+namespace {
+
+constexpr double spacing = 0.1;  // fluidRestDistance of the thesis
+
+int fluid_particles(const Model& model) {
+    int fluid = 0;
+    for (int i = 0; i < model.particles(); ++i) fluid += model.is_fluid(i);
+    return fluid;
+}
+
+Scene scene_of(const std::array<int, 3>& count) {
+    constexpr double rear = 0.45, high = 0.6, aside = 0.6;
+    nlohmann::json overrides = thesis_tank_with(count, spacing);
+    overrides["creature"]["rearCentre"] = {rear, std::min(high, spacing * count[1]), aside};
+    overrides["settling"]["updates"] = 12;
+    overrides["stopping"] = {{"planeContact", false}, {"noProgressAfter", 0}};
+    return load_scene("thesis/creature-1", overrides);
+}
+
+/// Mean over the fluid, by the path that is timed.
+template <class Real>
+double mean_neighbours(const Scene& scene, const Model& model, int device, bool whole_gpu) {
+    GpuSolver<Real> solver(model, {.device = device, .path = whole_gpu ? GpuPath::whole_gpu : GpuPath::block});
+    State<Real> state = initial_state<Real>(model);
+    for (int k = 0; k < scene.settling.updates; ++k) {
+        solver.update(state, scene.settling.time_step, scene.settling.substeps);
+        std::fill(state.velocity.begin(), state.velocity.end(), Vector3<Real>::Zero());
+        state.time = 0;
+    }
+    solver.update(state, model.time_step, model.parameters.substeps);
+    const std::vector<int> counts = solver.neighbour_counts();
+    double sum = 0;
+    for (int i = 0; i < model.particles(); ++i)
+        if (model.is_fluid(i)) sum += counts[static_cast<std::size_t>(i)];
+    return sum / fluid_particles(model);
+}
+
+/// A tank of one size in one scheme and precision, for batches of all sizes.
+class Tank {
+public:
+    Tank(const ThroughputStudy& study, Scheme scheme, Precision precision, int particles)
+        : study_(study), precision_(precision), particles_(particles), scene_(throughput_scene(particles)) {
+        scene_.scheme = scheme;
+        model_ = build_model(scene_);
+        fluid_ = fluid_particles(model_);
+        whole_gpu_ = cuda::by_whole_gpu(scene_, model_, study.whole_gpu);
+    }
+
+    Row key(int batch, const std::string& device) const {
+        return {to_string(scene_.scheme),
+                to_string(precision_),
+                std::to_string(fluid_),
+                std::to_string(batch),
+                device,
+                whole_gpu_ ? "whole GPU" : "block"};
+    }
+
+    /// What stands behind the key, or why nothing does.
+    std::variant<Row, std::string> measure(int batch) {
+        const int frames = study_.quick ? 2 : throughput_frames(scene_.scheme, particles_, batch);
+        scene_.duration = frames * scene_.time_step;
+        const BatchOptions options{.precision = precision_, .device = study_.device, .whole_gpu = study_.whole_gpu};
+        const TimedBatch timed = time_batch(scene_, batch_members(scene_, batch), options, study_.repeats);
+        if (timed.instability) return "becomes unstable at " + number_text(timed.instability->time) + " s";
+        const int substeps = model_.parameters.substeps, iterations = model_.parameters.numIterations;
+        const double particle_substeps = static_cast<double>(batch) * fluid_ * frames * substeps;
+        const double million_per_second = 1e-6 * particle_substeps / timed.device.kernel;
+        const double on_device = static_cast<double>(timed.device.at_a_time) * model_.particles();
+        return Row{std::to_string(model_.particles()),
+                   std::to_string(substeps),
+                   std::to_string(iterations),
+                   std::to_string(frames),
+                   std::to_string(study_.repeats),
+                   measured_text(neighbours()),
+                   std::to_string(pair_passes(model_)),
+                   measured_text(timed.device.kernel),
+                   measured_text(1e3 * timed.device.kernel / frames),
+                   measured_text(million_per_second * iterations),
+                   measured_text(million_per_second * neighbours() * pair_passes(model_)),
+                   std::to_string(timed.device.at_a_time),
+                   measured_text(static_cast<double>(timed.device.memory) / on_device),
+                   timed.hash};
+    }
+
+private:
+    double neighbours() {
+        if (!neighbours_)
+            neighbours_ = in_precision(precision_, [&](auto real) {
+                return mean_neighbours<decltype(real)>(scene_, model_, study_.device, whole_gpu_);
+            });
+        return *neighbours_;
+    }
+
+    const ThroughputStudy& study_;
+    Precision precision_;
+    int particles_;
+    Scene scene_;
+    Model model_;
+    int fluid_ = 0;
+    bool whole_gpu_ = false;
+    std::optional<double> neighbours_;
+};
+
+void measure_row(Tank& tank, int batch, Row row, ResultTable& table,
+                 const std::function<void(const std::string&)>& report) {
+    const std::string name = joined(row, " ");
+    try {
+        const auto measured = tank.measure(batch);
+        if (const auto* const reason = std::get_if<std::string>(&measured)) return report(name + ": " + *reason);
+        const Row& rest = std::get<Row>(measured);
+        row.insert(row.end(), rest.begin(), rest.end());
+    } catch (const std::bad_alloc&) {
+        return report(name + ": needs more memory than there is");
+    }
+    table.add(row);
+    report(joined(row, " "));
+}
+
+}  // namespace
+
+std::vector<int> throughput_particles() {
+    return {1000, 2000, 4000, 5660, 8000, 16000, 32000, 64000, 125000, 250000, 500000, 1000000};
+}
+
+std::vector<int> throughput_batches() {
+    return {1, 4, 16, 64, 150};
+}
+
+Scene throughput_scene(int particles) {
+    const double scale = std::cbrt(particles / (50.0 * 7 * 17));
+    const auto scaled = [scale](int count) { return static_cast<int>(std::lround(scale * count)); };
+    std::array<int, 3> count{0, scaled(7), scaled(17)};
+    const int layer = count[1] * count[2];
+    const auto layers = [layer](int fluid) {
+        return static_cast<int>(std::lround(fluid / static_cast<double>(layer)));
+    };
+    count[0] = layers(particles);
+    constexpr int most_room_of_swimmer = 500;  // lattice points nearer to it than the clearance
+    if (layer < 2 * most_room_of_swimmer) count[0] += layers(particles - fluid_particles(build_model(scene_of(count))));
+    return scene_of(count);
+}
+
+int throughput_frames(Scheme scheme, int particles, int batch) {
+    const double particle_iterations = scheme == Scheme::flex ? 1e9 : 2e8;
+    const double of_frame = 4.0 * 4 * particles * batch;
+    return static_cast<int>(std::lround(std::clamp(particle_iterations / of_frame, 4.0, 240.0)));
+}
+
+int pair_passes(const Model& model) {
+    const SolverParameters& p = model.parameters;
+    if (model.scheme == Scheme::flex) return 2 * p.numIterations + (p.viscosity != 0 ? 1 : 0);
+    return 2 * p.numIterations + 4 + (p.kinematicViscosity > 0 ? 1 : 0);
+}
+
+Row throughput_columns() {
+    return {"scheme",
+            "precision",
+            "fluid_particles",
+            "evaluations",
+            "device",
+            "path",
+            "particles",
+            "substeps",
+            "iterations",
+            "frames",
+            "repeats",
+            "neighbours",
+            "pair_passes",
+            "kernel_seconds",
+            "ms_per_frame",
+            "million_particle_iterations_per_second",
+            "million_pairs_per_second",
+            "at_a_time",
+            "bytes_per_particle",
+            "hash"};
+}
+
+void run_throughput_study(const ThroughputStudy& study, ResultTable& table,
+                          const std::function<void(const std::string&)>& report) {
+    const std::string device = gpu_name(study.device);
+    for (const int particles : study.particles)
+        for (const Scheme scheme : study.schemes)
+            for (const Precision precision : study.precisions) {
+                Tank tank(study, scheme, precision, particles);
+                for (const int batch : study.batches) {
+                    if (batch > 1 && std::int64_t{particles} * batch > most_particles_of_batch) continue;
+                    const Row key = tank.key(batch, device);
+                    if (!table.has(key)) measure_row(tank, batch, key, table, report);
+                }
+            }
+}
+
+}  // namespace natator::bench

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace natator::cuda {
+
+/// What a pass over the pairs of the water reads at a neighbour's slot.
+enum class Fetch { velocities, impulses };
+
+}  // namespace natator::cuda

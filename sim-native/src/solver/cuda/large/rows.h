@@ -1,0 +1,42 @@
+#pragma once
+
+#include "solver/cuda/device_buffer.h"
+
+namespace natator::cuda {
+
+/// The most bytes from one row to the next that CUDA takes in one copy (cudaDeviceProp::memPitch); the arrays of a
+/// State of some million particles are further apart.
+inline constexpr std::size_t most_pitch = 0x7fffffff;
+
+/// Copies `rows` rows of `count` on the device; their begins are so many bytes apart.
+template <class T>
+void copy_rows(T* to, std::size_t to_stride, const T* from, std::size_t from_stride, std::size_t count, int rows,
+               cudaStream_t stream) {
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes == 0) return;
+    if (rows > 1 && to_stride <= most_pitch && from_stride <= most_pitch) {
+        check(cudaMemcpy2DAsync(to, to_stride, from, from_stride, bytes, rows, cudaMemcpyDeviceToDevice, stream),
+              "copy");
+        return;
+    }
+    for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
+        check(cudaMemcpyAsync(reinterpret_cast<char*>(to) + row * to_stride,
+                              reinterpret_cast<const char*>(from) + row * from_stride, bytes, cudaMemcpyDeviceToDevice,
+                              stream),
+              "copy");
+}
+
+/// Sets `rows` rows of `count` to 0.
+template <class T>
+void clear_rows(T* rows_begin, std::size_t stride, std::size_t count, int rows, cudaStream_t stream) {
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes == 0) return;
+    if (rows > 1 && stride <= most_pitch) {
+        check(cudaMemset2DAsync(rows_begin, stride, 0, bytes, rows, stream), "clear");
+        return;
+    }
+    for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
+        check(cudaMemsetAsync(reinterpret_cast<char*>(rows_begin) + row * stride, 0, bytes, stream), "clear");
+}
+
+}  // namespace natator::cuda
