@@ -30,7 +30,7 @@ constexpr std::array scenes = {
     NamedScene{"creature-1", "thesis/creature-1", 1, 4, 100},  NamedScene{"creature-2", "thesis/creature-2", 1, 4, 100},
     NamedScene{"creature-3", "thesis/creature-3", 1, 4, 100},  NamedScene{"creature-4", "thesis/creature-4", 1, 4, 100},
     NamedScene{"vacuum", "thesis/creature-1-vacuum", 1, 4, 0}, NamedScene{"fluid-x8", "thesis/creature-1", 2, 0.5, 12},
-    NamedScene{"fluid-x64", "thesis/creature-1", 4, 0.1, 2},
+    NamedScene{"fluid-x64", "thesis/creature-1", 4, 0.1, 2},   NamedScene{"open-water", "open-water/creature-2", 1, 1, 30},
 };
 
 Scene make_scene(const NamedScene& named, bool quick) {

@@ -43,6 +43,15 @@ struct GridView {
                 visit(row + first_x, row + last_x);
             }
     }
+    static constexpr int runs = 9;
+    /// Calls visit(first_cell, last_cell) for run k of them, in the same order, if it is within the grid.
+    template <class Visit>
+    __device__ void for_run(const Vec3<Real>& x, int k, const Visit& visit) const {
+        const int cx = coordinate(x.x, 0), iy = coordinate(x.y, 1) + k % 3 - 1, iz = coordinate(x.z, 2) + k / 3 - 1;
+        if (iy < 0 || iy >= count[1] || iz < 0 || iz >= count[2]) return;
+        const int row = (iz * count[1] + iy) * count[0];
+        visit(row + max(cx - reach_x, 0), row + min(cx + reach_x, count[0] - 1));
+    }
 };
 
 template <class Real>

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <tuple>
 
 #include "evaluate/companions.h"
@@ -11,6 +14,7 @@
 #include "evaluate/swim_record.h"
 #include "large_runner.h"
 #include "natator/model_builder.h"
+#include "parts.h"
 #include "solver/cuda/evaluation.h"
 
 namespace natator::cuda {
@@ -221,29 +225,84 @@ private:
     std::map<Start, std::pair<State<Real>, Progress>> settled_;
 };
 
-/// So many fill a GPU; more at a time only take more memory.
+/// Side by side. While one waits for what takes long but is little, such as the solids of its States, the water of the others
+/// fills the GPU. Three are hardly faster.
+constexpr int most_streams = 2;
+/// Of all streams together: so many fill a GPU; more at a time only take more memory.
 constexpr int particles_at_a_time = 1'000'000;
 
-/// At most so many at a time, in parts of the same size as far as they go.
+/// The parts of a company that are computed one after another, side by side with those of other streams.
 template <class Real>
-std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& company, int most, BatchTimes* times) {
-    const int all = static_cast<int>(company.members.size());
-    const int parts = (all + most - 1) / most, states = (all + parts - 1) / parts;
-    LargeScene<Real> large(scene, company, states, times);
-    std::vector<Evaluation> evaluations;
-    for (int first = 0; first < all; first += states)
-        large.evaluate(first, std::min(states, all - first), evaluations);
-    return evaluations;
+class Stream {
+public:
+    Stream(const Scene& scene, const Company& company, const Parts& parts, int number, StageProfile* profile)
+        : parts_(parts), number_(number), times_{.profile = profile}, large_(scene, company, parts.size, &times_) {}
+
+    void evaluate() {
+        for (int part = number_; part < parts_.count(); part += parts_.streams)
+            large_.evaluate(parts_.first(part), parts_.size_of(part), evaluations_.emplace_back());
+    }
+    std::vector<Evaluation>& evaluations_of(int part) { return evaluations_[part / parts_.streams]; }
+    const BatchTimes& times() const { return times_; }
+
+private:
+    const Parts& parts_;
+    int number_;
+    BatchTimes times_;
+    LargeScene<Real> large_;
+    std::vector<std::vector<Evaluation>> evaluations_;  ///< by part, of its own
+};
+
+/// The streams run side by side, so the longest counts.
+template <class Real>
+void add_times(const std::vector<std::unique_ptr<Stream<Real>>>& streams, BatchTimes& times) {
+    BatchTimes all;
+    for (const auto& stream : streams) {
+        all.settling = std::max(all.settling, stream->times().settling);
+        all.kernel = std::max(all.kernel, stream->times().kernel);
+        all.at_a_time += stream->times().at_a_time;
+    }
+    times.settling += all.settling;
+    times.kernel += all.kernel;
+    times.at_a_time = std::max(times.at_a_time, all.at_a_time);
 }
 
 template <class Real>
+std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& company, const Parts& parts,
+                                          BatchTimes* times) {
+    int device = 0;
+    check(cudaGetDevice(&device), "device");
+    std::vector<std::unique_ptr<Stream<Real>>> streams;
+    for (int k = 0; k < parts.streams; ++k)
+        streams.push_back(
+            std::make_unique<Stream<Real>>(scene, company, parts, k, times ? times->profile : nullptr));
+    std::vector<std::future<void>> others;
+    for (int k = 1; k < parts.streams; ++k)
+        others.push_back(std::async(std::launch::async, [&stream = *streams[k], device] {
+            check(cudaSetDevice(device), "choose device");
+            stream.evaluate();
+        }));
+    streams.front()->evaluate();
+    for (std::future<void>& other : others) other.get();
+    if (times) add_times(streams, *times);
+    std::vector<Evaluation> evaluations;
+    for (int part = 0; part < parts.count(); ++part)
+        std::ranges::move(streams[part % parts.streams]->evaluations_of(part), std::back_inserter(evaluations));
+    return evaluations;
+}
+
+/// Where there is not the memory for it, fewer at a time. Stages are timed in one stream, as those of two overlap.
+template <class Real>
 std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& company, BatchTimes* times) {
-    int most = std::min(static_cast<int>(company.members.size()), particles_at_a_time / company.model.particles() + 1);
+    const int members = static_cast<int>(company.members.size());
+    int streams = times && times->profile ? 1 : most_streams;
+    int most = Parts::most_of(members, streams, particles_at_a_time / streams / company.model.particles() + 1);
     for (;;) {
         try {
-            return evaluate_in_parts<Real>(scene, company, most, times);
+            return evaluate_in_parts<Real>(scene, company, Parts(members, most, streams), times);
         } catch (const std::bad_alloc&) {
-            if (most == 1) throw;
+            if (most == 1 && streams == 1) throw;
+            if (most == 1) streams = 1;
             most = (most + 1) / 2;
         }
     }

@@ -7,16 +7,15 @@ namespace {
 template <class Real>
 struct FlexLaunches : LaunchEffects<Scheme::flex, Real> {
     using Base = LaunchEffects<Scheme::flex, Real>;
-    using Base::blocks, Base::launch, Base::model;
+    using Base::launch, Base::model;
     static constexpr Grouping grouping = Grouping::together;
     static constexpr bool effects = true;
 
     void compute_density_and_fits() {
-        const int fits = blocks_for(model.clusters, large_threads / 32);
-        launch.template each_state<compute_density<Real, const Slots<Real>>>(blocks + fits, Real(0));
+        launch.template each_thread<compute_density<Real, const Slots<Real>>>(model.particles + 32 * model.clusters, Real(0));
     }
     void apply_corrections() {
-        launch.template each_state<cuda::apply_corrections<Real, const Slots<Real>>, large_threads, 6>(blocks);
+        launch.template each_thread<cuda::apply_corrections<Real, const Slots<Real>>, large_threads, 6>(model.particles);
     }
     void update_velocities() {
         if (model.plan.viscosity) launch.template each_slot<movements_large<Real>>(model.fluid);

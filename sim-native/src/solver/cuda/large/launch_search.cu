@@ -19,8 +19,8 @@ void launch_sort_into_cells(const LargeLaunch<Real>& launch) {
 
 template <class Real>
 void launch_find_neighbours(const LargeLaunch<Real>& launch) {
-    launch.template each_state<find_neighbours_large<Real>, search_threads, 12>(
-        blocks_for(launch.model.particles, search_threads));
+    launch.template each_thread<find_neighbours_large<Real>, search_threads, 12>(launch.model.fluid +
+                                                                                 32 * launch.model.solids);
     check(cudaGetLastError(), "launch");
 }
 

@@ -14,18 +14,35 @@ constexpr int tiles_of(int count) {
     return (count + tile - 1) / tile;
 }
 
+/// Numbers from one array's sums of tiles to the next one's: a multiple of 4, for those are read four at a time.
+constexpr int sums_stride(int count) {
+    return (tiles_of(count) + 3) / 4 * 4;
+}
+
 using BlockScan = cub::BlockScan<int, scan_threads>;
 
 /// Replaces the values of one tile, from `first` on, by `before` and the sums of all before each in it. Returns the sum of
-/// all of them, to every thread.
+/// all of them, to every thread. Arrays begin at multiples of 16 bytes.
 __device__ int scan_tile(BlockScan::TempStorage& storage, int* values, int count, int first, int before) {
     int items[scan_items];
     const int begin = first + static_cast<int>(threadIdx.x) * scan_items;
-    for (int k = 0; k < scan_items; ++k) items[k] = begin + k < count ? values[begin + k] : 0;
+    int4* const fours = reinterpret_cast<int4*>(values + begin);
+    const bool whole = begin + scan_items <= count;
+    for (int k = 0; k < scan_items; k += 4) {
+        if (whole)
+            reinterpret_cast<int4&>(items[k]) = fours[k / 4];
+        else
+            for (int e = k; e < k + 4; ++e) items[e] = begin + e < count ? values[begin + e] : 0;
+    }
     int sum = 0;
     BlockScan(storage).ExclusiveSum(items, items, sum);
-    for (int k = 0; k < scan_items; ++k)
-        if (begin + k < count) values[begin + k] = before + items[k];
+    for (int k = 0; k < scan_items; k += 4) {
+        if (whole)
+            fours[k / 4] = {before + items[k], before + items[k + 1], before + items[k + 2], before + items[k + 3]};
+        else
+            for (int e = k; e < k + 4; ++e)
+                if (begin + e < count) values[begin + e] = before + items[e];
+    }
     return sum;
 }
 
@@ -47,12 +64,12 @@ __global__ void __launch_bounds__(scan_threads) scan_by_block(int* values, int c
 __global__ void __launch_bounds__(scan_threads) scan_tiles(int* values, int count, std::size_t stride, int* sums) {
     __shared__ BlockScan::TempStorage storage;
     const int sum = scan_tile(storage, array_of(values, stride), count, static_cast<int>(blockIdx.x) * tile, 0);
-    if (threadIdx.x == 0) sums[blockIdx.y * gridDim.x + blockIdx.x] = sum;
+    if (threadIdx.x == 0) sums[blockIdx.y * sums_stride(count) + blockIdx.x] = sum;
 }
 
 /// Once these are scanned: adds to each tile what is before it.
 __global__ void __launch_bounds__(scan_threads) add_before(int* values, int count, std::size_t stride, const int* sums) {
-    const int before = sums[blockIdx.y * gridDim.x + blockIdx.x];
+    const int before = sums[blockIdx.y * sums_stride(count) + blockIdx.x];
     const int begin = static_cast<int>(blockIdx.x) * tile, end = min(begin + tile, count);
     for (int k = begin + static_cast<int>(threadIdx.x); k < end; k += scan_threads) array_of(values, stride)[k] += before;
 }
@@ -60,7 +77,7 @@ __global__ void __launch_bounds__(scan_threads) add_before(int* values, int coun
 }  // namespace
 
 std::size_t scan_bytes(int count, int arrays) {
-    return sizeof(int) * static_cast<std::size_t>(arrays) * tiles_of(count);
+    return sizeof(int) * static_cast<std::size_t>(arrays) * sums_stride(count);
 }
 
 void exclusive_scan(int* values, int count, int arrays, std::size_t stride, void* room, cudaStream_t stream) {
@@ -73,7 +90,7 @@ void exclusive_scan(int* values, int count, int arrays, std::size_t stride, void
     int* const sums = static_cast<int*>(room);
     const dim3 by_tile{static_cast<unsigned>(tiles), static_cast<unsigned>(arrays)};
     scan_tiles<<<by_tile, scan_threads, 0, stream>>>(values, count, stride, sums);
-    scan_by_block<<<by_array, scan_threads, 0, stream>>>(sums, tiles, tiles * sizeof(int));
+    scan_by_block<<<by_array, scan_threads, 0, stream>>>(sums, tiles, sums_stride(count) * sizeof(int));
     add_before<<<by_tile, scan_threads, 0, stream>>>(values, count, stride, sums);
 }
 

@@ -44,46 +44,77 @@ __device__ int list_fluid_neighbours(const ModelView<Real>& model, const Slots<R
     return n;
 }
 
-/// Lists the contacts of a slot as far as there is room; returns how many it has.
+/// Is it in the box around the solids?
 template <class Real>
-__device__ int list_contacts(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Vec3<Real>& x) {
+__device__ bool near_solids(const Slots<Real>& slots, const Vec3<Real>& x) {
+    const auto& shared = slots.shared();
+    const Real at[3] = {x.x, x.y, x.z};
+    for (int axis = 0; axis < 3; ++axis)
+        if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return false;
+    return true;
+}
+
+/// What lists the contacts of a slot as far as there is room.
+template <class Real>
+__device__ auto contact_lister(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const bool fluid = s < model.fluid;
-    if (fluid) {
-        const auto& shared = slots.shared();
-        const Real at[3] = {x.x, x.y, x.z};
-        for (int axis = 0; axis < 3; ++axis)
-            if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return 0;
-    }
     int* const list = fluid ? slots.at.fluid_contact + s : slots.at.solid_contact + (s - model.fluid);
     const std::size_t stride = fluid ? model.fluid : model.solids;
     const int room = fluid ? slots.room.fluid : slots.room.solid;
-    return search_contacts(model, slots, s, [&](int k, int other) {
+    return [=](int k, int other) {
         if (k < room) list[k * stride] = other;
-    });
+    };
 }
 
-/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions. The last slots first: solids
-/// take longest.
+template <class Real>
+__device__ void note_contacts(const Slots<Real>& slots, int s, int contacts) {
+    slots.contact_count()[s] = contacts;
+    if (contacts > 0) slots.touched()[atomicAdd(&slots.shared().touched, 1)] = s;
+}
+
+template <class Real>
+__device__ void note_near_planes(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Quad<Real>& here) {
+    int planes = 0;
+    for (int k = 0; k < model.planes; ++k)
+        if (distance_to(model.plane[k].surface, xyz(here)) <= model.plane_search_distance) planes |= 1 << k;
+    slots.plane_contact()[s] = here.w > 0 ? planes : 0;
+}
+
+/// Lists contacts and planes of a solid, by a warp.
+template <class Real>
+__device__ void find_neighbours_of_solid(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    int contacts = 0;
+    if (model.plan.contacts) contacts = search_contacts_by_warp(model, slots, s, contact_lister(model, slots, s));
+    if (threadIdx.x % 32 != 0) return;
+    if (model.plan.contacts) note_contacts(slots, s, contacts);
+    note_near_planes(model, slots, s, slots.base()[s]);
+}
+
+/// Lists fluid neighbours, contacts and planes of a fluid slot. Walls of water are mirrors.
+template <class Real>
+__device__ void find_neighbours_of_fluid(const ModelView<Real>& model, const Slots<Real>& slots, int s, int* staging) {
+    const Quad<Real> here = slots.base()[s];
+    const Vec3<Real> x = xyz(here);
+    if (model.plan.fluid) slots.neighbour_count()[s] = list_fluid_neighbours(model, slots, s, x, staging);
+    if (model.plan.contacts) {
+        const bool searched = !model.plan.water && near_solids(slots, x);
+        note_contacts(slots, s, searched ? search_contacts(model, slots, s, contact_lister(model, slots, s)) : 0);
+    }
+    if (model.plan.water)
+        slots.plane_contact()[s] = 0;
+    else
+        note_near_planes(model, slots, s, here);
+}
+
+/// Lists the neighbours of every slot at the predicted positions: first a warp for each solid, which takes longest, then a
+/// thread for each fluid slot.
 template <class Real>
 __device__ void find_neighbours_large(const ModelView<Real>& model, const Slots<Real>& slots) {
     __shared__ int staging[(staged_neighbours + 1) * search_threads];
-    const int s = static_cast<int>((gridDim.x - 1 - blockIdx.x) * blockDim.x + threadIdx.x);
-    if (s >= model.particles) return;
-    const Quad<Real> here = slots.base()[s];
-    const Vec3<Real> x = xyz(here);
-    const bool water = model.plan.water && s < model.fluid;  // its walls are mirrors
-    if (s < model.fluid && model.plan.fluid) {
-        slots.neighbour_count()[s] = list_fluid_neighbours(model, slots, s, x, staging + threadIdx.x);
-    }
-    if (model.plan.contacts) {
-        const int contacts = water ? 0 : list_contacts(model, slots, s, x);
-        slots.contact_count()[s] = contacts;
-        if (contacts > 0) slots.touched()[atomicAdd(&slots.shared().touched, 1)] = s;
-    }
-    int planes = 0;
-    for (int k = 0; k < model.planes && !water; ++k)
-        if (distance_to(model.plane[k].surface, x) <= model.plane_search_distance) planes |= 1 << k;
-    slots.plane_contact()[s] = here.w > 0 ? planes : 0;
+    const int thread = own_index(), solid = thread / 32, for_solids = 32 * model.solids;
+    if (thread < for_solids) return find_neighbours_of_solid(model, slots, model.fluid + solid);
+    const int s = thread - for_solids;
+    if (s < model.fluid) find_neighbours_of_fluid(model, slots, s, staging + threadIdx.x);
 }
 
 }  // namespace natator::cuda

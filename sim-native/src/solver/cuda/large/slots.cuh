@@ -194,22 +194,46 @@ __device__ void for_each_neighbour(const ModelView<Real>&, const Slots<Real>& sl
     }
 }
 
-/// Calls visit(slot, nearer than the search distance at the predicted positions) for the slots in the cells around x,
-/// of the fluid or the solids.
+/// The slots in a run of cells, of the fluid or the solids.
+struct SlotRun {
+    int begin, end;
+};
+template <class Real>
+__device__ SlotRun slots_in(const ModelView<Real>& model, const Slots<Real>& slots, bool solids, int first_cell,
+                            int last_cell) {
+    const int* const table = slots.at.table + (solids ? model.grid.cells : 0);
+    return {first_cell > 0 || solids ? table[first_cell - 1] : 0, table[last_cell]};
+}
+
+/// Is a slot nearer to x than the search distance at the predicted positions, but not there?
+template <class Real>
+__device__ bool is_near(const ModelView<Real>& model, const Slots<Real>& slots, const Vec3<Real>& x, int other) {
+    const Vec3<Real> difference = x - xyz(slots.base()[other]);
+    const Real r2 = dot(difference, difference);
+    return r2 < model.search_distance * model.search_distance && r2 > 0;
+}
+
+/// Calls visit(slot, is it near?) for the slots in the cells around x, of the fluid or the solids.
 template <class Real, class Visit>
 __device__ void for_each_candidate(const ModelView<Real>& model, const Slots<Real>& slots, bool solids,
                                    const Vec3<Real>& x, const Visit& visit) {
-    const int* const table = slots.at.table + (solids ? model.grid.cells : 0);
-    const Quad<Real>* const places = slots.base();
-    const Real distance_squared = model.search_distance * model.search_distance;
     model.grid.for_each_run(x, [&](int first, int last) {
-        const int begin = first > 0 || solids ? table[first - 1] : 0, end = table[last];
-        for (int other = begin; other < end; ++other) {
-            const Vec3<Real> difference = x - xyz(places[other]);
-            const Real r2 = dot(difference, difference);
-            visit(other, r2 < distance_squared && r2 > 0);
-        }
+        const SlotRun run = slots_in(model, slots, solids, first, last);
+        for (int other = run.begin; other < run.end; ++other) visit(other, is_near(model, slots, x, other));
     });
+}
+
+/// Are particle i and what is in slot `other` in contact where they are near?
+template <class Real>
+__device__ bool may_touch(const ModelView<Real>& model, const Slots<Real>& slots, int i, int other) {
+    const int j = slots.number()[other];
+    return collides(model, i, j) || (model.plan.mutual_contacts && collides(model, j, i));
+}
+
+/// Does slot s touch fluid, too?
+template <class Real>
+__device__ bool touches_fluid(const ModelView<Real>& model, int s) {
+    return s >= model.fluid && !model.plan.water;
 }
 
 /// Calls visit(k, slot) for what slot s is in contact with, in the order of its list.
@@ -218,14 +242,50 @@ __device__ int search_contacts(const ModelView<Real>& model, const Slots<Real>& 
     const Vec3<Real> x = xyz(slots.base()[s]);
     const int i = slots.number()[s];
     int n = 0;
-    for (int solids = s < model.fluid || model.plan.water ? 1 : 0; solids < 2; ++solids)
+    for (int solids = touches_fluid(model, s) ? 0 : 1; solids < 2; ++solids)
         for_each_candidate(model, slots, solids == 1, x, [&](int other, bool near) {
-            if (!near) return;
-            const int j = slots.number()[other];
-            if (!collides(model, i, j) && !(model.plan.mutual_contacts && collides(model, j, i))) return;
+            if (!near || !may_touch(model, slots, i, other)) return;
             visit(n, other);
             ++n;
         });
+    return n;
+}
+
+/// The same by a warp, each of them visited by one lane. What a thread finds one after another takes a solid, which is
+/// near many, longer than all else takes the whole GPU.
+template <class Real, class Visit>
+__device__ int search_contacts_by_warp(const ModelView<Real>& model, const Slots<Real>& slots, int s,
+                                       const Visit& visit) {
+    constexpr unsigned all_lanes = 0xffffffff;
+    constexpr int runs = GridView<Real>::runs;
+    const int lane = threadIdx.x % 32;
+    const Vec3<Real> x = xyz(slots.base()[s]);
+    const int i = slots.number()[s];
+    // A run for each lane, the fluid's first, and where its slots end among those of all runs.
+    const bool solids = lane >= runs;
+    SlotRun run{0, 0};
+    if (lane < 2 * runs && (solids || touches_fluid(model, s)))
+        model.grid.for_run(x, lane % runs,
+                           [&](int first, int last) { run = slots_in(model, slots, solids, first, last); });
+    int end = run.end - run.begin;
+    for (int step = 1; step < 2 * runs; step *= 2) {
+        const int before = __shfl_up_sync(all_lanes, end, step);
+        if (lane >= step) end += before;
+    }
+    const int count = __shfl_sync(all_lanes, end, 2 * runs - 1);
+    int n = 0;
+    for (int k = lane; k - lane < count; k += 32) {
+        int other = -1;
+        for (int r = 0; r < 2 * runs; ++r) {  // every lane takes part in all shuffles
+            const int slot = __shfl_sync(all_lanes, run.end - end, r) + k;  // if it is in this run
+            const int begin = __shfl_sync(all_lanes, run.begin, r), run_end = __shfl_sync(all_lanes, run.end, r);
+            if (slot >= begin && slot < run_end) other = slot;
+        }
+        const bool found = other >= 0 && is_near(model, slots, x, other) && may_touch(model, slots, i, other);
+        const unsigned all_found = __ballot_sync(all_lanes, found);
+        if (found) visit(n + __popc(all_found & ((1u << lane) - 1)), other);
+        n += __popc(all_found);
+    }
     return n;
 }
 

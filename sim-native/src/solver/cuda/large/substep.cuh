@@ -30,12 +30,20 @@ struct LargeLaunch {
     /// Of blocks for each State.
     dim3 grid(int blocks) const { return {static_cast<unsigned>(blocks), static_cast<unsigned>(states)}; }
 
+    /// Threads of a block, at most `block`, where so many are needed for a State: few where that is all, so that every
+    /// multiprocessor gets a block.
+    int block_for(int threads, int block) const {
+        constexpr int few = 64, filling = 32768;
+        return threads * states < filling ? std::min(few, block) : block;
+    }
+
     /// Calls work(model, slots, s, more...) for the slots s below `count` of each State, by `lanes` threads each.
-    template <auto work, int lanes = 1, int block = large_threads, int least_blocks = 0, class... More>
+    template <auto work, int lanes = 1, int most_threads = large_threads, int least_blocks = 0, class... More>
     void each_slot(int count, More... more) const {
+        const int threads = count * lanes, block = block_for(threads, most_threads);
         if (count > 0)
-            for_each_slot<work, Of::running, lanes, block, least_blocks>
-                <<<grid(blocks_for(count * lanes, block)), block, 0, stream>>>(model, slots, count, more...);
+            for_each_slot<work, Of::running, lanes, most_threads, least_blocks>
+                <<<grid(blocks_for(threads, block)), block, 0, stream>>>(model, slots, count, more...);
     }
     template <auto work, int least_blocks = 0>
     void each_particle() const {
@@ -55,6 +63,13 @@ struct LargeLaunch {
     void each_state(int blocks, More... more) const {
         for_each_state<work, Of::running, block, least_blocks>
             <<<grid(blocks), block, 0, stream>>>(model, slots, more...);
+    }
+    /// The same by at least so many threads for each State.
+    template <auto work, int most_threads = large_threads, int least_blocks = 0, class... More>
+    void each_thread(int threads, More... more) const {
+        const int block = block_for(threads, most_threads);
+        for_each_state<work, Of::running, most_threads, least_blocks>
+            <<<grid(blocks_for(threads, block)), block, 0, stream>>>(model, slots, more...);
     }
     /// The same for what is asked about all States, also those that are not advanced any more.
     template <auto work, class... More>

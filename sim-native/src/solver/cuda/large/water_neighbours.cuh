@@ -95,44 +95,23 @@ __device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& 
     ::cuda::std::apply([&](const Value&... value) { visit(slot, borders, value...); }, there);
 }
 
-/// Calls visit(its place, slot, borders, values...) for this thread's share of the neighbours of slot s, with what is at the
-/// neighbour's slot in each of the arrays. Those of `batch` neighbours are under way at a time.
-template <int batch, class Real, class Visit, class... Value>
-__device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
+/// Calls visit(place, own, slot, borders, values...) for this thread's share of the neighbours of slot s, with what `own_at` reads at
+/// the neighbour's place in the list and with what is at its slot in each of the arrays. Those of `batch` neighbours are under
+/// way at a time.
+template <int batch, class Real, class OwnAt, class Visit, class... Value>
+__device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnAt& own_at, const Visit& visit,
+                                     const Value*... array) {
     const std::size_t first = slots.water_place(s, own_lane());
     const int count = own_neighbours(slots, s);
     for (int begin = 0; begin < count; begin += batch) {
         unsigned entry[batch];
-        ::cuda::std::tuple<Value...> there[batch];
-#pragma unroll
-        for (int k = 0; k < batch; ++k)
-            entry[k] = read_once(slots.water.neighbour + first + 32 * min(begin + k, count - 1));
-#pragma unroll
-        for (int k = 0; k < batch; ++k) there[k] = values_at(entry[k], array...);
-#pragma unroll
-        for (int k = 0; k < batch; ++k) {
-            if (begin + k >= count) break;
-            visit_entry(entry[k], there[k], [&](int slot, unsigned borders, const Value&... value) {
-                visit(first + 32 * (begin + k), slot, borders, value...);
-            });
-        }
-    }
-}
-
-/// The same with G_ij instead of the place, once gradients are known.
-template <int batch = 4, class Real, class Visit, class... Value>
-__device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
-    const std::size_t first = slots.water_place(s, own_lane());
-    const int count = own_neighbours(slots, s);
-    for (int begin = 0; begin < count; begin += batch) {
-        unsigned entry[batch];
-        PairGradient<Real> gradient[batch];
+        decltype(own_at(first)) own[batch];
         ::cuda::std::tuple<Value...> there[batch];
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
             const std::size_t place = first + 32 * min(begin + k, count - 1);
             entry[k] = read_once(slots.water.neighbour + place);
-            gradient[k] = read_once(slots.water.pair + place);
+            own[k] = own_at(place);
         }
 #pragma unroll
         for (int k = 0; k < batch; ++k) there[k] = values_at(entry[k], array...);
@@ -140,10 +119,34 @@ __device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit
         for (int k = 0; k < batch; ++k) {
             if (begin + k >= count) break;
             visit_entry(entry[k], there[k], [&](int slot, unsigned borders, const Value&... value) {
-                visit(gradient[k].value(), slot, borders, value...);
+                visit(first + 32 * (begin + k), own[k], slot, borders, value...);
             });
         }
     }
+}
+
+struct Nothing {};
+
+/// Calls visit(place in the list, slot, borders, values...) for each of them.
+template <int batch, class Real, class Visit, class... Value>
+__device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
+    for_each_water_entry<batch>(
+        slots, s, [](std::size_t) { return Nothing(); },
+        [&](std::size_t place, Nothing, int slot, unsigned borders, const Value&... value) {
+            visit(place, slot, borders, value...);
+        },
+        array...);
+}
+
+/// The same with G_ij instead of the place, once gradients are known.
+template <int batch = 4, class Real, class Visit, class... Value>
+__device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
+    for_each_water_entry<batch>(
+        slots, s, [&](std::size_t place) { return read_once(slots.water.pair + place); },
+        [&](std::size_t, const PairGradient<Real>& gradient, int slot, unsigned borders, const Value&... value) {
+            visit(gradient.value(), slot, borders, value...);
+        },
+        array...);
 }
 
 }  // namespace natator::cuda

@@ -1,0 +1,42 @@
+// Members of a batch on a GPU that are computed in parts, by streams side by side.
+#include "solver/cuda/large/parts.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace natator::cuda {
+namespace {
+
+TEST(Parts, HoldEachMemberOnce) {
+    for (int members = 1; members <= 40; ++members)
+        for (int most = 1; most <= 12; ++most)
+            for (int streams = 1; streams <= 3; ++streams) {
+                const Parts parts(members, most, streams);
+                std::vector<int> held(members, 0);
+                for (int part = 0; part < parts.count(); ++part) {
+                    EXPECT_LE(parts.size_of(part), most);
+                    EXPECT_GE(parts.size_of(part), 1) << members << ' ' << most;
+                    for (int k = 0; k < parts.size_of(part); ++k) ++held.at(parts.first(part) + k);
+                }
+                EXPECT_EQ(held, std::vector<int>(members, 1)) << members << ' ' << most;
+                EXPECT_LE(parts.streams, parts.count());
+            }
+}
+
+TEST(Parts, AreOfNearlyOneSize) {
+    const Parts parts(150, 70, 2);
+    EXPECT_EQ(parts.count(), 3);
+    EXPECT_EQ(parts.size, 50);
+    EXPECT_EQ(parts.streams, 2);
+}
+
+TEST(Parts, EachStreamHasOne) {
+    EXPECT_EQ(Parts::most_of(150, 2, 1000), 75);
+    EXPECT_EQ(Parts::most_of(3, 2, 1000), 2);
+    EXPECT_EQ(Parts::most_of(1, 2, 1000), 1);
+    EXPECT_EQ(Parts::most_of(150, 2, 33), 33);
+}
+
+}  // namespace
+}  // namespace natator::cuda
