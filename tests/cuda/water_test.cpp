@@ -182,6 +182,34 @@ TEST_F(GpuWater, ForcesAreTheCpusAndWhatChangesABodysMomentum) {
     for (int i = 0; i < model.particles(); ++i) EXPECT_EQ(on_gpu.velocity[i], other.velocity[i]) << i;
 }
 
+/// A viscosity that an explicit step does not bear is limited by what the two of a pair yield, held ones as water of the mean
+/// mass does: where the water is of two masses that is neither's own.
+TEST_F(GpuWater, LimitedViscosityBesideHeldBodiesIsTheCpus) {
+    Model model = bodies_in_a_corner();
+    model.parameters.kinematicViscosity = 0.3 * spacing * spacing / substep;
+    for (int i = 0; i < model.particles(); i += 2)
+        if (model.is_fluid(i)) model.inverse_mass[i] /= 4;
+    Execution execution;
+    execution.forces = true;
+    Solver<double> cpu(model, execution);
+    GpuSolver<double> gpu(model, {.forces = true});
+    State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu;
+    ASSERT_FALSE(cpu.update(on_cpu, substep, 1));
+    ASSERT_FALSE(gpu.update(on_gpu, substep, 1));
+    const auto forces = gpu.forces(), expected = cpu.forces();
+    double apart = 0, fastest = 0, off = 0, largest = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        apart = std::max(apart, (on_gpu.velocity[i] - on_cpu.velocity[i]).norm());
+        fastest = std::max(fastest, on_cpu.velocity[i].norm());
+        off = std::max(off, (forces[i] - expected[i]).norm());
+        largest = std::max(largest, expected[i].norm());
+    }
+    std::cout << "measured: limited viscosity beside held bodies: velocities " << apart / fastest << ", forces " << off / largest << '\n';
+    EXPECT_LE(apart, 1e-9 * fastest);
+    EXPECT_LE(off, 1e-8 * largest);
+    EXPECT_GT(largest, 0);
+}
+
 /// More neighbours than lists have room for: the update is done again, and its forces are of that alone.
 TEST_F(GpuWater, ForcesAreSummedAnewWhereAnUpdateIsDoneAgain) {
     Points positions = lattice(12, 12, 12, 0.03);
