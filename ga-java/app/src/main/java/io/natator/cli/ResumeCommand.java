@@ -2,8 +2,10 @@ package io.natator.cli;
 
 import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
 import java.nio.file.Path;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
@@ -50,20 +52,21 @@ final class ResumeCommand implements Callable<Integer> {
             resume(Archipelago.in(directory), options, cache, stopAfter, spec);
             return;
         }
+        Backend before = StoredRun.settings(directory).backend();
+        ExecutionSettings execution = cache.in(options.execution(before));
         RunFolder folder = RunFolder.open(directory);
-        if (isChanged(folder.settings().backend(), options, spec)) {
+        if (isChanged(before, options, spec)) {
             folder.changeBackend(options.backend());
         }
-        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder,
-                cache.in(options.execution(folder.settings().backend())), stopAfter);
+        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
     }
 
     private static void resume(Archipelago stored, ExecutionOptions options, CacheOptions cache, Double stopAfter,
             CommandSpec spec) throws InterruptedException {
         Backend before = stored.plan().settings().backend();
+        ExecutionSettings execution = cache.in(options.execution(before));
         Archipelago archipelago = isChanged(before, options, spec) ? stored.changeBackend(options.backend()) : stored;
-        new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago,
-                cache.in(options.execution(before)), stopAfter);
+        new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
     }
 
     /** Whether another backend is asked for, which is told of. */

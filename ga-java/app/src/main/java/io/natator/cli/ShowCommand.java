@@ -42,9 +42,12 @@ final class ShowCommand implements Callable<Integer> {
         PrintWriter out = spec.commandLine().getOut();
         if (Archipelago.exists(folder)) {
             IslandsReport.print(Archipelago.in(folder), out);
+            Archipelago.in(folder).damages().forEach(one -> OneLineErrors.warn(spec.commandLine(), one));
         }
         StoredRun run = Archipelago.stored(folder);
-        OneLineErrors.warn(spec.commandLine(), run.damage());
+        if (!Archipelago.exists(folder)) {
+            OneLineErrors.warn(spec.commandLine(), run.damage());
+        }
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {
