@@ -13,7 +13,6 @@
 #include "io/strict_json.h"
 #include "job.h"
 #include "json_argument.h"
-#include "live/merge_patches.h"
 #include "measure/fnv1a.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
@@ -22,6 +21,7 @@
 #include "natator/model_builder.h"
 #include "natator/version.h"
 #include "run_record.h"
+#include "scene/merge_patches.h"
 #include "scene/scene_json.h"
 
 namespace natator::cli {
