@@ -17,6 +17,10 @@ struct BackendChoice {
 /// Adds --backend, --device and --whole-gpu.
 void add_backend_options(CLI::App* command, BackendChoice& choice);
 
+/// Refuses --device and --whole-gpu, other than they are without being given, of a command that computes on the CPU whatever it
+/// reads.
+void refuse_gpu_options_for_cpu(const BackendChoice& choice);
+
 /// True if the scene is to be computed on the GPU. `auto` takes the GPU where there is one that does the whole scene,
 /// else says on standard error, once for each reason, why it takes the CPU. Throws NoDevice for `cuda` without a GPU.
 bool on_gpu(const BackendChoice& choice, const Scene& scene);

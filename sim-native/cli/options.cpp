@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
+#include <set>
 #include <string_view>
 
 #include "natator/error.h"
@@ -25,6 +27,16 @@ void refuse_empty_values(int argc, const char* const* argv) {
     for (int i = 1; i < argc; ++i)
         if (const std::string_view word = argv[i]; word.starts_with("--") && word.find('=') == word.size() - 1)
             throw InputError(std::string(word.substr(0, word.size() - 1)) + ": " + empty_value);
+}
+
+void refuse_repeated_values(CLI::App& app) {
+    for (CLI::Option* option : app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 1; })) {
+        const auto before = std::make_shared<std::set<std::string>>();
+        option->check([before](const std::string& value) {
+            return before->insert(value).second ? std::string() : value + " is given twice; must be given once";
+        });
+    }
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_repeated_values(*command);
 }
 
 CLI::Validator seconds() {
