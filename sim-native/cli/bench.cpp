@@ -168,7 +168,7 @@ void add_ensemble(CLI::App* bench, int& status) {
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
     command->add_option("--perturbation", options->study.perturbation, "Largest shift of each coordinate, length.")
-        ->check(CLI::Range(0.0, 0.01))
+        ->check(number_in(0, 0.01))
         ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
@@ -283,7 +283,7 @@ void add_water(CLI::App* bench, int& status) {
         ->capture_default_str();
     command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4.")->capture_default_str();
     command->add_option("--support", options->supports, "Of the kernel of scheme conserving, in particle distances.")
-        ->check(CLI::Range(2.0, 4.0))
+        ->check(number_in(2, 4))
         ->capture_default_str();
     command->callback([options, command, &status] {
         const Common& common = options->common;

@@ -16,4 +16,7 @@ void refuse_repeated_values(CLI::App& app);
 /// What a number of seconds may be: finite, and from 0.
 CLI::Validator seconds();
 
+/// A number of these limits; CLI::Range takes NaN for one.
+CLI::Validator number_in(double low, double high);
+
 }  // namespace natator::cli

@@ -86,6 +86,7 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"water", "--case", "towed-sphere", "--scheme", "flex"},
          "--case towed-sphere: runs in scheme conserving only, and not by --quick; must be left out"},
         {{"water", "--quick", "--case", "vortex", "towed-sphere"}, "--case towed-sphere: runs in scheme conserving only"},
+        {{"water", "--support", "nan"}, "--support: expected a number in [2, 4], not nan"},
         {{"water", "--device", "1"}, "--device 1: the backend is cpu; must be left out, or beside --backend cuda or auto"},
         {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
         {{"validation", "--part", "tank", "--setting", "4x4", "4x4"}, "--setting: 4x4 is given twice"},
