@@ -140,13 +140,14 @@ final class CompareCommand implements Callable<Integer> {
                 out.printf("%d  no gait as yet%n", i + 1);
             } else {
                 Map<String, String> fresh = FreshText.of(best);
-                out.printf("%d  %s%n   distance %s, speed %s%s, f %s, a %s, phi %s%n", i + 1, Verdict.of(best).text(),
+                out.printf("%d  %s%n   distance %s, speed %s%s, f %s, a %s, phi %s%s%n", i + 1, Verdict.of(best).text(),
                         fresh.getOrDefault("distance", RunReport.number(best.distance()) + ", one run"),
                         fresh.getOrDefault("speed", RunReport.number(best.speed()) + " units/s"),
                         best.vacuum() == null || best.vacuum().distance() == null ? ""
                                 : ", in vacuum " + RunReport.number(best.vacuum().speed()) + " units/s",
                         RunReport.number(best.gait().frequency()), RunReport.row(best.gait().amplitude()),
-                        RunReport.row(best.gait().phase()));
+                        RunReport.row(best.gait().phase()),
+                        best.gait().offset() == null ? "" : ", offset " + RunReport.row(best.gait().offset()));
                 List.of("half step", "selected").stream().filter(fresh::containsKey)
                         .forEach(name -> out.printf("   %s %s%n", name, fresh.get(name)));
             }

@@ -82,7 +82,7 @@ final class ShowCommand implements Callable<Integer> {
         text.append(", seed ").append(settings.seed());
         text.append(settings.migration() == null ? "" : ", island " + settings.migration().island() + " of "
                 + settings.migration().islands());
-        text.append(", ").append(settings.encoding().name().toLowerCase(Locale.ROOT)).append(" genes");
+        text.append(", ").append(EnumNames.of(settings.encoding())).append(" genes");
         if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.gaussianDeviation());
         }
