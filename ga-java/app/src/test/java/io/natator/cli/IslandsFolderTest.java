@@ -129,15 +129,40 @@ class IslandsFolderTest {
 
     @Test
     void whatCannotBeGoneOnWithChangesNoBackend() throws IOException {
-        for (Path run : List.of(islands, winner)) {
+        Path unfinished = copyOf(islands);
+        Files.delete(unfinished.resolve("island-1/checkpoint.json"));
+        for (Path run : List.of(unfinished, unfinished.resolve("island-1"))) {
             err.getBuffer().setLength(0);
-            String before = Files.readString(run.resolve(run.equals(islands) ? "islands.json" : "config.json"));
+            Path told = run.resolve(run.equals(unfinished) ? "islands.json" : "config.json");
+            String before = Files.readString(told);
 
             assertThat(status("resume", "--simulator-path", SIMULATOR, "--backend", "auto", "--workers", "0", run.toString())).isEqualTo(2);
 
-            assertThat(err.toString()).isEqualTo("natator resume: workers is 0; expected a whole number from 1 to 1024\n");
-            assertThat(run.resolve(run.equals(islands) ? "islands.json" : "config.json")).hasContent(before);
+            assertThat(err.toString()).hasLineCount(1).startsWith(run.equals(unfinished)
+                    ? "natator resume: workers is 0; expected a whole number from 1 to 1024\n"
+                    : "natator resume: " + run + " is one of 2 islands, which go on together");
+            assertThat(told).hasContent(before);
         }
+    }
+
+    @Test
+    void finishedIslandsKeepTheirBackend() throws IOException {
+        String before = Files.readString(islands.resolve("islands.json"));
+
+        swim("resume", "--backend", "auto", islands.toString());
+
+        assertThat(err.toString()).startsWith("finished on backend cpu; nothing is left to compute on auto\n");
+        assertThat(islands.resolve("islands.json")).hasContent(before);
+    }
+
+    private Path copyOf(Path directory) throws IOException {
+        Path copy = folder.resolve("copy");
+        try (Stream<Path> all = Files.walk(directory)) {
+            for (Path one : all.toList()) {
+                Files.copy(one, copy.resolve(directory.relativize(one)));
+            }
+        }
+        return copy;
     }
 
     /** Two pictures of a moment in which two gaits have bent the body differently. */
