@@ -17,8 +17,8 @@ struct BackendChoice {
 /// Adds --backend, --device and --whole-gpu.
 void add_backend_options(CLI::App* command, BackendChoice& choice);
 
-/// Refuses --device and --whole-gpu, other than they are without being given, of a command that computes on the CPU whatever it
-/// reads.
+/// Refuses --device and --whole-gpu, other than they are without being given, where all is computed on the CPU: not of `serve`,
+/// whose requests may choose.
 void refuse_gpu_options_for_cpu(const BackendChoice& choice);
 
 /// True if the scene is to be computed on the GPU. `auto` takes the GPU where there is one that does the whole scene,

@@ -77,6 +77,7 @@ json read_converge_request(const std::string& argument) {
 /// Reads a level's request and refuses what would cost too much.
 LevelRuns read_level(const Level& level, const json& request, const BackendChoice& backend) {
     LevelRuns runs{.level = level, .request = request, .job = read_job(request, backend), .results = {}};
+    refuse_gpu_options_for_cpu(runs.job.backend);
     if (!runs.job.scene.creature)
         throw InputError("request: scene " + natator::quoted(runs.job.request.scene) + ": has no creature; must have one that swims");
     const Model model = build_model(runs.job.scene);

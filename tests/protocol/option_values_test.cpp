@@ -39,6 +39,8 @@ const BadValue bad_values[] = {
     {{"stream", vacuum_scene, "--fields", "velocity,position,velocity"}, "--fields: velocity is given twice; must be given once"},
     {{"stream", vacuum_scene, "--fields", "density", "--fields", "density"}, "--fields: density is given twice"},
     {{"stream", vacuum_scene, "--fields", "none,position"}, "--fields: none stands beside others; must be none alone"},
+    {{"converge", R"({"id":1,"scene":"open-water/creature-1","gait":{"frequency":1,"amplitude":[1,1],"phase":[0,0]}})", "--whole-gpu"},
+     "--whole-gpu: the backend is cpu"},
     {{"run", vacuum_scene, "--device", "2"}, "--device 2: the backend is cpu"},
     {{"run", vacuum_scene, "--whole-gpu", "--backend", "cpu"}, "--whole-gpu: the backend is cpu"},
     {{"particles", std::string(NATATOR_CONFORMANCE_DIR) + "/micro/a_free.json", "--device", "1"}, "--device 1: the backend is cpu"},
