@@ -25,6 +25,12 @@ void add_gpu_options(CLI::App* command, BackendChoice& choice) {
         "for many, with bits of its own. Scheme conserving always does.");
 }
 
+void refuse_gpu_options_for_cpu(const BackendChoice& choice) {
+    if (choice.name != "cpu" || (choice.device == 0 && !choice.whole_gpu)) return;
+    throw InputError((choice.whole_gpu ? std::string("--whole-gpu") : "--device " + std::to_string(choice.device)) +
+                     ": the backend is cpu; must be left out, or beside --backend cuda or auto");
+}
+
 bool on_gpu(const BackendChoice& choice, const Scene& scene) {
     if (choice.name == "cpu") return false;
     const int devices = static_cast<int>(cuda_devices().size());

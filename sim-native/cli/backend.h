@@ -19,6 +19,10 @@ void add_backend_options(CLI::App* command, BackendChoice& choice);
 /// Adds the last two, for what only GPUs do.
 void add_gpu_options(CLI::App* command, BackendChoice& choice);
 
+/// Refuses --device and --whole-gpu, other than they are without being given, where all is computed on the CPU: not of `serve`,
+/// whose requests may choose.
+void refuse_gpu_options_for_cpu(const BackendChoice& choice);
+
 /// True if the scene is to be computed on the GPU. `auto` takes the GPU where there is one that does the whole scene,
 /// else says on standard error, once for each reason, why it takes the CPU. Throws NoDevice for `cuda` without a GPU.
 bool on_gpu(const BackendChoice& choice, const Scene& scene);

@@ -11,6 +11,7 @@
 #include "io/strict_json.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
+#include "options.h"
 #include "precision.h"
 #include "roofline.h"
 #include "speed.h"
@@ -169,7 +170,7 @@ void add_ensemble(CLI::App* bench, int& status) {
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
     command->add_option("--perturbation", options->study.perturbation, "Largest shift of each coordinate, length.")
-        ->check(CLI::Range(0.0, 0.01))
+        ->check(number_in(0, 0.01))
         ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
@@ -254,6 +255,14 @@ void add_validation(CLI::App* bench, int& status) {
     });
 }
 
+/// Refuses a case of which the study does nothing.
+void refuse_cases_left_out(const WaterStudy& study) {
+    const bool conserving = std::ranges::any_of(study.settings, [](const Setting& one) { return one.scheme == Scheme::conserving; });
+    for (const WaterCase& one : water_cases())
+        if (one.held && !(study.held && conserving) && std::ranges::count(study.cases, one.name) > 0)
+            throw InputError("--case " + one.name + ": runs in scheme conserving only, and not by --quick; must be left out");
+}
+
 void add_water(CLI::App* bench, int& status) {
     struct Options {
         Common common;
@@ -276,15 +285,17 @@ void add_water(CLI::App* bench, int& status) {
         ->capture_default_str();
     command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4.")->capture_default_str();
     command->add_option("--support", options->supports, "Of the kernel of scheme conserving, in particle distances.")
-        ->check(CLI::Range(2.0, 4.0))
+        ->check(number_in(2, 4))
         ->capture_default_str();
-    command->callback([options, &status] {
+    command->callback([options, command, &status] {
         const Common& common = options->common;
         WaterStudy study{options->cases, options->resolutions, settings_of(common, options->settings)};
         study.supports = options->supports;
-        study.gpu = on_gpu(options->backend, {});
-        if (common.quick) study.resolutions = {10};
+        refuse_gpu_options_for_cpu(options->backend);
+        if (on_gpu(options->backend, {})) study.gpu = options->backend.device;
+        if (common.quick && command->count("--resolution") == 0) study.resolutions = {10};
         study.held = !common.quick;
+        if (command->count("--case") > 0) refuse_cases_left_out(study);
         ResultTable table(common.output, water_columns(), water_key_columns);
         ResultTable curves = table_beside(common, "curves", water_curve_columns(), water_curve_key_columns);
         run_water_study(study, table, curves, report);
@@ -321,6 +332,7 @@ void add_speed(CLI::App* bench, int& status) {
         ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
+        refuse_gpu_options_for_cpu(options->backend);
         if (on_gpu(options->backend, {})) {
             const GpuSpeedStudy study{options->scenes,  common.chosen_schemes(),   common.chosen_precisions(),
                                       options->batches, options->backend.device,   options->repeats,
@@ -463,6 +475,7 @@ void add_studies(CLI::App& app, int& status) {
     add_throughput(&app, status);
     add_validation(&app, status);
     add_water(&app, status);
+    refuse_repeated_values(app);
 }
 
 }  // namespace natator::cli

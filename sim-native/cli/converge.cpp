@@ -13,7 +13,6 @@
 #include "io/strict_json.h"
 #include "job.h"
 #include "json_argument.h"
-#include "live/merge_patches.h"
 #include "measure/fnv1a.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
@@ -22,6 +21,7 @@
 #include "natator/model_builder.h"
 #include "natator/version.h"
 #include "run_record.h"
+#include "scene/merge_patches.h"
 #include "scene/scene_json.h"
 
 namespace natator::cli {
@@ -77,6 +77,7 @@ json read_converge_request(const std::string& argument) {
 /// Reads a level's request and refuses what would cost too much.
 LevelRuns read_level(const Level& level, const json& request, const BackendChoice& backend) {
     LevelRuns runs{.level = level, .request = request, .job = read_job(request, backend), .results = {}};
+    refuse_gpu_options_for_cpu(runs.job.backend);
     if (!runs.job.scene.creature)
         throw InputError("request: scene " + natator::quoted(runs.job.request.scene) + ": has no creature; must have one that swims");
     const Model model = build_model(runs.job.scene);

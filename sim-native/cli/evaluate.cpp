@@ -22,6 +22,7 @@ int evaluate_request(const std::string& text, EvaluateOptions& options, json& id
     const json value = parse_json(text, "request");
     id = request_id(value);
     const Job job = read_job(value, options.backend);
+    refuse_gpu_options_for_cpu(job.backend);
     const Evaluation evaluation = evaluate_job(job, options.execution.execution());
     const auto result = result_json(id, evaluation, job.scene.scheme, job.request.precision);
     print((options.plain ? result.at("fitness") : result).dump() + "\n");

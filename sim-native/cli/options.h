@@ -10,7 +10,13 @@ void refuse_empty_values(CLI::App& app);
 /// Refuses `--option=`, for which the next argument would be taken.
 void refuse_empty_values(int argc, const char* const* argv);
 
+/// Makes a value that is given twice in a list refused, of any option of a command and of those below it.
+void refuse_repeated_values(CLI::App& app);
+
 /// What a number of seconds may be: finite, and from 0.
 CLI::Validator seconds();
+
+/// A number of these limits; CLI::Range takes NaN for one.
+CLI::Validator number_in(double low, double high);
 
 }  // namespace natator::cli

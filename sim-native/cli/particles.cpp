@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "backend.h"
 #include "commands.h"
 #include "io/particle_experiment.h"
 #include "io/strict_json.h"
@@ -28,6 +29,7 @@ void run_particles(const ParticlesOptions& options, int& status) {
     if (!experiments.is_array()) throw InputError(options.file + ": is not an array of experiments");
     const Precision precision =
         options.precision == "double" ? Precision::double_precision : Precision::single_precision;
+    refuse_gpu_options_for_cpu({.name = options.backend, .device = options.device});
     const std::optional<int> gpu = options.backend == "cuda" ? std::optional(options.device) : std::nullopt;
     nlohmann::json results = nlohmann::json::array();
     for (std::size_t i = 0; i < experiments.size(); ++i) {

@@ -37,6 +37,7 @@ struct RunOptions {
 
 /// Recordings are made on the CPU.
 bool run_on_gpu(const RunOptions& options, const Scene& scene) {
+    refuse_gpu_options_for_cpu(options.backend);
     if (options.trajectory.empty() && options.snapshot.empty()) return on_gpu(options.backend, scene);
     if (options.backend.name == "cuda")
         throw InputError("--backend cuda: records no --trajectory and no --snapshot; must be cpu or auto with them");

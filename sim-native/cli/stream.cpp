@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -39,6 +40,8 @@ LiveSetup read_setup(const StreamOptions& options) {
 }
 
 stream::Fields read_fields(const std::vector<std::string>& names) {
+    if (names.size() > 1 && std::ranges::find(names, "none") != names.end())
+        throw InputError("--fields: none stands beside others; must be none alone, or some of position, velocity, density");
     stream::Fields fields{.position = false};
     for (const std::string& name : names) {
         fields.position |= name == "position";
@@ -98,6 +101,7 @@ void add_stream(CLI::App& app, int& status) {
     command->add_flag("--lossless", settings.lossless, "Wait for credit instead of dropping frames.");
     command->add_flag("--paused", settings.paused, "Begin paused.");
     add_execution_options(command, options->execution);
+    refuse_repeated_values(*command);
     command->callback([options, &status] { status = stream_scene(*options); });
 }
 

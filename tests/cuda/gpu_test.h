@@ -4,6 +4,8 @@
 
 #include "natator/batch.h"
 #include "natator/gait.h"
+#include "natator/gpu_solver.h"
+#include "natator/solver.h"
 #include "natator/state.h"
 #include "scene/scene_json.h"
 
@@ -45,6 +47,29 @@ double largest_distance(const State<Real>& a, const State<Real>& b) {
     }
     return largest;
 }
+
+/// A model on the CPU and on the GPU, from the same start.
+struct OnBoth {
+    Solver<double> cpu;
+    GpuSolver<double> gpu;
+    State<double> on_cpu, on_gpu;
+
+    explicit OnBoth(const Model& model, bool forces = false)
+        : cpu(model, execution(forces)),
+          gpu(model, {.forces = forces}),
+          on_cpu(initial_state<double>(model)),
+          on_gpu(on_cpu) {}
+
+    /// Advances both; false if one is not stable.
+    bool update(double time, int substeps) { return !cpu.update(on_cpu, time, substeps) && !gpu.update(on_gpu, time, substeps); }
+
+private:
+    static Execution execution(bool forces) {
+        Execution chosen;
+        chosen.forces = forces;
+        return chosen;
+    }
+};
 
 inline std::string name_of(Scheme scheme) {
     return scheme == Scheme::flex ? "flex" : "conserving";

@@ -22,12 +22,10 @@ TEST_F(GpuPeriodic, CornersAreTheCpus) {
         for (const PeriodicAxis& axis : model.periodic)  // some on the very seam: they are there but once
             for (Eigen::Vector3d& x : model.position)
                 if (std::abs(x[axis.axis] - axis.low) < 0.04) x[axis.axis] = axis.low;
-        Solver<double> cpu(model);
-        GpuSolver<double> gpu(model);
-        State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu;
+        OnBoth both(model);
+        auto& [cpu, gpu, on_cpu, on_gpu] = both;
         for (int k = 0; k < 10; ++k) {
-            ASSERT_FALSE(cpu.update(on_cpu, substep, 1));
-            ASSERT_FALSE(gpu.update(on_gpu, substep, 1));
+            ASSERT_TRUE(both.update(substep, 1));
             EXPECT_EQ(gpu.neighbour_counts(), cpu.neighbour_counts()) << k;
         }
         std::cout << "measured: periodic water, ten substeps " << largest_distance(on_cpu, on_gpu) << '\n';
@@ -63,11 +61,8 @@ TEST_F(GpuPeriodic, ABodyGoesRoundAsOnTheCpu) {
     Model model = cube_through_periodic_water(0.95);
     for (const double laps : {0.0, -3.0}) {
         for (const int i : model.clusters.front().particles) model.position[i].x() += laps * model.periodic[0].length();
-        Execution execution;
-        execution.forces = true;
-        Solver<double> cpu(model, execution);
-        GpuSolver<double> gpu(model, {.forces = true});
-        State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu;
+        OnBoth both(model, true);
+        auto& [cpu, gpu, on_cpu, on_gpu] = both;
         for (int k = 0; k < 6; ++k) {
             advance_frames(cpu, model, on_cpu, 1);
             advance_frames(gpu, model, on_gpu, 1);
@@ -90,12 +85,10 @@ TEST_F(GpuPeriodic, EffectsAreTheCpus) {
     model.parameters.cohesion = 0.002;
     model.parameters.surfaceTension = 5;
     model.parameters.vorticityConfinement = 0.5;
-    Solver<double> cpu(model);
-    GpuSolver<double> gpu(model);
-    State<double> on_cpu = initial_state<double>(model), on_gpu = on_cpu;
+    OnBoth both(model);
+    auto& [cpu, gpu, on_cpu, on_gpu] = both;
     for (int k = 0; k < 4; ++k) {
-        ASSERT_FALSE(cpu.update(on_cpu, substep, 1));
-        ASSERT_FALSE(gpu.update(on_gpu, substep, 1));
+        ASSERT_TRUE(both.update(substep, 1));
     }
     EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-11);
 }

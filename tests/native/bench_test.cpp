@@ -84,6 +84,13 @@ TEST(ResultTableTest, GoesOnWhereAKilledStudyStopped) {
     EXPECT_EQ(content(file.path), "a,b\n1,x\n2,y\n");
     EXPECT_EQ(table.text(), content(file.path));
     EXPECT_THROW(ResultTable(file.path, {"a", "c"}, 1), InputError);
+    for (const char* text : {"", "a", "a,b"}) {  // killed before the first row
+        std::ofstream(file.path, std::ios::trunc) << text;
+        EXPECT_NO_THROW(ResultTable(file.path, {"a", "b"}, 1)) << text;
+    }
+    std::ofstream(file.path, std::ios::trunc) << "somebody's notes, without a line break";
+    EXPECT_THROW(ResultTable(file.path, {"a", "b"}, 1), InputError);
+    EXPECT_EQ(content(file.path), "somebody's notes, without a line break");
 }
 
 TEST(ResultTableTest, NumbersReadBack) {

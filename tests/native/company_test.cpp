@@ -1,6 +1,8 @@
 // More than one body in a tank, and obstacles.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -124,6 +126,30 @@ TEST(Company, AMeshIsAnObstacleOfItsForm) {
     const Obstacle along_y = hoop({{"forward", "y"}, {"up", "x"}});
     EXPECT_FALSE(along_y.holds({3, 1.5, 0.8}));
     EXPECT_TRUE(along_y.holds({3.5, 1, 0.8}));
+}
+
+/// Obstacles that share a face, or overlap, are one: no two particles lie in each other, which would have no volume.
+TEST(Company, ObstaclesThatTouchAreOne) {
+    const auto box = [](double centre, double length) -> json {
+        return {{"shape", "box"}, {"centre", {centre, 0.3, 1}}, {"size", {length, 0.3, 0.3}}};
+    };
+    const auto obstacles = [](const json& boxes) {
+        const Model model = build_model(load_scene("open-water/water", json{{"obstacles", boxes}}));
+        std::vector<std::array<long, 3>> places;
+        for (int i = 0; i < model.particles(); ++i) {
+            if (model.is_fluid(i)) continue;
+            const Eigen::Vector3d at = model.position[i] * 1e6;
+            places.push_back({std::lround(at.x()), std::lround(at.y()), std::lround(at.z())});
+        }
+        std::sort(places.begin(), places.end());
+        return places;
+    };
+    const auto whole = obstacles(json::array({box(1.15, 0.6)}));
+    EXPECT_EQ(whole.size(), 9u * 5 * 5);
+    EXPECT_EQ(obstacles({box(1, 0.3), box(1.3, 0.3)}), whole);
+    EXPECT_EQ(obstacles({box(1, 0.3), box(1.15, 0.3), box(1.3, 0.3)}), whole);
+    EXPECT_EQ(obstacles({box(1, 0.3), box(1.3 + 1e-7, 0.3)}).size(), whole.size());
+    EXPECT_EQ(obstacles({box(1, 0.3), box(1.4, 0.3)}).size(), 2 * 5u * 5 * 5);
 }
 
 TEST(Company, AnObstacleThatIsTooLargeIsNamed) {

@@ -374,7 +374,16 @@ INSTANTIATE_TEST_SUITE_P(All, BadPeriodic, testing::ValuesIn(std::vector<BadInpu
     {R"({"periodic":["z"],"creature":null,"planes":[[0,0,1,0],[0,0,-1,0.45]],"fluid":{"count":[9,9,4]}})", "the tank is 0.45 long along z", "must be at least 0.5 (two kernel radii"},
     {R"({"periodic":["x"],"fluid":{"origin":[-0.1,0.05,0.05]}})", "periodic: particle at (-0.1, ", "must begin within [0, 2.6] along x"},
     {R"({"periodic":["x"],"obstacles":[{"shape":"sphere","centre":[2.2,0.5,0.5],"radius":0.1}]})", "periodic: has no room for a creature beside obstacles", "contacts"},
+    {R"({"periodic":["x"],"creature":null,"obstacles":[{"shape":"box","centre":[1.3,0.2,0.5],"size":[2.6,0.2,0.2],"spacing":0.1}]})",
+     "periodic: obstacles have a particle at (2.6, 0.1, 0.4), at the high end along x", "a spacing shorter than the tank"},
 }), [](const auto& bad) { return std::to_string(bad.index); });
+
+/// An obstacle that goes on through the ends: what is nearest to it is everywhere as near.
+TEST(Periodic, AnObstacleMayGoAllAlong) {
+    const json beam = json::parse(R"({"periodic":["x"],"creature":null,
+        "obstacles":[{"shape":"box","centre":[1.25,0.2,0.5],"size":[2.5,0.2,0.2],"spacing":0.1}]})");
+    EXPECT_NO_THROW(build_model(load_scene("pool/creature-1", beam)));
+}
 
 TEST(Periodic, AllOtherPlanesAreAlongTheAxis) {
     Scene scene = round_tank();

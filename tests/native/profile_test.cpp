@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -315,6 +317,30 @@ TEST(Profile, NamesWhatIsMissing) {
         EXPECT_EQ(message(key.c_str(), nullptr), "scene \"spindle\": creature.profile." + key + ": missing; must be given");
     EXPECT_NE(message("height", json::parse("[[0,0.2],[0.9,0.4]]")).find("height[1][0] = 0.9: must be at 1 of the length"),
               std::string::npos);
+}
+
+/// What only the creature's file has: an override's null takes it away, also through a scene that builds on another.
+TEST(Profile, NullTakesAwayWhatTheCreaturesFileHas) {
+    const json no_fin = json::parse(R"({"creature":{"profile":{"fin":null,"height":0.3,"width":0.2}}})");
+    EXPECT_TRUE(scene_definition("pool/tuna", json::object())["creature"]["profile"].contains("fin"));
+    const json definition = scene_definition("pool/tuna", no_fin);
+    EXPECT_FALSE(definition["creature"]["profile"].contains("fin"));
+    EXPECT_EQ(definition["creature"]["profile"]["joints"].size(), 5u);
+    EXPECT_EQ(load_scene("pool/tuna", no_fin).creature->slices.back().width, 3);
+
+    const std::string file = testing::TempDir() + "natator-without-fin.json";
+    std::ofstream(file) << json{{"base", "pool/tuna"}, {"creature", no_fin["creature"]}};
+    EXPECT_EQ(scene_definition(file, json::object())["creature"], definition["creature"]);
+    const json with_stiffness = scene_definition(file, json::parse(R"({"creature":{"springStiffness":0.5}})"));
+    EXPECT_FALSE(with_stiffness["creature"]["profile"].contains("fin"));
+    EXPECT_EQ(with_stiffness["creature"]["springStiffness"], 0.5);
+    std::filesystem::remove(file);
+
+    const json file_spacing = scene_definition("pool/eel", json::object())["creature"]["spacing"];
+    EXPECT_NE(file_spacing, 1);
+    EXPECT_EQ(scene_definition("pool/eel", json::parse(R"({"creature":{"description":null,"spacing":1}})"))["creature"]["spacing"], 1);
+    const json own = json::parse(R"({"creature":{"name":"mine","slices":[{"height":2,"width":2,"count":3}],"joints":[],"spacing":null}})");
+    EXPECT_FALSE(scene_definition("pool/eel", own)["creature"].contains("spacing"));
 }
 
 /// A profile of a scene takes the place of the slices that its creature's file has, and needs no file.

@@ -143,6 +143,13 @@ const BadInput bad_scenes[] = {
     {R"({"fluid":null,"creature":null})", "0 particles", "a creature or fluid"},
     {R"({"creature":{"slices":[{"height":5,"width":1,"count":17}],"joints":[4,8,12]}})", "creature.joints[0]",
      "actuator 0"},
+    {R"({"obstacles":[{"shape":"sphere","centre":[0,0,0],"radius":1},{"shape":"sphere","centre":[0,0,1],"radius":1},)"
+     R"({"shape":"sphere","centre":[0,0.0,0],"radius":1.0,"spacing":0.2}]})",
+     "obstacles[2] = {", "elsewhere than obstacles[0], whose place and shape it has"},
+    {R"({"obstacles":[{"shape":"box","centre":[1,1,1],"size":[1,1,2]},{"shape":"box","centre":[1,1,1],"size":[1,1,2]}]})",
+     "obstacles[1] = {", "elsewhere than obstacles[0]"},
+    {R"({"obstacles":[{"shape":"mesh","file":"hoop.obj","centre":[3,1,1]},{"shape":"mesh","file":"hoop.obj","centre":[3,1,1]}]})",
+     "obstacles[1] = {", "elsewhere than obstacles[0]"},
     {R"({"creature":{"name":"creature-9"}})", "creature.name", "creature-1, creature-2"},
 };
 

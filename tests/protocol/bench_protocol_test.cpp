@@ -79,6 +79,37 @@ TEST(BenchProtocolTest, WaterTakesTheKernelsSupport) {
     EXPECT_NE(refused.err.find("--support"), std::string::npos) << refused.err;
 }
 
+TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
+        {{"water", "--scheme", "flex", "flex"}, "--scheme: flex is given twice; must be given once"},
+        {{"water", "--case", "vortex", "--case", "vortex"}, "--case: vortex is given twice"},
+        {{"water", "--case", "towed-sphere", "--scheme", "flex"},
+         "--case towed-sphere: runs in scheme conserving only, and not by --quick; must be left out"},
+        {{"water", "--quick", "--case", "vortex", "towed-sphere"}, "--case towed-sphere: runs in scheme conserving only"},
+        {{"water", "--support", "nan"}, "--support: expected a number in [2, 4], not nan"},
+        {{"water", "--device", "1"}, "--device 1: the backend is cpu; must be left out, or beside --backend cuda or auto"},
+        {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
+        {{"validation", "--part", "tank", "--setting", "4x4", "4x4"}, "--setting: 4x4 is given twice"},
+    };
+    for (const auto& [options, message] : bad) {
+        std::vector<std::string> arguments{"bench"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome outcome = run_simulator(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << message;
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+        EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    }
+}
+
+/// --quick chooses a resolution only where none is given.
+TEST(BenchProtocolTest, QuickWaterKeepsTheResolutionThatIsGiven) {
+    const Outcome outcome = run_simulator({"bench", "water", "--quick", "--case", "tilted-gravity", "--scheme", "conserving",
+                                           "--resolution", "8"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("\ntilted-gravity,8,"), std::string::npos) << outcome.out;
+}
+
 TEST(BenchProtocolTest, ValidationRefusesWhatIsNoSetting) {
     for (const char* setting : {"8", "8x", "x4", "0x4", "8x4x2", "8,4", "-1x4", "8x1001", "fine"}) {
         const Outcome outcome = run_simulator({"bench", "validation", "--part", "tank", "--setting", setting});

@@ -94,6 +94,17 @@ TEST(EvaluateProtocolTest, EveryOptionalFieldHasItsEffect) {
     EXPECT_LT(std::abs(free["distance"].get<double>()), std::abs(base["distance"].get<double>()) / 5);
 }
 
+/// What chooses a GPU is refused where the request, too, leaves it at the CPU.
+TEST(EvaluateProtocolTest, OptionsOfGpusAreRefusedOnTheCpu) {
+    json asked = request("thesis/creature-1-vacuum", 0.1);
+    const Outcome refused = run_simulator({"evaluate", "--device", "1023"}, asked.dump());
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err, "natator-sim: --device 1023: the backend is cpu; must be left out, or beside --backend cuda or auto\n");
+    EXPECT_EQ(json::parse(refused.out)["status"], "error");
+    asked["backend"] = "cuda";
+    EXPECT_EQ(run_simulator({"evaluate", "--device", "1023"}, asked.dump()).exit_code, 4);
+}
+
 /// In conserving water another start is another arrangement of the water; elsewhere all is shifted a little.
 TEST(EvaluateProtocolTest, AStartIsAnotherArrangementOfTheWater) {
     json asked = request("bench/small-tank", 0.1);

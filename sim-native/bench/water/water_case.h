@@ -16,7 +16,7 @@ namespace natator::bench {
 struct WaterSetting {
     Setting solver;
     int resolution = 20;  ///< particles along the case's length
-    bool gpu = false;
+    std::optional<int> gpu{};  ///< its number; none: on the CPU
     double support = SolverParameters().kernelSupport;  ///< of the kernel of scheme conserving, in spacings
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct WaterStudy {
     std::vector<int> resolutions;    ///< particles along the case's length
     std::vector<Setting> settings;
     std::vector<double> supports{SolverParameters().kernelSupport};  ///< see WaterSetting; scheme flex has none and runs once
-    bool gpu = false;
+    std::optional<int> gpu{};  ///< its number; none: on the CPU
     bool held = true;  ///< also the cases of bodies that are held
 };
 

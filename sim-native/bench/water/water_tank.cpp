@@ -77,7 +77,7 @@ typename WaterTank<Real>::Step WaterTank<Real>::step_of(const Model& model) {
         forces_ = [solver] { return solver->forces(); };
         return [solver](State<Real>& state, double time, int substeps) { return solver->update(state, time, substeps); };
     };
-    if (setting_.gpu) return step_by(std::make_shared<GpuSolver<Real>>(model, GpuSolverOptions{.forces = true}));
+    if (setting_.gpu) return step_by(std::make_shared<GpuSolver<Real>>(model, GpuSolverOptions{.device = *setting_.gpu, .forces = true}));
     return step_by(std::make_shared<Solver<Real>>(model, Execution{.forces = true}));
 }
 

@@ -1,7 +1,6 @@
 #include "evaluate/perturb.h"
 #include "evaluate/settled_start.h"
 #include "io/strict_json.h"
-#include "merge_patches.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
@@ -12,6 +11,7 @@
 #include "natator/model_builder.h"
 #include "natator/pose.h"
 #include "same_layout.h"
+#include "scene/merge_patches.h"
 
 namespace natator {
 namespace {

@@ -170,7 +170,7 @@ Model build_model(const Scene& scene) {
         add_companion(model_of(scene, companion.creature, place + ".creature"), companion.gait, model);
     }
     check_apart(scene, model);
-    for (const Obstacle& obstacle : scene.obstacles) add_obstacle(obstacle, model);
+    add_obstacles(scene.obstacles, model);
     if (scene.fluid) {
         check_clearance(scene, model.particles());
         add_fluid(*scene.fluid, model);

@@ -1,7 +1,10 @@
 #include "periodic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <set>
 #include <sstream>
 
 #include "io/strict_json.h"
@@ -58,6 +61,25 @@ void check_starts(const Scene& scene, const Model& model, const PeriodicAxis& ax
     }
 }
 
+/// Solids at both ends are at one place: nothing may lie there twice.
+void check_ends(const Scene& scene, const Model& model, const PeriodicAxis& axis) {
+    const double near = 1e-6 * axis.length();
+    using Across = std::array<std::int64_t, 2>;
+    const auto across = [&](const Eigen::Vector3d& at) {
+        return Across{std::llround(at.y() / near), std::llround(at[2 - axis.axis] / near)};
+    };
+    std::set<Across> low;
+    for (int i = 0; i < model.particles(); ++i)
+        if (!model.is_fluid(i) && model.position[i][axis.axis] - axis.low < near) low.insert(across(model.position[i]));
+    for (int i = 0; i < model.particles(); ++i) {
+        const Eigen::Vector3d& at = model.position[i];
+        if (model.is_fluid(i) || axis.high - at[axis.axis] >= near || !low.contains(across(at))) continue;
+        refuse(scene, "obstacles have a particle at (", at.x(), ", ", at.y(), ", ", at.z(), "), at the high end along ",
+               name_of_axis(axis.axis), ", and one just there at the low end, which is the same place; one that goes all along must be a "
+               "spacing shorter than the tank");
+    }
+}
+
 }  // namespace
 
 void check_periodic(const Scene& scene, const Model& model) {
@@ -75,6 +97,7 @@ void check_periodic(const Scene& scene, const Model& model) {
         check_planes(scene, axis);
         check_room(scene, model, axis);
         check_starts(scene, model, axis);
+        check_ends(scene, model, axis);
     }
 }
 

@@ -39,6 +39,19 @@ Obstacle read_obstacle(const json& value, const Place& place, const std::filesys
     return obstacle;
 }
 
+/// Whether two fill the same place; a mesh that is sampled otherwise is another one.
+bool coincide(const Obstacle& a, const Obstacle& b) {
+    return a.shape == b.shape && a.centre == b.centre && a.radius == b.radius && a.size == b.size && a.points == b.points;
+}
+
+/// Refuses an obstacle that is one before it once more: its particles would lie in each other.
+void check_alone(const std::vector<Obstacle>& obstacles, const json& last, const Place& all) {
+    for (std::size_t k = 0; k + 1 < obstacles.size(); ++k)
+        if (coincide(obstacles[k], obstacles.back()))
+            refuse(all.item(obstacles.size() - 1), last,
+                   "elsewhere than " + all.item(k).path + ", whose place and shape it has, or left out");
+}
+
 }  // namespace
 
 std::vector<Companion> read_companions(const json& value, const Place& place, const std::filesystem::path& data) {
@@ -57,8 +70,10 @@ std::vector<Companion> read_companions(const json& value, const Place& place, co
 
 std::vector<Obstacle> read_obstacles(const json& value, const Place& place, const std::filesystem::path& data) {
     std::vector<Obstacle> obstacles;
-    for (const json& one : checked_array(value, place, max_obstacles, "obstacles"))
+    for (const json& one : checked_array(value, place, max_obstacles, "obstacles")) {
         obstacles.push_back(read_obstacle(one, place.item(obstacles.size()), data));
+        check_alone(obstacles, one, place);
+    }
     return obstacles;
 }
 

@@ -152,4 +152,8 @@ const json& required(const json& object, const Place& place, const char* key) {
     return *found;
 }
 
+bool has(const json& object, const char* key) {
+    return object.contains(key) && !object.at(key).is_null();
+}
+
 }  // namespace natator::fields

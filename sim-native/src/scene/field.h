@@ -73,6 +73,9 @@ void drop_schema_key(json& object, const Place& place);
 /// The value of a key that must be there.
 const json& required(const json& object, const Place& place, const char* key);
 
+/// Whether a part is there: its key is, and is not null.
+bool has(const json& object, const char* key);
+
 /// The value of one of several words.
 template <class Enum>
 Enum read_choice(const json& value, const Place& place, const std::vector<std::pair<std::string_view, Enum>>& choices) {

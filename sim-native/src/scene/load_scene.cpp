@@ -1,6 +1,7 @@
 #include "data_files.h"
 #include "field.h"
 #include "io/strict_json.h"
+#include "merge_patches.h"
 #include "natator/error.h"
 #include "readers.h"
 #include "scene_json.h"
@@ -37,6 +38,28 @@ void place_creature_mesh(json& holder, const std::string& name, const std::files
     if (creature.contains("mesh")) place_mesh(creature.at("mesh"), name, data);
 }
 
+/// Whether a scene's creature is a change of the creature file that its `name` names: it is not if it brings its own `slices`,
+/// or a `profile` or `mesh` and no name.
+bool is_of_file(const json& creature) {
+    const bool shaped = fields::has(creature, "profile") || fields::has(creature, "mesh");
+    return !fields::has(creature, "slices") && (!shaped || fields::has(creature, "name"));
+}
+
+/// Merges a patch onto a scene. What it takes off of a creature whose file still has it stays null, for the file.
+void patch_scene(json& scene, const json& patch) {
+    const json before = scene.value("creature", json::object());
+    scene.merge_patch(patch);
+    if (!patch.contains("creature") || !patch.at("creature").is_object()) return;
+    json& creature = scene.at("creature");
+    if (is_of_file(creature)) {
+        creature = merge_patches(before, patch.at("creature"));
+    } else {
+        json whole = json::object();
+        whole.merge_patch(creature);  // without nulls
+        creature = std::move(whole);
+    }
+}
+
 /// A scene file merged onto the scene that its `base` names, and so on.
 json with_bases(const std::string& name, const std::filesystem::path& data, int level) {
     const Place place{"scene " + quoted(name), ""};
@@ -56,7 +79,7 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     if (level == max_bases)
         fields::refuse(place.key("base"), base, "part of a chain of at most 8 scenes without a loop");
     json merged = with_bases(base.get<std::string>(), data, level + 1);
-    merged.merge_patch(document);
+    patch_scene(merged, document);
     return merged;
 }
 
@@ -65,17 +88,16 @@ void replace_scale(json& of_file, const json& of_scene) {
     for (const json* creature : {static_cast<const json*>(&of_file), &of_scene})
         if (!creature->contains("mesh") || !creature->at("mesh").is_object()) return;
     for (const auto& [given, other] : {std::pair{"unit", "length"}, std::pair{"length", "unit"}})
-        if (of_scene.at("mesh").contains(given) && !of_scene.at("mesh").contains(other)) of_file["mesh"].erase(other);
+        if (fields::has(of_scene.at("mesh"), given) && !of_scene.at("mesh").contains(other)) of_file["mesh"].erase(other);
 }
 
-/// Merges a scene's `creature` onto the creature file that its `name` names, unless it brings its own `slices`, or a
-/// `profile` or `mesh` and no name. Each of these takes the place of the others that the file may have.
+/// Merges a scene's `creature` onto the file that it is a change of, if it is of any. Of slices, profile and mesh each takes the
+/// place of the others that the file may have.
 /// `holder`: the scene, or one of its companions.
 void resolve_creature(json& holder, const Place& place, const std::filesystem::path& data) {
     if (!holder.contains("creature") || !holder.at("creature").is_object()) return;
     json& creature = holder.at("creature");
-    const bool shaped = creature.contains("profile") || creature.contains("mesh");
-    if (creature.contains("slices") || (shaped && !creature.contains("name"))) return;
+    if (!is_of_file(creature)) return;
     const json name = fields::required(creature, place, "name");
     if (!name.is_string()) fields::refuse(place.key("name"), name, "the name of a creature");
     json merged;
@@ -88,7 +110,7 @@ void resolve_creature(json& holder, const Place& place, const std::filesystem::p
     fields::drop_schema_key(merged, place);
     if (merged.contains("mesh")) place_mesh(merged.at("mesh"), name.get<std::string>(), data);
     for (const char* kind : {"profile", "mesh"}) {
-        if (!creature.contains(kind) || merged.contains(kind)) continue;
+        if (!fields::has(creature, kind) || merged.contains(kind)) continue;
         for (const char* key : {"slices", "joints", "muscleSlices", "profile", "mesh"}) merged.erase(key);
     }
     replace_scale(merged, creature);
@@ -114,7 +136,7 @@ json scene_definition(const std::string& name, const json& overrides, const std:
     const Place place{"scene " + quoted(name), ""};
     if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
     json document = with_bases(name, data, 0);
-    document.merge_patch(overrides);
+    patch_scene(document, overrides);
     resolve_creature(document, place.key("creature"), data);
     add_mesh_digest(document, place.key("creature"), data);
     if (json* const companions = array_in(document, "companions"))

@@ -41,7 +41,7 @@ Lattice read_lattice(const json& value, const Place& place, double spacing) {
 }
 
 std::optional<Fin> read_fin(const json& profile, const Place& place, const Lattice& lattice) {
-    if (!profile.contains("fin") || profile.at("fin").is_null()) return std::nullopt;
+    if (!has(profile, "fin")) return std::nullopt;
     const json& value = profile.at("fin");
     const Place at = place.key("fin");
     check_keys(value, at, {"height", "thickness"});

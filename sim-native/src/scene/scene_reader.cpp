@@ -67,11 +67,6 @@ std::vector<Plane> read_planes(const json& value, const Place& place) {
     return planes;
 }
 
-/// A part that is absent when its key is absent or null.
-bool has(const json& document, const char* key) {
-    return document.contains(key) && !document.at(key).is_null();
-}
-
 void check_frames(const Scene& scene, const Place& place) {
     const double frames = scene.duration / scene.time_step;
     if (frames > max_frames) {
@@ -126,8 +121,8 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     }
     if (document.contains("solver")) scene.solver = fields::read_solver(document.at("solver"), place.key("solver"));
     if (document.contains("planes")) scene.planes = read_planes(document.at("planes"), place.key("planes"));
-    if (has(document, "fluid")) scene.fluid = fields::read_fluid(document.at("fluid"), place.key("fluid"));
-    if (has(document, "creature")) {
+    if (fields::has(document, "fluid")) scene.fluid = fields::read_fluid(document.at("fluid"), place.key("fluid"));
+    if (fields::has(document, "creature")) {
         scene.creature = fields::read_creature(document.at("creature"), place.key("creature"), data);
     }
     if (document.contains("settling")) {
@@ -140,12 +135,12 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
         scene.companions = fields::read_companions(document.at("companions"), place.key("companions"), data);
     if (document.contains("obstacles"))
         scene.obstacles = fields::read_obstacles(document.at("obstacles"), place.key("obstacles"), data);
-    if (has(document, "movingTank"))
+    if (fields::has(document, "movingTank"))
         scene.moving_tank = fields::read_moving_tank(document.at("movingTank"), place.key("movingTank"));
     if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));
     check_frames(scene, place);
     check_water(scene, place);
-    if (has(document, "periodic"))
+    if (fields::has(document, "periodic"))
         scene.periodic = fields::read_periodic(document.at("periodic"), place.key("periodic"), scene.fluid.has_value(),
                                                scene.planes);
     return scene;

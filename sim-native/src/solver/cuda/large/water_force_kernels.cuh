@@ -13,25 +13,18 @@ __device__ void add_impulse(const ModelView<Real>& model, const Slots<Real>& slo
     sum = quad(xyz(sum) + impulse, Real(0));
 }
 
-/// As water_viscosity does, on the same velocities; of solid slot `model.fluid + k`.
+/// As water_viscosity does, on the same velocities; of solid slot `model.fluid + k`, by the water alone.
 template <class Real>
 __device__ void add_viscous_forces(const ModelView<Real>& model, const Slots<Real>& slots, int k) {
     const int s = model.fluid + k;
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> here = water.position[s], moves = water.velocity[s];
-    const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
-    const Real most = physics::viscous_limit(model.water.spacing, strength);
-    physics::ViscousSums<Real> sums;
+    const Real strength = viscous_strength(model, slots);
+    ViscousPairs<Real> pairs(model, water, s, strength);
     for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
-        if (other >= model.fluid) return;
-        const Quad<Real> there = water.position[other];
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
-        const Quad<Real> u = seen(model, water.velocity[other], borders);
-        const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most) *
-                           physics::viscous_grip(Real(1), Real(0));
-        sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share, gradient);
+        if (other < model.fluid)
+            pairs.add(gradient, borders, water.position[other], water.velocity[other], water.shear[other]);
     });
-    const Vec3<Real> sum = sum_of_lanes(sums.impulse);
+    const Vec3<Real> sum = pairs.impulse();
     if (own_lane() == 0) add_impulse(model, slots, s, strength * sum);
 }
 

@@ -160,25 +160,55 @@ __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>
         move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
 }
 
+/// Viscous impulses on one slot by its neighbours, see physics::ViscousSums: what water_viscosity and add_viscous_forces share.
+template <class Real>
+class ViscousPairs {
+public:
+    __device__ ViscousPairs(const ModelView<Real>& model, const WaterArrays<Real>& water, int s, Real strength)
+        : model_(model),
+          here_(water.position[s]),
+          moves_(water.velocity[s]),
+          shear_(water.shear[s]),
+          most_(physics::viscous_limit(model.water.spacing, strength)) {}
+
+    /// `there`, `velocity` and `shear`: the other's, as they are laid out.
+    __device__ void add(const Vec3<Real>& gradient, unsigned borders, const Quad<Real>& there, const Quad<Real>& velocity,
+                        const Quad<Real>& shear) {
+        const Vec3<Real> difference = xyz(here_) - ghost_of(model_.water, xyz(there), borders);
+        const Vec3<Real> moves = xyz(seen(model_, velocity, borders)) - xyz(moves_);
+        const Real share = physics::viscous_share(here_.w * shear_.z, there.w * shear.z, most_) *
+                           physics::viscous_grip(shear_.w, shear.w);
+        sums_.add(difference, moves, model_.water.softening, share, gradient);
+    }
+
+    __device__ Vec3<Real> impulse() const { return sum_of_lanes(sums_.impulse); }
+
+private:
+    const ModelView<Real>& model_;
+    const Quad<Real> here_, moves_, shear_;
+    const Real most_;
+    physics::ViscousSums<Real> sums_;
+};
+
+/// 10 h mu.
+template <class Real>
+__device__ Real viscous_strength(const ModelView<Real>& model, const Slots<Real>& slots) {
+    return 10 * slots.h * model.water.dynamic_viscosity;
+}
+
 /// Viscosity; the velocities that neighbours see stay as they were.
 template <class Real>
 __device__ void water_viscosity(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> here = water.position[s], moves = water.velocity[s];
-    const Real strength = 10 * slots.h * model.water.dynamic_viscosity;
-    const Real most = physics::viscous_limit(model.water.spacing, strength);
-    const Real solid = water.shear[s].w;
-    physics::ViscousSums<Real> sums;
+    const Real strength = viscous_strength(model, slots);
+    ViscousPairs<Real> pairs(model, water, s, strength);
     const auto add = [&](const Vec3<Real>& gradient, int, unsigned borders, const Quad<Real>& there,
                          const Quad<Real>& velocity, const Quad<Real>& shear) {
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
-        const Quad<Real> u = seen(model, velocity, borders);
-        const Real share = physics::viscous_share(here.w * moves.w, there.w * u.w, most);
-        const Real grip = physics::viscous_grip(solid, shear.w);
-        sums.add(difference, xyz(u) - xyz(moves), model.water.softening, share * grip, gradient);
+        pairs.add(gradient, borders, there, velocity, shear);
     };
     for_each_water_pair<2>(slots, s, add, water.position, water.velocity, water.shear);
-    const Vec3<Real> v = xyz(moves) + (strength * moves.w) * sum_of_lanes(sums.impulse);
+    const Quad<Real> moves = water.velocity[s];
+    const Vec3<Real> v = xyz(moves) + (strength * moves.w) * pairs.impulse();
     if (own_lane() == 0) water.pushed[s] = quad(v, moves.w);
 }
 

@@ -13,7 +13,9 @@ import io.natator.simulator.Evaluator;
 import io.natator.study.optimizer.RunComparison;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Verdict;
+import java.io.IOException;
 import java.io.PrintWriter;
+import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
@@ -60,6 +62,7 @@ final class CompareCommand implements Callable<Integer> {
             throw new InvalidInputException("--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
         }
         List<StoredRun> runs = folders.stream().map(Archipelago::stored).toList();
+        checkEachOnce(runs);
         PrintWriter out = spec.commandLine().getOut();
         for (int i = 0; i < runs.size(); i++) {
             out.printf("%d  %s: %s%n", i + 1, runs.get(i).directory(), ShowCommand.settings(runs.get(i).settings()));
@@ -72,6 +75,20 @@ final class CompareCommand implements Callable<Integer> {
             out.flush();
         }
         return ExitCode.OK;
+    }
+
+    /** By whatever path, and an island beside the archipelago whose winner it is. */
+    private void checkEachOnce(List<StoredRun> runs) {
+        List<Path> places = runs.stream().map(one -> real(one.directory())).toList();
+        EachOnce.check("RUN", places, one -> runs.get(places.indexOf(one)).directory().toString());
+    }
+
+    private static Path real(Path directory) {
+        try {
+            return directory.toRealPath();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
     }
 
     private void runAgain(List<EvolutionSettings> settings, PrintWriter out) throws InterruptedException {
@@ -123,13 +140,14 @@ final class CompareCommand implements Callable<Integer> {
                 out.printf("%d  no gait as yet%n", i + 1);
             } else {
                 Map<String, String> fresh = FreshText.of(best);
-                out.printf("%d  %s%n   distance %s, speed %s%s, f %s, a %s, phi %s%n", i + 1, Verdict.of(best).text(),
+                out.printf("%d  %s%n   distance %s, speed %s%s, f %s, a %s, phi %s%s%n", i + 1, Verdict.of(best).text(),
                         fresh.getOrDefault("distance", RunReport.number(best.distance()) + ", one run"),
                         fresh.getOrDefault("speed", RunReport.number(best.speed()) + " units/s"),
                         best.vacuum() == null || best.vacuum().distance() == null ? ""
                                 : ", in vacuum " + RunReport.number(best.vacuum().speed()) + " units/s",
                         RunReport.number(best.gait().frequency()), RunReport.row(best.gait().amplitude()),
-                        RunReport.row(best.gait().phase()));
+                        RunReport.row(best.gait().phase()),
+                        best.gait().offset() == null ? "" : ", offset " + RunReport.row(best.gait().offset()));
                 List.of("half step", "selected").stream().filter(fresh::containsKey)
                         .forEach(name -> out.printf("   %s %s%n", name, fresh.get(name)));
             }

@@ -148,6 +148,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     }
 
     private Map<String, EvolutionSettings> scenes(ExecutionSettings execution) throws InterruptedException {
+        EachOnce.check("--creatures", creatures, String::valueOf);
         Map<String, EvolutionSettings> scenes = new LinkedHashMap<>();
         for (int creature : creatures) {
             if (creature < 1 || creature > 4) {
@@ -167,7 +168,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
 
     private List<OptimizerVariant> variants() {
         List<String> known = Arrays.stream(OptimizerVariant.values()).map(OptimizerVariant::label).toList();
-        return optimizers.stream().map(name -> {
+        List<OptimizerVariant> variants = optimizers.stream().map(name -> {
             int index = known.indexOf(name.toLowerCase(Locale.ROOT));
             if (index < 0) {
                 throw new InvalidInputException("--optimizers has " + name + "; expected some of "
@@ -175,5 +176,7 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             }
             return OptimizerVariant.values()[index];
         }).toList();
+        EachOnce.check("--optimizers", variants, OptimizerVariant::label);
+        return variants;
     }
 }

@@ -3,6 +3,7 @@ package io.natator.cli;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
 import io.natator.simulator.ProgramInfo;
@@ -38,9 +39,9 @@ final class ExecutionOptions {
                     + "resumed, its own.")
     private Backend backend;
 
-    @Option(names = "--device", paramLabel = "N", defaultValue = "0",
+    @Option(names = "--device", paramLabel = "N",
             description = "Number of the GPU, several with commas between them, or all: each gets its share of every "
-                    + "batch, and one that fails leaves it to the others. Default: ${DEFAULT-VALUE}.")
+                    + "batch, and one that fails leaves it to the others. Default: 0.")
     private String device;
 
     @Option(names = "--workers", paramLabel = "N",
@@ -73,13 +74,24 @@ final class ExecutionOptions {
         SimulatorMode usual = !commands.isEmpty() ? SimulatorMode.RESIDENT
                 : master != null || System.getProperty(SUBMITTED) != null ? SimulatorMode.SPARK
                 : chosen == Backend.CUDA ? SimulatorMode.BATCH : SimulatorMode.PROCESS;
-        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, devices(),
+        return new ExecutionSettings(simulator.path(), mode != null ? mode : usual, chosen, devices(chosen),
                 workers != null ? workers : Runtime.getRuntime().availableProcessors(),
                 timeoutSeconds == null ? null
                         : Duration.ofMillis(Math.max(1, Math.round(timeoutSeconds * 1000.0))), null, commands, master);
     }
 
-    private List<Integer> devices() throws InterruptedException {
+    private List<Integer> devices(Backend chosen) throws InterruptedException {
+        if (device == null) {
+            return List.of(0);
+        }
+        if (chosen == Backend.CPU) {
+            throw new InvalidInputException("--device is " + device + ", but the backend is cpu, which has no GPUs; expected --backend "
+                    + "cuda or auto with it");
+        }
+        if (!commands.isEmpty()) {
+            throw new InvalidInputException("--device is " + device + "; expected none beside --simulator-command, whose command lines "
+                    + "say it");
+        }
         return device.matches("\\d{1,4}") ? List.of(Integer.valueOf(device)) : ProgramInfo.of(simulator.path()).devices(device);
     }
 }

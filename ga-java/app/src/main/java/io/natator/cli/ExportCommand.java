@@ -110,6 +110,7 @@ final class ExportCommand implements Callable<Integer> {
         if (every < 1) {
             throw new InvalidInputException("--every is " + every + "; expected a whole number from 1");
         }
+        EachOnce.check("--fields", fields, StreamField::text);
         Path simulator = simulatorOption.path();
         SwimSource swimmer = SwimSource.of(source, generation, gait);
         JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());

@@ -120,6 +120,8 @@ final class ReproduceCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         Double stopAfter = queueOptions.stopAfter();
+        EachOnce.check("--creature", creatures, String::valueOf);
+        EachOnce.check("--water", waters, EnumNames::of);
         ExecutionSettings execution = executionOptions.execution(Backend.CPU);
         EvolutionPlan plan = new EvolutionPlan(creatures, waters, seeds,
                 new EvolutionPlan.Size(population, generations, starts, duration), execution.backend(), execution.simulator(), directory);

@@ -2,8 +2,12 @@ package io.natator.cli;
 
 import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.ExecutionSettings;
+import io.natator.run.EvolutionRun;
 import java.nio.file.Path;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
@@ -50,25 +54,34 @@ final class ResumeCommand implements Callable<Integer> {
             resume(Archipelago.in(directory), options, cache, stopAfter, spec);
             return;
         }
+        EvolutionSettings settings = StoredRun.settings(directory);
+        EvolutionRun.checkAlone(directory, settings);
+        Backend before = settings.backend();
+        ExecutionSettings execution = cache.in(options.execution(before));
         RunFolder folder = RunFolder.open(directory);
-        if (isChanged(folder.settings().backend(), options, spec)) {
+        if (isChanged(before, StoredRun.isFinished(directory), options, spec)) {
             folder.changeBackend(options.backend());
         }
-        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder,
-                cache.in(options.execution(folder.settings().backend())), stopAfter);
+        new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
     }
 
     private static void resume(Archipelago stored, ExecutionOptions options, CacheOptions cache, Double stopAfter,
             CommandSpec spec) throws InterruptedException {
         Backend before = stored.plan().settings().backend();
-        Archipelago archipelago = isChanged(before, options, spec) ? stored.changeBackend(options.backend()) : stored;
-        new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago,
-                cache.in(options.execution(before)), stopAfter);
+        ExecutionSettings execution = cache.in(options.execution(before));
+        boolean isFinished = stored.plan().islands() == stored.folders().stream().filter(StoredRun::isFinished).count();
+        Archipelago archipelago = isChanged(before, isFinished, options, spec) ? stored.changeBackend(options.backend()) : stored;
+        new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
     }
 
-    /** Whether another backend is asked for, which is told of. */
-    private static boolean isChanged(Backend before, ExecutionOptions options, CommandSpec spec) {
-        boolean changed = options.backend() != null && options.backend() != before;
+    /** Whether another backend is asked for, which is told of; what is finished keeps the one that it was computed on. */
+    private static boolean isChanged(Backend before, boolean isFinished, ExecutionOptions options, CommandSpec spec) {
+        boolean isOther = options.backend() != null && options.backend() != before;
+        boolean changed = isOther && !isFinished;
+        if (isOther && isFinished) {
+            spec.commandLine().getErr().println("finished on backend " + before.argument() + "; nothing is left to compute on "
+                    + options.backend().argument());
+        }
         if (changed) {
             spec.commandLine().getErr().println("backend was " + before.argument() + ", is now " + options.backend().argument()
                     + ": last digits, and with them gaits, will differ from those of a run that kept it");

@@ -45,6 +45,9 @@ final class RunReport {
         line("frequency", number(best.gait().frequency()) + " 1/s");
         line("amplitude", row(best.gait().amplitude()));
         line("phase", row(best.gait().phase()));
+        if (best.gait().offset() != null) {
+            line("offset", row(best.gait().offset()));
+        }
         if (settings.evolve() != null) {
             ProfileBody scene = settings.evolve().body();
             BodyText.of(scene.with(best.body()), scene).forEach(this::line);

@@ -42,9 +42,12 @@ final class ShowCommand implements Callable<Integer> {
         PrintWriter out = spec.commandLine().getOut();
         if (Archipelago.exists(folder)) {
             IslandsReport.print(Archipelago.in(folder), out);
+            Archipelago.in(folder).damages().forEach(one -> OneLineErrors.warn(spec.commandLine(), one));
         }
         StoredRun run = Archipelago.stored(folder);
-        OneLineErrors.warn(spec.commandLine(), run.damage());
+        if (!Archipelago.exists(folder)) {
+            OneLineErrors.warn(spec.commandLine(), run.damage());
+        }
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {
@@ -79,7 +82,7 @@ final class ShowCommand implements Callable<Integer> {
         text.append(", seed ").append(settings.seed());
         text.append(settings.migration() == null ? "" : ", island " + settings.migration().island() + " of "
                 + settings.migration().islands());
-        text.append(", ").append(settings.encoding().name().toLowerCase(Locale.ROOT)).append(" genes");
+        text.append(", ").append(EnumNames.of(settings.encoding())).append(" genes");
         if (settings.optimizer() == OptimizerKind.JGAP && settings.gaussianDeviation() != 0.05) {
             text.append(", Gaussian deviation ").append(settings.gaussianDeviation());
         }

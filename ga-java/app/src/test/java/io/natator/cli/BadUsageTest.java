@@ -27,6 +27,10 @@ class BadUsageTest extends FakeSimulatorTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "compare-optimizers --output-dir NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
+        "compare-optimizers --output-dir NEVER --creatures 1,2,1|--creatures has 1 twice; expected each once",
+        "compare-optimizers --output-dir NEVER --optimizers random,cma-es,RANDOM|--optimizers has random twice; expected each once",
+        "reproduce --output-dir NEVER --creature 2,2|--creature has 2 twice; expected each once",
+        "reproduce --output-dir NEVER --water flex,open-water,flex|--water has flex twice; expected each once",
         "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000",
         "compare-optimizers --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
         "compare-optimizers --output-dir NEVER --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
@@ -65,7 +69,10 @@ class BadUsageTest extends FakeSimulatorTest {
         "--creature ../eel|--creature is ../eel; expected 1, 2, 3 or 4, or the name",
         "--creature 1 --scene thesis/creature-2|exclude each other",
         "--workers 0|workers is 0",
-        "--device -1|device is -1",
+        "--device -1 --backend auto|device is -1",
+        "--device all|--device is all, but the backend is cpu, which has no GPUs; expected --backend cuda or auto with it",
+        "--device 0,1 --backend cpu|--device is 0,1, but the backend is cpu",
+        "--device all --backend cuda --simulator-command true|--device is all; expected none beside --simulator-command",
         "--evaluations 0|evaluations is 0",
         "--starts 0|starts is 0; expected a whole number from 1 to 1000",
         "--starts 3 --judge lower-quartile|starts is 3; expected at least 4 with --judge lower-quartile",

@@ -8,6 +8,7 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Locale;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -91,6 +92,19 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(natator("compare", "--starts", "0", folder.resolve("short").toString(), folder.resolve("long").toString()))
                 .isZero();
         assertThat(out.toString().lines()).containsExactlyElementsOf(lines.subList(0, 17));
+    }
+
+    @Test
+    void steeredGaitsAreToldWithTheirOffsets() throws IOException {
+        assertThat(evolve("dense", "--encoding", "dense-steered")).isZero();
+        assertThat(evolve("sparse", "--encoding", "sparse-steered")).isZero();
+        double offset = Json.parse(file("dense", "best.json"), JsonNode.class).at("/gait/offset/0").doubleValue();
+        String both = String.format(Locale.ROOT, "%.4f %<.4f", offset);
+        assertThat(out.toString()).contains("\n  offset      " + both + "\n");
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("compare", "--starts", "0", folder.resolve("dense").toString(), folder.resolve("sparse").toString())).isZero();
+        assertThat(out.toString()).contains(", dense-steered genes, ", ", sparse-steered genes, ", ", offset " + both + "\n");
     }
 
     /** Two seeds of each: the runs are the sample. */

@@ -154,6 +154,7 @@ class ExportCommandTest {
         "none.json|--scene is none.json; expected a named scene or an existing file",
         "test/pool --gait none.json|--gait none.json does not exist",
         "test/pool --duration 1 --water-surface|--water-surface and --format csv: expected a format that holds meshes of many shapes",
+        "test/pool --fields velocity,velocity|--fields has velocity twice; expected each once",
         "test/pool --every 0|--every is 0; expected a whole number from 1",
         "test/pool --duration 0|--duration is 0.0; expected a number of seconds above 0"})
     void badUsageIsOneLine(String arguments, String message) throws IOException {

@@ -46,9 +46,12 @@ class IslandsFolderTest {
         winner = worstFirst.get(1);
     }
 
+    private int status(String... arguments) {
+        return Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true)).execute(arguments);
+    }
+
     private String natator(String... arguments) {
-        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true)).execute(arguments))
-                .as(err.toString()).isZero();
+        assertThat(status(arguments)).as(err.toString()).isZero();
         return out.toString();
     }
 
@@ -89,6 +92,77 @@ class IslandsFolderTest {
         String told = natator("compare", "--starts", "0", islands.toString(), other.toString());
 
         assertThat(told).contains("1  " + winner + ": bench/small-tank", "2  " + other + ": ");
+    }
+
+    @Test
+    void compareRefusesTheSameRunTwice() throws IOException {
+        Path link = Files.createSymbolicLink(folder.resolve("link"), winner);
+        for (List<Path> twice : List.of(List.of(other, other), List.of(islands, other, winner), List.of(winner, link))) {
+            err.getBuffer().setLength(0);
+            List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "0"));
+            twice.forEach(one -> arguments.add(one.toString()));
+
+            assertThat(status(arguments.toArray(String[]::new))).isEqualTo(2);
+            Path named = twice.contains(other) && twice.size() == 2 ? other : winner;
+            assertThat(err.toString()).isEqualTo("natator compare: RUN has " + named + " twice; expected each once\n");
+        }
+        assertThat(out.toString()).isEmpty();
+    }
+
+    @Test
+    void showNamesWhatIsDamagedOfAnyIsland() throws IOException {
+        for (Path island : List.of(other, winner)) {
+            for (String name : List.of("evaluations.jsonl", "migrants.jsonl", "config.json")) {
+                if (island.equals(winner) && name.equals("config.json")) {
+                    continue;  // then another one is the winner
+                }
+                byte[] whole = Files.readAllBytes(island.resolve(name));
+                err.getBuffer().setLength(0);
+                Files.delete(island.resolve(name));
+                natator("show", islands.toString());
+                Files.write(island.resolve(name), whole);
+
+                assertThat(err.toString()).startsWith("natator show: warning: " + island + " is damaged: ").contains(name).hasLineCount(1);
+            }
+        }
+    }
+
+    @Test
+    void whatCannotBeGoneOnWithChangesNoBackend() throws IOException {
+        Path unfinished = copyOf(islands);
+        Files.delete(unfinished.resolve("island-1/checkpoint.json"));
+        for (Path run : List.of(unfinished, unfinished.resolve("island-1"))) {
+            err.getBuffer().setLength(0);
+            Path told = run.resolve(run.equals(unfinished) ? "islands.json" : "config.json");
+            String before = Files.readString(told);
+
+            assertThat(status("resume", "--simulator-path", SIMULATOR, "--backend", "auto", "--workers", "0", run.toString())).isEqualTo(2);
+
+            assertThat(err.toString()).hasLineCount(1).startsWith(run.equals(unfinished)
+                    ? "natator resume: workers is 0; expected a whole number from 1 to 1024\n"
+                    : "natator resume: " + run + " is one of 2 islands, which go on together");
+            assertThat(told).hasContent(before);
+        }
+    }
+
+    @Test
+    void finishedIslandsKeepTheirBackend() throws IOException {
+        String before = Files.readString(islands.resolve("islands.json"));
+
+        swim("resume", "--backend", "auto", islands.toString());
+
+        assertThat(err.toString()).startsWith("finished on backend cpu; nothing is left to compute on auto\n");
+        assertThat(islands.resolve("islands.json")).hasContent(before);
+    }
+
+    private Path copyOf(Path directory) throws IOException {
+        Path copy = folder.resolve("copy");
+        try (Stream<Path> all = Files.walk(directory)) {
+            for (Path one : all.toList()) {
+                Files.copy(one, copy.resolve(directory.relativize(one)));
+            }
+        }
+        return copy;
     }
 
     /** Two pictures of a moment in which two gaits have bent the body differently. */

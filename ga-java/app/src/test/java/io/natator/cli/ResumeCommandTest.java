@@ -100,6 +100,19 @@ class ResumeCommandTest extends FakeSimulatorTest {
                 .isEqualTo(before);
     }
 
+    /** What was computed on the processor is not said to be of another backend because somebody looked at it again. */
+    @Test
+    void aFinishedRunKeepsItsBackend() throws IOException {
+        assertThat(evolve("run")).isZero();
+        String before = file("run", "config.json") + file("run", "environment.json");
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folder.resolve("run").toString(), "--backend", "auto", "--workers", "1")).isZero();
+
+        assertThat(err.toString()).startsWith("finished on backend cpu; nothing is left to compute on auto\n");
+        assertThat(file("run", "config.json") + file("run", "environment.json")).isEqualTo(before);
+    }
+
     @Test
     void resumingKeepsTheSettings() {
         assertThat(evolve("run")).isZero();

@@ -13,6 +13,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.stream.IntStream;
 
 /**
@@ -164,6 +165,24 @@ public record Archipelago(Path directory, Plan plan) {
      */
     public static StoredRun stored(Path directory) {
         return StoredRun.in(run(directory));
+    }
+
+    /**
+     * A line for each island of which something is lost, as {@link StoredRun#damage} says.
+     *
+     * @throws InvalidInputException if a file of one is damaged so that it cannot be read
+     */
+    public List<String> damages() {
+        List<String> damages = new ArrayList<>();
+        for (int i = 1; i <= plan.islands(); i++) {
+            Path folder = folder(i);
+            if (StoredRun.exists(folder)) {
+                Optional.ofNullable(StoredRun.in(folder).damage()).ifPresent(damages::add);
+            } else if (Files.exists(folder.resolve(RunFolder.CHECKPOINT))) {
+                damages.add(folder + " is damaged: it has no " + RunFolder.CONFIG);
+            }
+        }
+        return damages;
     }
 
     /** The run folders that folders stand for: of an archipelago those of all its islands, the winner's first. */

@@ -143,12 +143,13 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
-        String damage = damage(directory, folder.checkpoint, folder.log.rows().size());
+        String lost = damage(directory, folder.checkpoint, folder.log.rows().size());
+        String damage = lost != null ? lost
+                : damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size());
         if (damage != null) {
             folder.close();
             throw new InvalidInputException(damage);
         }
-        folder.checkDepartures();
         folder.dropFailures();
         return folder;
     }
@@ -162,16 +163,14 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
                 + " has " + recorded + " whole lines; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
     }
 
-    /** After each exchange up to the checkpoint somebody left, if only nobody: the next island has gone on by that. */
-    private void checkDepartures() {
-        Migration migration = settings.migration();
+    /**
+     * What its island lacks that gaits should have left, in one line; null if nothing, or it is none. After each exchange up to
+     * the checkpoint somebody left, if only nobody: the next island has gone on by that.
+     */
+    static String damage(Path directory, Migration migration, EvolutionState checkpoint, int left) {
         int expected = migration == null || checkpoint == null ? 0 : Math.max(checkpoint.generation() - 1, 0) / migration.every();
-        if (departures.rows().size() < expected) {
-            close();
-            throw new InvalidInputException(directory + " is damaged: " + MIGRANTS + " has " + departures.rows().size()
-                    + " whole lines; expected at least " + expected + ", one for each exchange before generation "
-                    + checkpoint.generation());
-        }
+        return left >= expected ? null : directory + " is damaged: " + MIGRANTS + " has " + left + " whole lines; expected at least "
+                + expected + ", one for each exchange before generation " + checkpoint.generation();
     }
 
     /**

@@ -70,7 +70,8 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      */
     public String damage() {
         boolean compact = state != null && state.population().isEmpty() && evaluations.isEmpty();
-        return compact ? null : RunFolder.damage(directory, state, evaluations.size());
+        String damage = compact ? null : RunFolder.damage(directory, state, evaluations.size());
+        return damage != null ? damage : RunFolder.damage(directory, settings.migration(), state, departures(directory).size());
     }
 
     /** The settings of the run in a folder. */

@@ -5,6 +5,7 @@ import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Environment;
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FitnessKind;
@@ -23,6 +24,7 @@ import io.natator.simulator.ObjectiveEvaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.TimeLimit;
+import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collection;
@@ -106,17 +108,28 @@ public final class EvolutionRun {
      */
     public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
             throws InterruptedException {
+        checkAlone(folder.directory(), settings);
+        return run(execution, evaluator, Exchange.NONE, listeners);
+    }
+
+    /**
+     * Refuses a run that does not go on by itself.
+     *
+     * @throws InvalidInputException if it is an island that exchanges gaits with others
+     */
+    public static void checkAlone(Path directory, EvolutionSettings settings) {
         if (settings.migration() != null) {
-            throw new InvalidInputException(folder.directory() + " is one of " + settings.migration().islands()
+            throw new InvalidInputException(directory + " is one of " + settings.migration().islands()
                     + " islands, which go on together; expected the folder that they are in");
         }
-        return run(execution, evaluator, Exchange.NONE, listeners);
     }
 
     /** The same of an island. */
     Outcome run(ExecutionSettings execution, Evaluator evaluator, Exchange exchange, EvolutionListener... listeners)
             throws InterruptedException {
-        folder.write(Environment.present(execution));
+        if (!StoredRun.isFinished(folder.directory())) {
+            folder.write(Environment.present(execution));
+        }
         if (evaluator instanceof CachedEvaluator shared) {
             CachedEvaluator own = shared.counting();
             return run(execution, own, exchange, own::found, List.of(listeners));

@@ -216,6 +216,9 @@ public final class GaitReport {
         rows.add(List.of("frequency (1/s)", number(gait.frequency())));
         rows.add(List.of("amplitudes", numbers(gait.amplitude())));
         rows.add(List.of("phases", numbers(gait.phase())));
+        if (gait.offset() != null) {
+            rows.add(List.of("offsets", numbers(gait.offset())));
+        }
         if (run.settings().evolve() != null) {
             ProfileBody scene = run.settings().evolve().body();
             BodyText.of(scene.with(best.body()), scene).forEach((name, text) -> rows.add(List.of("body: " + name, text)));

@@ -177,7 +177,7 @@ class Player {
     facts.unshift(...namedFacts(this.#recording.facts));
     if (gait) {
       facts.push(['Frequency', `${gait.frequency.toFixed(3)} /s`], ['Amplitude', list(gait.amplitude)],
-          ['Phase', list(gait.phase)]);
+          ['Phase', list(gait.phase)], ...gait.offset?.some(one => one !== 0) ? [['Offset', list(gait.offset)]] : []);
     }
     facts.push(['Program', `Natator ${scene.program?.version ?? ''}`]);
     byId('facts').replaceChildren(...facts.flatMap(([name, value]) => [

@@ -65,6 +65,25 @@ class ModulesTest extends BrowserTest {
         assertThat(said).isEqualTo("like none; e 0.12");
     }
 
+    /** What steers a gait is a part of it: in files, where gaits are told apart, and of one that is still. */
+    @Test
+    void aGaitHasAnOffset() {
+        Object told = with("gait.js", """
+                ({parseGait, isSameGait, isAtRest}) => {
+                  const left = {frequency: 1, amplitude: [0, 0], phase: [0, 0], offset: [0.2, 0.2]};
+                  const right = {...left, offset: [-0.2, -0.2]};
+                  const straight = {frequency: 1, amplitude: [0, 0], phase: [0, 0]};
+                  let refused = '';
+                  try { parseGait(JSON.stringify({...left, offset: 0.2})); } catch (error) { refused = error.message; }
+                  return JSON.stringify([parseGait(JSON.stringify({gait: left})), isSameGait(left, {...left}), isSameGait(left, right),
+                    isSameGait(left, straight), isSameGait(straight, {...straight, offset: [0, 0]}), isAtRest({actuators: 2, gait: left}),
+                    isAtRest({actuators: 2, gait: straight}), refused]);
+                }""");
+
+        assertThat(told).isEqualTo("[{\"frequency\":1,\"amplitude\":[0,0],\"phase\":[0,0],\"offset\":[0.2,0.2]},true,false,false,true,"
+                + "false,true,\"offset: expected a list of numbers, one for each actuator, or none\"]");
+    }
+
     @Test
     void aFrameIsReadByteForByte() {
         Object read = with("protocol.js", """

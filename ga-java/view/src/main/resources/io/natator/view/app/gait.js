@@ -16,16 +16,21 @@ export function waveGait(actuators) {
   };
 }
 
+/** What drives each actuator beside the beat. */
+function offsets(gait) {
+  return gait.offset ?? gait.amplitude.map(() => 0);
+}
+
 /** Whether a scene (SCEN) has muscles, and a gait that does not move them. */
 export function isAtRest({actuators, gait}) {
-  return actuators > 0 && (gait === null || gait.amplitude.every(one => one === 0));
+  return actuators > 0 && (gait === null || [...gait.amplitude, ...offsets(gait)].every(one => one === 0));
 }
 
 /** Whether two gaits, of which either may be null, move muscles in the same way. */
 export function isSameGait(one, other) {
   const isSame = (a, b) => a.length === b.length && a.every((value, i) => Math.abs(value - b[i]) < 1e-9);
   return one !== null && other !== null && isSame([one.frequency, one.power ?? 1], [other.frequency, other.power ?? 1])
-      && isSame(one.amplitude, other.amplitude) && isSame(one.phase, other.phase);
+      && isSame(one.amplitude, other.amplitude) && isSame(one.phase, other.phase) && isSame(offsets(one), offsets(other));
 }
 
 /** Any gait within the ranges. */
@@ -55,8 +60,11 @@ export function parseGait(text) {
   if (!Number.isFinite(gait?.frequency) || !isNumbers(gait.amplitude) || !isNumbers(gait.phase)) {
     throw new Error('no gait: expected {"frequency": …, "amplitude": […], "phase": […]}');
   }
-  const {frequency, amplitude, phase, power} = gait;
-  return {frequency, amplitude, phase, ...(power === undefined ? {} : {power})};
+  const {frequency, amplitude, phase, power, offset} = gait;
+  if (offset !== undefined && !isNumbers(offset)) {
+    throw new Error('offset: expected a list of numbers, one for each actuator, or none');
+  }
+  return {frequency, amplitude, phase, ...(power === undefined ? {} : {power}), ...(offset === undefined ? {} : {offset})};
 }
 
 /** Fits itself to the number of actuators of the scene. */

@@ -1,0 +1,28 @@
+package io.natator.cli;
+
+import io.natator.config.InvalidInputException;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+import java.util.function.Function;
+
+/** Refuses what an option names twice. */
+final class EachOnce {
+
+    private EachOnce() {
+    }
+
+    /**
+     * Checks a list.
+     *
+     * @param option its name
+     * @param text   how a value was given
+     * @throws InvalidInputException naming the first value that stands there again
+     */
+    static <T> void check(String option, List<T> values, Function<T, String> text) {
+        Set<T> before = new HashSet<>();
+        values.stream().filter(one -> !before.add(one)).findFirst().ifPresent(one -> {
+            throw new InvalidInputException(option + " has " + text.apply(one) + " twice; expected each once");
+        });
+    }
+}
