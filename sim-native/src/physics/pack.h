@@ -77,6 +77,13 @@ struct Four {
     T x, y, z, w;
 };
 
+#if defined(__AVX2__)
+/// from[index[k]] in lane k.
+inline __m128 four_values(const float* from, const std::int32_t* index) {
+    return _mm_setr_ps(from[index[0]], from[index[1]], from[index[2]], from[index[3]]);
+}
+#endif
+
 #if defined(__AVX512F__)
 
 /// a b + c with one rounding.
@@ -126,6 +133,13 @@ inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
                   zw_cd = _mm512_castps_pd(_mm512_unpackhi_ps(c, d));
     return {_mm512_castpd_ps(_mm512_unpacklo_pd(xy_ab, xy_cd)), _mm512_castpd_ps(_mm512_unpackhi_pd(xy_ab, xy_cd)),
             _mm512_castpd_ps(_mm512_unpacklo_pd(zw_ab, zw_cd)), _mm512_castpd_ps(_mm512_unpackhi_pd(zw_ab, zw_cd))};
+}
+
+/// from[index[k]] in lane k, four lanes apart from the next four: lane after lane of one vector would wait for each other.
+inline Floats gather_one(const float* from, const std::int32_t* index) {
+    const __m256 low = _mm256_set_m128(four_values(from, index + 4), four_values(from, index));
+    const __m256 high = _mm256_set_m128(four_values(from, index + 12), four_values(from, index + 8));
+    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
 }
 
 using Ints = __m512i;
@@ -250,6 +264,11 @@ inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
             _mm256_castpd_ps(_mm256_unpacklo_pd(zw_ab, zw_cd)), _mm256_castpd_ps(_mm256_unpackhi_pd(zw_ab, zw_cd))};
 }
 
+/// from[index[k]] in lane k.
+inline Floats gather_one(const float* from, const std::int32_t* index) {
+    return _mm256_set_m128(four_values(from, index + 4), four_values(from, index));
+}
+
 using Ints = __m256i;
 
 inline void store(std::int32_t* to, Ints value) {
@@ -361,6 +380,11 @@ inline Floats ones(unsigned bits) {
     return v;
 }
 
+inline Floats gather_one(const float* from, const std::int32_t* index) {
+    Floats v;
+    for (int k = 0; k < width; ++k) v[k] = from[index[k]];
+    return v;
+}
 /// (x, y, z, w) of the particles index[0 .. width) out of an array of such quadruples: one load per particle and a
 /// transposition.
 inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
@@ -423,6 +447,11 @@ inline Four<Doubles> gather(const double* packed, const std::int32_t* index) {
     return {__builtin_shufflevector(a, b, 0, 2), __builtin_shufflevector(a, b, 1, 3), __builtin_shufflevector(c, d, 0, 2),
             __builtin_shufflevector(c, d, 1, 3)};
 #endif
+}
+inline Doubles gather_one(const double* from, const std::int32_t* index) {
+    Doubles v;
+    for (int k = 0; k < double_width; ++k) v[k] = from[index[k]];
+    return v;
 }
 inline void store_quadruples(double* to, Four<Doubles> v) {
     for (int lane = 0; lane < double_width; ++lane) {
