@@ -180,12 +180,10 @@ void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
 /// Of all particles with all particles and images.
 template <class Real>
 void Water<Real>::list_neighbours(ThreadTeam& team) {
-    const auto candidates = [this](int slot, RowsAround<Real>& around, SlotRuns& runs) {
-        if (slot >= particles_) return -1;
-        const int cell = cell_of_[particle_of_[slot]];
-        const auto& rows_around = around.of(grid_, cell);
-        const int slots = add_runs(grid_, rows_around, cell, cell_begin_, runs);
-        return slots + add_runs(grid_, rows_around, cell, image_cell_begin_, runs);
+    const auto candidates = [this](int slot, Surroundings<Real>& around) {
+        if (slot >= particles_) return false;
+        around.go_to(grid_, cell_of_[particle_of_[slot]], cell_begin_, image_cell_begin_);
+        return true;
     };
     const std::size_t size = lists_.list({.position = {position_.x.data(), position_.y.data(), position_.z.data()},
                                           .blocks = image_begin_ / lanes,
