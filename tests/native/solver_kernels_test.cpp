@@ -1,6 +1,7 @@
 // The vector kernels against the same formulas particle by particle.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
@@ -209,6 +210,24 @@ TEST_P(SolverKernels, Water) {
     expect_near(fluid.velocity.x, expected.velocity.x);
     expect_near(fluid.velocity.y, expected.velocity.y);
     expect_near(fluid.velocity.z, expected.velocity.z);
+}
+
+/// The first pass of the divergence comes with the gradients, and has the bits of a pass by itself.
+TEST_P(SolverKernels, TheFirstPassComesWithTheGradients) {
+    Fluid fluid, by_itself;
+    std::fill(by_itself.target.begin(), by_itself.target.end(), 0.0f);
+    for (Fluid* const each : {&fluid, &by_itself}) {
+        const WaterKernels<float>& set = water_kernels<float>(GetParam());
+        set.pack(each->water_view());
+        set.compute_moments(each->water_view());
+        set.compute_gradients(each->water_view());
+    }
+    std::fill_n(by_itself.impulse.begin(), Fluid::far_slot, 9.0f);
+    std::fill(by_itself.impulse_sum.begin(), by_itself.impulse_sum.end(), 0.0f);
+    water_kernels<float>(GetParam()).compute_impulse(by_itself.water_view());
+    EXPECT_EQ(fluid.impulse, by_itself.impulse);
+    EXPECT_EQ(fluid.impulse_sum, by_itself.impulse_sum);
+    EXPECT_GT(*std::max_element(fluid.impulse.begin(), fluid.impulse.end()), 0);
 }
 
 /// Runs of all lengths, from all places; the longest are those of a pile of particles in one cell.

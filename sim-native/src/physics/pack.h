@@ -6,6 +6,8 @@
 
 #if defined(__AVX2__)
 #include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
 #endif
 
 namespace natator::physics::inline NATATOR_SET {
@@ -71,11 +73,38 @@ inline Floats all_lanes(float value) {
     return value - Floats{};
 }
 
+#if !defined(__AVX512F__)
+/// For each set of lanes their numbers, one behind the other, and how many they are.
+struct LaneLists {
+#if defined(__AVX2__)
+    std::uint8_t lane[1 << width][width];
+#else
+    std::int32_t lane[1 << width][width];
+#endif
+    std::uint8_t count[1 << width];
+};
+constexpr LaneLists list_lanes() {
+    LaneLists lists{};
+    for (int chosen = 0; chosen < 1 << width; ++chosen)
+        for (int lane = 0; lane < width; ++lane)
+            if (chosen >> lane & 1) lists.lane[chosen][lists.count[chosen]++] = static_cast<std::uint8_t>(lane);
+    return lists;
+}
+constexpr LaneLists lane_lists = list_lanes();
+#endif
+
 /// Four values for each lane.
 template <class T>
 struct Four {
     T x, y, z, w;
 };
+
+#if defined(__AVX2__)
+/// from[index[k]] in lane k.
+inline __m128 four_values(const float* from, const std::int32_t* index) {
+    return _mm_setr_ps(from[index[0]], from[index[1]], from[index[2]], from[index[3]]);
+}
+#endif
 
 #if defined(__AVX512F__)
 
@@ -128,6 +157,13 @@ inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
             _mm512_castpd_ps(_mm512_unpacklo_pd(zw_ab, zw_cd)), _mm512_castpd_ps(_mm512_unpackhi_pd(zw_ab, zw_cd))};
 }
 
+/// from[index[k]] in lane k, four lanes apart from the next four: lane after lane of one vector would wait for each other.
+inline Floats gather_one(const float* from, const std::int32_t* index) {
+    const __m256 low = _mm256_set_m128(four_values(from, index + 4), four_values(from, index));
+    const __m256 high = _mm256_set_m128(four_values(from, index + 12), four_values(from, index + 8));
+    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+}
+
 using Ints = __m512i;
 
 inline void store(std::int32_t* to, Ints value) {
@@ -147,9 +183,10 @@ inline unsigned positive_and_below(Floats v, Floats limit) {
     const __mmask16 below = _mm512_cmp_ps_mask(v, limit, _CMP_LT_OQ);
     return _mm512_mask_cmp_ps_mask(below, v, _mm512_setzero_ps(), _CMP_GT_OQ);
 }
-/// Writes the chosen lanes one behind the other, and anything into the rest of `width` entries. Returns their number.
-inline int store_chosen(std::int32_t* to, Ints values, unsigned chosen) {
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), values));
+/// Writes first + k for each chosen lane k, one behind the other, and anything into the rest of `width` entries. Returns
+/// their number.
+inline int store_chosen(std::int32_t* to, int first, unsigned chosen) {
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), consecutive(first)));
     return __builtin_popcount(chosen);
 }
 /// from[0 .. count) and the filler behind; reads nothing there.
@@ -250,6 +287,11 @@ inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
             _mm256_castpd_ps(_mm256_unpacklo_pd(zw_ab, zw_cd)), _mm256_castpd_ps(_mm256_unpackhi_pd(zw_ab, zw_cd))};
 }
 
+/// from[index[k]] in lane k.
+inline Floats gather_one(const float* from, const std::int32_t* index) {
+    return _mm256_set_m128(four_values(from, index + 4), four_values(from, index));
+}
+
 using Ints = __m256i;
 
 inline void store(std::int32_t* to, Ints value) {
@@ -270,24 +312,12 @@ inline unsigned positive_and_below(Floats v, Floats limit) {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_and_ps(below, positive)));
 }
 
-/// For each set of lanes their numbers, one behind the other.
-struct LaneLists {
-    std::uint8_t lane[1 << width][width];
-};
-constexpr LaneLists list_lanes() {
-    LaneLists lists{};
-    for (int chosen = 0; chosen < 1 << width; ++chosen)
-        for (int lane = 0, n = 0; lane < width; ++lane)
-            if (chosen >> lane & 1) lists.lane[chosen][n++] = static_cast<std::uint8_t>(lane);
-    return lists;
-}
-constexpr LaneLists lane_lists = list_lanes();
-
-/// Writes the chosen lanes one behind the other, and anything into the rest of `width` entries. Returns their number.
-inline int store_chosen(std::int32_t* to, Ints values, unsigned chosen) {
-    const __m128i order = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(lane_lists.lane[chosen]));
-    const Ints packed = _mm256_permutevar8x32_epi32(values, _mm256_cvtepu8_epi32(order));
-    _mm256_storeu_si256(reinterpret_cast<__m256i_u*>(to), packed);
+/// Writes first + k for each chosen lane k, one behind the other, and anything into the rest of `width` entries. Returns
+/// their number.
+inline int store_chosen(std::int32_t* to, int first, unsigned chosen) {
+    const __m128i lanes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(lane_lists.lane[chosen]));
+    const Ints numbers = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_cvtepu8_epi32(lanes));
+    _mm256_storeu_si256(reinterpret_cast<__m256i_u*>(to), numbers);
     return __builtin_popcount(chosen);
 }
 /// from[0 .. count) and the filler behind; reads nothing there.
@@ -361,6 +391,11 @@ inline Floats ones(unsigned bits) {
     return v;
 }
 
+inline Floats gather_one(const float* from, const std::int32_t* index) {
+    Floats v;
+    for (int k = 0; k < width; ++k) v[k] = from[index[k]];
+    return v;
+}
 /// (x, y, z, w) of the particles index[0 .. width) out of an array of such quadruples: one load per particle and a
 /// transposition.
 inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
@@ -370,6 +405,56 @@ inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
     const Floats zw_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7), zw_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
     return {__builtin_shufflevector(xy_ab, xy_cd, 0, 1, 4, 5), __builtin_shufflevector(xy_ab, xy_cd, 2, 3, 6, 7),
             __builtin_shufflevector(zw_ab, zw_cd, 0, 1, 4, 5), __builtin_shufflevector(zw_ab, zw_cd, 2, 3, 6, 7)};
+}
+
+using Ints = std::int32_t __attribute__((vector_size(4 * width)));
+using IntsInMemory [[gnu::may_alias]] = Ints;
+
+inline void store(std::int32_t* to, Ints value) {
+    *reinterpret_cast<IntsInMemory*>(to) = value;
+}
+/// Bit per lane: the first `count` lanes, or all, count >= 0.
+inline unsigned first_lanes(int count) {
+    return count < width ? (1u << count) - 1 : (1u << width) - 1;
+}
+/// Bit per lane: 0 < v < limit.
+inline unsigned positive_and_below(Floats v, Floats limit) {
+    const Ints chosen = (v < limit) & (v > 0);
+#if defined(__SSE2__)
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(chosen)));
+#else
+    unsigned bits = 0;
+    for (int lane = 0; lane < width; ++lane) bits |= static_cast<unsigned>(chosen[lane]) & 1u << lane;
+    return bits;
+#endif
+}
+/// Writes first + k for each chosen lane k, one behind the other, and anything into the rest of `width` entries. Returns
+/// their number.
+inline int store_chosen(std::int32_t* to, int first, unsigned chosen) {
+    Ints lanes;
+    __builtin_memcpy(&lanes, lane_lists.lane[chosen], sizeof lanes);
+    lanes += first;
+    __builtin_memcpy(to, &lanes, sizeof lanes);
+    return lane_lists.count[chosen];
+}
+/// from[0 .. count) and the filler behind; reads nothing there.
+inline Ints load_first(const std::int32_t* from, int count, std::int32_t filler) {
+    Ints values;
+    if (count >= width) {
+        __builtin_memcpy(&values, from, sizeof values);
+        return values;
+    }
+    for (int lane = 0; lane < width; ++lane) values[lane] = lane < count ? from[lane] : filler;
+    return values;
+}
+/// Entry k of vector m becomes entry m of vector k.
+inline void transpose(Ints (&rows)[width]) {
+    const Ints low_01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5), high_01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+    const Ints low_23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5), high_23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+    rows[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+    rows[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+    rows[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
+    rows[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
 }
 
 /// Writes (x, y, z, w) lane by lane.
@@ -423,6 +508,11 @@ inline Four<Doubles> gather(const double* packed, const std::int32_t* index) {
     return {__builtin_shufflevector(a, b, 0, 2), __builtin_shufflevector(a, b, 1, 3), __builtin_shufflevector(c, d, 0, 2),
             __builtin_shufflevector(c, d, 1, 3)};
 #endif
+}
+inline Doubles gather_one(const double* from, const std::int32_t* index) {
+    Doubles v;
+    for (int k = 0; k < double_width; ++k) v[k] = from[index[k]];
+    return v;
 }
 inline void store_quadruples(double* to, Four<Doubles> v) {
     for (int lane = 0; lane < double_width; ++lane) {

@@ -38,10 +38,10 @@ constexpr std::size_t most_distances = 1 << 20;
 /// in the order of their slots per run of cells, at most most_neighbours_. Pairs at distance 0 are left out.
 template <class Real>
 void Substep<Real>::find_fluid_neighbours() {
-    const auto candidates = [this](int slot, RowsAround<Real>& around, SlotRuns& runs) {
-        if (slot >= ws_.fluid) return -1;
-        const int cell = ws_.cell_of[ws_.particle_of[slot]];
-        return add_runs(ws_.grid, around.of(ws_.grid, cell), cell, ws_.fluid_cell_begin, runs);
+    const auto candidates = [this](int slot, Surroundings<Real>& around) {
+        if (slot >= ws_.fluid) return false;
+        around.go_to(ws_.grid, ws_.cell_of[ws_.particle_of[slot]], ws_.fluid_cell_begin);
+        return true;
     };
     const auto choose = [this](int slot, std::int32_t* found, int n) {
         if (!plan_.uniform_fluid) {

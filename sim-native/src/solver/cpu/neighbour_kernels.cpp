@@ -35,8 +35,6 @@ void interleave(const std::int32_t* const* list, const int* count, int rows, std
         for (int row = 0; row < rows; ++row) to[row * lanes + lane] = row < count[lane] ? list[lane][row] : filler;
 }
 
-#if defined(__AVX2__)
-
 /// `width` slots at a time; the nearer ones move to the front of their vector, which is written as a whole.
 int find_by_vectors(const float* const position[3], int slot, const SlotRuns& runs, float distance_squared,
                     std::int32_t* found) {
@@ -54,7 +52,7 @@ int find_by_vectors(const float* const position[3], int slot, const SlotRuns& ru
             const Floats dz = zi - load_unaligned(z + j);
             const Floats r2 = squared_length(Vec3<Floats>{dx, dy, dz});
             const unsigned near = positive_and_below(r2, limit) & first_lanes(end - j);
-            n += store_chosen(found + n, consecutive(j), near);
+            n += store_chosen(found + n, j, near);
         }
     }
     return n;
@@ -73,8 +71,6 @@ void interleave_by_vectors(const std::int32_t* const* list, const int* count, in
     }
 }
 
-#endif
-
 }  // namespace
 
 template <class Real>
@@ -92,11 +88,7 @@ NeighbourKernels<double> neighbour_kernels<double>() {
 
 template <>
 NeighbourKernels<float> neighbour_kernels<float>() {
-#if defined(__AVX2__)
     return {&find_by_vectors, &interleave_by_vectors};
-#else
-    return scalar_neighbour_kernels<float>();
-#endif
 }
 
 }  // namespace natator::cpu::NATATOR_ISA

@@ -34,16 +34,25 @@ int add_runs(const CellGrid<Real>& grid, const typename CellGrid<Real>::Rows& ro
     return slots;
 }
 
-/// The rows around a cell, kept for the cells that follow in the same row.
+/// Where the neighbours of a cell's particles may be, kept for the particles that follow in the same cell, and the rows of
+/// cells for the cells that follow in the same row.
 template <class Real>
-class RowsAround {
-public:
-    const typename CellGrid<Real>::Rows& of(const CellGrid<Real>& grid, int cell) {
+struct Surroundings {
+    int cell = -1;
+    SlotRuns runs;
+    int slots = 0;  ///< in the runs
+
+    /// The slots of each array, a cell's first by cell, are candidates.
+    template <class... CellBegin>
+    void go_to(const CellGrid<Real>& grid, int next_cell, const CellBegin&... cell_begin) {
+        if (next_cell == cell) return;
+        cell = next_cell;
         if (grid.row(cell) != row_) {
             row_ = grid.row(cell);
             rows_ = grid.rows_around(row_);
         }
-        return rows_;
+        runs.count = 0;
+        slots = (add_runs(grid, rows_, cell, cell_begin, runs) + ...);
     }
 
 private:
@@ -71,8 +80,7 @@ public:
         const NeighbourKernels<Real>* kernels;
     };
 
-    /// candidates(slot, RowsAround, runs) gives the runs to look through and returns how many slots they hold, or -1 for a
-    /// slot without particle. choose(slot, found, n) drops those that do not count and returns how many are left. Returns
+    /// candidates(slot, Surroundings) goes to the slot's cell, or returns false for a slot without particle. choose(slot, found, n) drops those that do not count and returns how many are left. Returns
     /// the number of entries in all rows.
     template <class Candidates, class Choose>
     std::size_t list(const Search& search, ThreadTeam& team, SlicedRows rows, const Candidates& candidates,
@@ -113,7 +121,7 @@ private:
     void list_part(const Search& search, int first_block, int end_block, Room& room,
                    AlignedVector<std::int32_t>& all_rows, SlicedRows rows, const Candidates& candidates,
                    const Choose& choose) {
-        RowsAround<Real> around;
+        Surroundings<Real> around;
         std::size_t end = 0;
         for (int block = first_block; block < end_block; ++block) {
             int most = 0;
@@ -121,12 +129,10 @@ private:
             std::array<const std::int32_t*, lanes> list{};
             for (int lane = 0; lane < lanes; ++lane) {
                 const int slot = block * lanes + lane;
-                SlotRuns runs;
-                const int slots = candidates(slot, around, runs);
-                if (slots < 0) continue;
+                if (!candidates(slot, around)) continue;
                 std::vector<std::int32_t>& found = room.found[lane];
-                if (static_cast<int>(found.size()) < slots + lanes) found.resize(2 * slots + lanes);
-                const int n = search.kernels->find(search.position, slot, runs, search.distance_squared, found.data());
+                if (static_cast<int>(found.size()) < around.slots + lanes) found.resize(2 * around.slots + lanes);
+                const int n = search.kernels->find(search.position, slot, around.runs, search.distance_squared, found.data());
                 list[lane] = found.data();
                 count[lane] = choose(slot, found.data(), n);
                 rows.count[slot] = count[lane];

@@ -49,11 +49,7 @@ struct Vector {
         return v;
     }
     static Four<Lane> gather(const Real* packed, const std::int32_t* index) { return physics::gather(packed, index); }
-    static Lane gather_one(const Real* from, const std::int32_t* index) {
-        Lane v;
-        for (int k = 0; k < slots; ++k) v[k] = from[index[k]];
-        return v;
-    }
+    static Lane gather_one(const Real* from, const std::int32_t* index) { return physics::gather_one(from, index); }
     static void put_quadruples(Real* to, const Four<Lane>& v) { store_quadruples(to, v); }
 };
 

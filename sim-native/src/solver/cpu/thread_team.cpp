@@ -2,14 +2,41 @@
 
 #include <utility>
 
-namespace natator::cpu {
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
-ThreadTeam::ThreadTeam(int threads) {
+namespace natator::cpu {
+namespace {
+
+constexpr int closed = -1;
+
+void pause() {
+#if defined(__SSE2__)
+    _mm_pause();
+#endif
+}
+
+/// Returns once value is no longer `old`. Mostly that is after the rest of a loop, or the little that one thread does between
+/// two; falling asleep and being woken takes longer than these, so it looks for a while before it sleeps.
+template <class T>
+void wait(const std::atomic<T>& value, T old) {
+    constexpr int looks = 1000;  // some ten microseconds
+    for (int k = 0; k < looks; ++k) {
+        if (value != old) return;
+        pause();
+    }
+    value.wait(old);
+}
+
+}  // namespace
+
+ThreadTeam::ThreadTeam(int threads) : inside_(closed) {
     for (int k = 1; k < threads; ++k) helpers_.emplace_back([this] { help(); });
 }
 
 ThreadTeam::~ThreadTeam() {
-    work_ = nullptr;
+    over_ = true;
     ++call_;
     call_.notify_all();
     for (std::thread& helper : helpers_) helper.join();
@@ -26,12 +53,21 @@ void ThreadTeam::take_parts() {
     }
 }
 
+bool ThreadTeam::enter() {
+    int inside = inside_;
+    while (inside != closed)
+        if (inside_.compare_exchange_weak(inside, inside + 1)) return true;
+    return false;
+}
+
 void ThreadTeam::help() {
-    for (unsigned seen = 0;; ++seen) {
-        call_.wait(seen);
-        if (!work_) return;
+    for (unsigned seen = 0;;) {
+        wait(call_, seen);
+        seen = call_;
+        if (over_) return;
+        if (!enter()) continue;
         take_parts();
-        if (--busy_ == 0) busy_.notify_one();
+        if (--inside_ == 0) inside_.notify_one();
     }
 }
 
@@ -39,11 +75,11 @@ void ThreadTeam::run(int parts, const std::function<void(int)>& work) {
     work_ = &work;
     thrown_.assign(parts, nullptr);
     next_ = 0;
-    busy_ = size() - 1;
+    inside_ = 0;
     ++call_;
     call_.notify_all();
     take_parts();
-    for (int busy = busy_; busy != 0; busy = busy_) busy_.wait(busy);
+    for (int inside = 0; !inside_.compare_exchange_strong(inside, closed); inside = 0) wait(inside_, inside);
     for (const std::exception_ptr& thrown : thrown_)
         if (thrown) std::rethrow_exception(thrown);
 }

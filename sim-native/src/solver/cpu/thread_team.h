@@ -9,7 +9,8 @@
 
 namespace natator::cpu {
 
-/// Threads that share loops. Whoever waits sleeps, so that a team costs other programs nothing.
+/// Threads that share loops. Whoever waits for long sleeps, so that a team costs other programs nothing, and a loop waits for
+/// no helper that has not begun, so that other programs cost a team little.
 class ThreadTeam {
 public:
     /// A team of one runs all loops in the caller's thread.
@@ -47,14 +48,16 @@ private:
     }
     void run(int parts, const std::function<void(int)>& work);
     void help();
+    bool enter();
     void take_parts();
 
     std::vector<std::thread> helpers_;
-    const std::function<void(int)>* work_ = nullptr;  ///< null: no more work will come
-    std::vector<std::exception_ptr> thrown_;          ///< by part
-    std::atomic<unsigned> call_{0};                   ///< counts the calls of run
-    std::atomic<int> next_{0};                        ///< first part that nobody has taken
-    std::atomic<int> busy_{0};                        ///< helpers that have not ended the present call
+    const std::function<void(int)>* work_ = nullptr;
+    std::vector<std::exception_ptr> thrown_;  ///< by part
+    std::atomic<bool> over_{false};           ///< no more work will come
+    std::atomic<unsigned> call_{0};           ///< counts the calls of run
+    std::atomic<int> next_{0};                ///< first part that nobody has taken
+    std::atomic<int> inside_;                 ///< helpers in the present call; -1: none may enter
 };
 
 }  // namespace natator::cpu

@@ -61,7 +61,7 @@ Vec3<Real> Water<Real>::shift(int particle) const {
 /// Where particles start too close, see physics::parting_target. Bodies stay where they are, as pushing their particles
 /// would bend them.
 template <class Real>
-void Water<Real>::part_overlaps(ThreadTeam& team) {
+bool Water<Real>::part_overlaps(ThreadTeam& team) {
     parting_.clear();
     const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     std::atomic<bool> any = false;
@@ -75,7 +75,7 @@ void Water<Real>::part_overlaps(ThreadTeam& team) {
         }
         if (densest - 1 > Real(physics::overlap_tolerance)) any = true;
     });
-    if (!any) return;
+    if (!any) return false;
     kept_velocity_ = velocity_;
     for_each_slot(team, [this](int slot) {
         velocity_.set(slot, {});
@@ -84,6 +84,7 @@ void Water<Real>::part_overlaps(ThreadTeam& team) {
     on_all_threads(team, kernels_->pack);
     give_images_velocities(team);
     for (int pass = 0; pass < physics::parting_passes; ++pass) {
+        compute_impulses(team);
         apply_impulses(team);
         give_images_velocities(team);
     }
@@ -95,6 +96,7 @@ void Water<Real>::part_overlaps(ThreadTeam& team) {
     });
     on_all_threads(team, kernels_->pack);
     give_images_velocities(team);
+    return true;
 }
 
 template <class Real>
@@ -180,12 +182,10 @@ void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
 /// Of all particles with all particles and images.
 template <class Real>
 void Water<Real>::list_neighbours(ThreadTeam& team) {
-    const auto candidates = [this](int slot, RowsAround<Real>& around, SlotRuns& runs) {
-        if (slot >= particles_) return -1;
-        const int cell = cell_of_[particle_of_[slot]];
-        const auto& rows_around = around.of(grid_, cell);
-        const int slots = add_runs(grid_, rows_around, cell, cell_begin_, runs);
-        return slots + add_runs(grid_, rows_around, cell, image_cell_begin_, runs);
+    const auto candidates = [this](int slot, Surroundings<Real>& around) {
+        if (slot >= particles_) return false;
+        around.go_to(grid_, cell_of_[particle_of_[slot]], cell_begin_, image_cell_begin_);
+        return true;
     };
     const std::size_t size = lists_.list({.position = {position_.x.data(), position_.y.data(), position_.z.data()},
                                           .blocks = image_begin_ / lanes,
@@ -273,18 +273,28 @@ WaterView<Real> Water<Real>::view() {
 }
 
 template <class Real>
-void Water<Real>::apply_impulses(ThreadTeam& team) {
+void Water<Real>::compute_impulses(ThreadTeam& team) {
     on_all_threads(team, kernels_->compute_impulse);
+}
+
+template <class Real>
+void Water<Real>::apply_impulses(ThreadTeam& team) {
     for_each_image(team, [this](int k) { impulse_[image_begin_ + k] = impulse_[image_owner_[k]]; });
     on_all_threads(team, kernels_->apply_impulse);
 }
 
 template <class Real>
-void Water<Real>::push_apart(ThreadTeam& team) {
+void Water<Real>::apply_relieved_impulses(ThreadTeam& team) {
     apply_impulses(team);
     const Real strength = physics::kept_strength(h_, fluid_density_);
     on_all_threads(team, [&](const WaterView<Real>& part) { kernels_->relieve(part, strength); });
     give_images_velocities(team);
+}
+
+template <class Real>
+void Water<Real>::push_apart(ThreadTeam& team) {
+    compute_impulses(team);
+    apply_relieved_impulses(team);
 }
 
 template <class Real>
@@ -320,11 +330,15 @@ void Water<Real>::compute_gradients(ThreadTeam& team) {
 
 template <class Real>
 void Water<Real>::solve_divergence(ThreadTeam& team) {
-    part_overlaps(team);
-    std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
+    const bool parted = part_overlaps(team);
     std::fill(relief_.begin(), relief_.end(), Real(0));
     std::fill(target_.begin(), target_.end(), Real(0));
-    for (int pass = 0; pass < physics::divergence_passes; ++pass) push_apart(team);
+    if (parted) {
+        std::fill(impulse_sum_.begin(), impulse_sum_.end(), Real(0));
+        compute_impulses(team);
+    }  // else compute_gradients has computed them
+    apply_relieved_impulses(team);
+    for (int pass = 1; pass < physics::divergence_passes; ++pass) push_apart(team);
 }
 
 template <class Real>

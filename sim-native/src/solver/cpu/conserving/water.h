@@ -77,8 +77,12 @@ private:
     void lay_out(const State<Real>& state, ThreadTeam& team);
     void list_neighbours(ThreadTeam& team);
     void give_images_corrections(ThreadTeam& team);
-    void part_overlaps(ThreadTeam& team);
+    /// Returns whether there are any.
+    bool part_overlaps(ThreadTeam& team);
+    void compute_impulses(ThreadTeam& team);
     void apply_impulses(ThreadTeam& team);
+    /// The same, and takes off the relief.
+    void apply_relieved_impulses(ThreadTeam& team);
     /// Turns vectors that neighbours gather into those of the images.
     void give_images(AlignedVector<Real>& packed, ThreadTeam& team);
     WaterView<Real> view();

@@ -50,6 +50,12 @@ void compute_moments(const WaterView<Real>& water) {
 }
 
 template <class Group, class Real>
+void put_impulse(const WaterView<Real>& water, int first, typename Group::Lane impulse, typename Group::Lane sum_before) {
+    Group::put(water.impulse + first, impulse);
+    Group::put(water.impulse_sum + first, sum_before + impulse);
+}
+
+template <class Group, class Real>
 void compute_gradients(const WaterView<Real>& water) {
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
@@ -58,7 +64,9 @@ void compute_gradients(const WaterView<Real>& water) {
         for (int k = 0; k < 6; ++k) parts[k] = Group::get(water.correction[k] + first);
         const Symmetric3<Lane> own{parts[0], parts[1], parts[2], parts[3], parts[4], parts[5]};
         const Lane volume = Group::get(water.volume + first);
+        const Vec3<Lane> v = get3<Group>(water.velocity, first);
         ResponseSums<Lane> sums;
+        Lane rate{};
         for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
             const std::int32_t* const index = water.neighbour + entry;
             const Four<Lane> l = Group::gather(water.packed_correction, index);
@@ -69,9 +77,12 @@ void compute_gradients(const WaterView<Real>& water) {
                               own + Symmetric3<Lane>{l.x, l.y, l.z, l.w, shear.x, shear.y});
             put3<Group>(water.gradient, entry, gradient);
             sums.add(gradient, moves.w);
+            rate += dot(Vec3<Lane>{moves.x, moves.y, moves.z} - v, gradient);
         });
+        const Lane response = sums.response(Group::get(water.mobility + first));
         put3<Group>(water.zeroth, first, sums.gradient);
-        Group::put(water.response + first, sums.response(Group::get(water.mobility + first)));
+        Group::put(water.response + first, response);
+        put_impulse<Group>(water, first, pressure_impulse(Lane{}, rate, response, Group::get(water.density + first)), Lane{});
     });
 }
 
@@ -114,8 +125,7 @@ void compute_impulse(const WaterView<Real>& water) {
         });
         const Lane impulse = pressure_impulse(Group::get(water.target + first), rate,
                                               Group::get(water.response + first), Group::get(water.density + first));
-        Group::put(water.impulse + first, impulse);
-        Group::put(water.impulse_sum + first, Group::get(water.impulse_sum + first) + impulse);
+        put_impulse<Group>(water, first, impulse, Group::get(water.impulse_sum + first));
     });
 }
 

@@ -53,7 +53,7 @@ struct WaterKernels {
     void (*pack)(const WaterView<Real>& water);
     /// Density, correction (also laid out), crowding, fastest_square.
     void (*compute_moments)(const WaterView<Real>& water);
-    /// gradient, zeroth and response.
+    /// gradient, zeroth and response; and, while the gradients are at hand, the impulse of a first pass of target 0.
     void (*compute_gradients)(const WaterView<Real>& water);
     /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was. `most`: see
     /// physics::viscous_share.
