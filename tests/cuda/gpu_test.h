@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <nlohmann/json.hpp>
+
 #include "natator/batch.h"
 #include "natator/gait.h"
 #include "natator/gpu_solver.h"
@@ -22,6 +25,17 @@ protected:
 
 inline Scene creature_scene(int creature, Scheme scheme, const char* suffix = "") {
     Scene scene = load_scene("thesis/creature-" + std::to_string(creature) + suffix);
+    scene.scheme = scheme;
+    return scene;
+}
+
+/// The thesis' tank with a block of so many particles along x, y and z, and walls behind it.
+inline Scene tank_of(const std::array<int, 3>& count, Scheme scheme) {
+    const auto wall = [](int particles) { return 0.1 + 0.09 * (particles - 1); };
+    Scene scene = load_scene("thesis/creature-1", {{"settling", {{"updates", 3}}},
+                                                   {"fluid", {{"count", count}}},
+                                                   {"planes", {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0},
+                                                               {-1, 0, 0, wall(count[0])}, {0, 0, -1, wall(count[2])}}}});
     scene.scheme = scheme;
     return scene;
 }

@@ -1,7 +1,6 @@
 // A State computed by the whole GPU: against the CPU, and against itself.
 #include <cmath>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "../native/bare_particles.h"
 #include "evaluate/settle.h"
@@ -18,15 +17,7 @@ namespace {
 
 /// The thesis' tank, `scale` times as long, high and deep.
 Scene tank(int scale, Scheme scheme) {
-    nlohmann::json overrides = {{"settling", {{"updates", 3}}}};
-    if (scale > 1) {
-        const auto wall = [scale](int count) { return 0.1 + 0.09 * (scale * count - 1); };
-        overrides["fluid"]["count"] = {scale * 50, scale * 7, scale * 17};
-        overrides["planes"] = {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {-1, 0, 0, wall(50)}, {0, 0, -1, wall(17)}};
-    }
-    Scene scene = load_scene("thesis/creature-1", overrides);
-    scene.scheme = scheme;
-    return scene;
+    return tank_of({scale * 50, scale * 7, scale * 17}, scheme);
 }
 
 /// One substep and one frame from a settled start.

@@ -15,7 +15,7 @@ inline bool by_whole_gpu(const Scene& scene, const Model& model, bool asked) {
            model.particles() > most_particles_of_a_block;
 }
 
-/// The members' evaluations, one after another, each by the whole current device.
+/// The members' evaluations, some side by side, by the whole current device; by two streams where there are two members.
 template <class Real>
 std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                        BatchTimes* times);
