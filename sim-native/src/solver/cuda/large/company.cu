@@ -1,0 +1,46 @@
+#include "company.h"
+
+#include "natator/model_builder.h"
+
+namespace natator::cuda {
+
+int arrangement_of(const BatchMember& member, const Scene& scene) {
+    return scene.fluid ? member.arrangement.value_or(scene.fluid->disorder) : 0;
+}
+
+namespace {
+
+/// `model`: the scene's own.
+Model arranged(Scene scene, const Model& model, int arrangement) {
+    if (arrangement == scene.fluid->disorder) return model;
+    scene.fluid->disorder = arrangement;
+    return build_model(scene);
+}
+
+}  // namespace
+
+std::vector<Company> companies(const Scene& scene, const Model& model, const std::vector<BatchMember>& members) {
+    std::vector<Company> all;
+    std::map<int, std::size_t> company_of;
+    const bool arranges = model.scheme == Scheme::conserving && scene.fluid;
+    const int usual = arranges ? FluidBlock{}.disorder : 0;
+    all.push_back({arranges ? arranged(scene, model, usual) : model, {}});
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const int arrangement = arrangement_of(members[k], scene);
+        if (!company_of.contains(arrangement)) {
+            const Model own = arranges && arrangement != usual ? arranged(scene, model, arrangement) : all.front().model;
+            const Model& first = all.front().model;
+            const bool alike =
+                own.inverse_mass == first.inverse_mass && own.parameters.substeps == first.parameters.substeps;
+            if (!alike) all.push_back({own, {}});
+            company_of[arrangement] = alike ? 0 : all.size() - 1;
+            all[company_of[arrangement]].begin[arrangement] = own.position;
+        }
+        Company& company = all[company_of[arrangement]];
+        company.members.push_back(members[k]);
+        company.numbers.push_back(k);
+    }
+    return all;
+}
+
+}  // namespace natator::cuda
