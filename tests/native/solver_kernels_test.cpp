@@ -254,6 +254,16 @@ TEST_P(SolverKernels, NeighboursOfRuns) {
             scalar_neighbour_kernels<float>(GetParam()).find(position, slot, runs, radius * radius, expected.data()));
         for (int k = 0; k < n; ++k) EXPECT_EQ(found[k], expected[k]);
         all += n;
+        if (slot + 1 == slots) continue;
+        std::vector<std::int32_t> second(slots + block_size);
+        std::int32_t* const both[2] = {found.data(), second.data()};
+        int count[2];
+        neighbour_kernels<float>(GetParam()).find_two(position, slot, runs, radius * radius, both, count);
+        ASSERT_EQ(count[0], n);
+        for (int k = 0; k < n; ++k) EXPECT_EQ(found[k], expected[k]);
+        ASSERT_EQ(count[1], scalar_neighbour_kernels<float>(GetParam())
+                                .find(position, slot + 1, runs, radius * radius, expected.data()));
+        for (int k = 0; k < count[1]; ++k) EXPECT_EQ(second[k], expected[k]);
     }
     EXPECT_GT(all, 1000);
 }

@@ -30,6 +30,16 @@ TEST(ThreadTeamTest, PartsCoverTheLoopOnce) {
     }
 }
 
+/// More threads than processors: helpers come late to loops that are over, whose work is gone.
+TEST(ThreadTeamTest, NoHelperWorksOnALoopThatIsOver) {
+    cpu::ThreadTeam team(8);
+    for (int loop = 0; loop < 3000; ++loop) {
+        std::vector<int> done(64, 0);
+        team.for_each(64, 2, [&](int k) { ++done[k]; });
+        ASSERT_EQ(done, std::vector<int>(64, 1)) << loop;
+    }
+}
+
 TEST(ThreadTeamTest, WhatAPartThrowsIsThrownAndTheTeamGoesOn) {
     cpu::ThreadTeam team(3);
     for (const int bad : {0, 1, 2}) {

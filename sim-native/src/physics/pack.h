@@ -74,20 +74,21 @@ inline Floats all_lanes(float value) {
 }
 
 #if !defined(__AVX512F__)
+#if defined(__AVX2__)
+using LaneNumber = std::uint8_t;  // a table of 2 KiB instead of 8
+#else
+using LaneNumber = std::int32_t;
+#endif
 /// For each set of lanes their numbers, one behind the other, and how many they are.
 struct LaneLists {
-#if defined(__AVX2__)
-    std::uint8_t lane[1 << width][width];
-#else
-    std::int32_t lane[1 << width][width];
-#endif
+    LaneNumber lane[1 << width][width];
     std::uint8_t count[1 << width];
 };
 constexpr LaneLists list_lanes() {
     LaneLists lists{};
     for (int chosen = 0; chosen < 1 << width; ++chosen)
         for (int lane = 0; lane < width; ++lane)
-            if (chosen >> lane & 1) lists.lane[chosen][lists.count[chosen]++] = static_cast<std::uint8_t>(lane);
+            if (chosen >> lane & 1) lists.lane[chosen][lists.count[chosen]++] = static_cast<LaneNumber>(lane);
     return lists;
 }
 constexpr LaneLists lane_lists = list_lanes();
@@ -391,6 +392,7 @@ inline Floats ones(unsigned bits) {
     return v;
 }
 
+/// from[index[k]] in lane k.
 inline Floats gather_one(const float* from, const std::int32_t* index) {
     Floats v;
     for (int k = 0; k < width; ++k) v[k] = from[index[k]];
@@ -449,8 +451,10 @@ inline Ints load_first(const std::int32_t* from, int count, std::int32_t filler)
 }
 /// Entry k of vector m becomes entry m of vector k.
 inline void transpose(Ints (&rows)[width]) {
-    const Ints low_01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5), high_01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
-    const Ints low_23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5), high_23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+    const Ints low_01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
+    const Ints low_23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
+    const Ints high_01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+    const Ints high_23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
     rows[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
     rows[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
     rows[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);

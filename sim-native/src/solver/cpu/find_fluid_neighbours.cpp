@@ -38,11 +38,8 @@ constexpr std::size_t most_distances = 1 << 20;
 /// in the order of their slots per run of cells, at most most_neighbours_. Pairs at distance 0 are left out.
 template <class Real>
 void Substep<Real>::find_fluid_neighbours() {
-    const auto candidates = [this](int slot, Surroundings<Real>& around) {
-        if (slot >= ws_.fluid) return false;
-        around.go_to(ws_.grid, ws_.cell_of[ws_.particle_of[slot]], ws_.fluid_cell_begin);
-        return true;
-    };
+    const auto cell_of = [this](int slot) { return slot < ws_.fluid ? ws_.cell_of[ws_.particle_of[slot]] : -1; };
+    const auto go_to = [this](Surroundings<Real>& around, int cell) { around.go_to(ws_.grid, cell, ws_.fluid_cell_begin); };
     const auto choose = [this](int slot, std::int32_t* found, int n) {
         if (!plan_.uniform_fluid) {
             const int i = ws_.particle_of[slot];
@@ -57,7 +54,7 @@ void Substep<Real>::find_fluid_neighbours() {
                                           .filler = ws_.slots,
                                           .shortest_part = shortest_part,
                                           .kernels = neighbour_kernels_},
-                                         *team_, {ws_.row_begin, ws_.neighbour, ws_.neighbour_count}, candidates, choose);
+                                         *team_, {ws_.row_begin, ws_.neighbour, ws_.neighbour_count}, cell_of, go_to, choose);
     const bool keep = size <= most_distances;
     ws_.distance.resize(keep ? std::max(size, ws_.distance.size()) : 0);
 }

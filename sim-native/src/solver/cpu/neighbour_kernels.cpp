@@ -30,6 +30,12 @@ int find(const Real* const position[3], int slot, const SlotRuns& runs, Real dis
     return n;
 }
 
+template <class Real>
+void find_two(const Real* const position[3], int slot, const SlotRuns& runs, Real distance_squared,
+              std::int32_t* const found[2], int count[2]) {
+    for (int k = 0; k < 2; ++k) count[k] = find(position, slot + k, runs, distance_squared, found[k]);
+}
+
 void interleave(const std::int32_t* const* list, const int* count, int rows, std::int32_t filler, std::int32_t* to) {
     for (int lane = 0; lane < lanes; ++lane)
         for (int row = 0; row < rows; ++row) to[row * lanes + lane] = row < count[lane] ? list[lane][row] : filler;
@@ -58,6 +64,31 @@ int find_by_vectors(const float* const position[3], int slot, const SlotRuns& ru
     return n;
 }
 
+/// What is loaded serves both.
+void find_two_by_vectors(const float* const position[3], int slot, const SlotRuns& runs, float distance_squared,
+                         std::int32_t* const found[2], int count[2]) {
+    const float* const x = position[0];
+    const float* const y = position[1];
+    const float* const z = position[2];
+    const Floats xa = all_lanes(x[slot]), ya = all_lanes(y[slot]), za = all_lanes(z[slot]);
+    const Floats xb = all_lanes(x[slot + 1]), yb = all_lanes(y[slot + 1]), zb = all_lanes(z[slot + 1]);
+    const Floats limit = all_lanes(distance_squared);
+    std::int32_t *a = found[0], *b = found[1];
+    for (int k = 0; k < runs.count; ++k) {
+        const int end = runs.end[k];
+        for (int j = runs.begin[k]; j < end; j += width) {
+            const Floats xj = load_unaligned(x + j), yj = load_unaligned(y + j), zj = load_unaligned(z + j);
+            const unsigned within = first_lanes(end - j);
+            const Floats ra = squared_length(Vec3<Floats>{xa - xj, ya - yj, za - zj});
+            const Floats rb = squared_length(Vec3<Floats>{xb - xj, yb - yj, zb - zj});
+            a += store_chosen(a, j, positive_and_below(ra, limit) & within);
+            b += store_chosen(b, j, positive_and_below(rb, limit) & within);
+        }
+    }
+    count[0] = static_cast<int>(a - found[0]);
+    count[1] = static_cast<int>(b - found[1]);
+}
+
 /// Squares of `width` lists by `width` rows, transposed in registers.
 void interleave_by_vectors(const std::int32_t* const* list, const int* count, int rows, std::int32_t filler,
                            std::int32_t* to) {
@@ -75,7 +106,7 @@ void interleave_by_vectors(const std::int32_t* const* list, const int* count, in
 
 template <class Real>
 NeighbourKernels<Real> scalar_neighbour_kernels() {
-    return {&find<Real>, &interleave};
+    return {&find<Real>, &find_two<Real>, &interleave};
 }
 
 template NeighbourKernels<float> scalar_neighbour_kernels<float>();
@@ -88,7 +119,7 @@ NeighbourKernels<double> neighbour_kernels<double>() {
 
 template <>
 NeighbourKernels<float> neighbour_kernels<float>() {
-    return {&find_by_vectors, &interleave_by_vectors};
+    return {&find_by_vectors, &find_two_by_vectors, &interleave_by_vectors};
 }
 
 }  // namespace natator::cpu::NATATOR_ISA

@@ -23,6 +23,9 @@ struct NeighbourKernels {
     /// positions must go on for 16 slots behind each run.
     int (*find)(const Real* const position[3], int slot, const SlotRuns& runs, Real distance_squared,
                 std::int32_t* found);
+    /// The same for `slot` and the one behind it.
+    void (*find_two)(const Real* const position[3], int slot, const SlotRuns& runs, Real distance_squared,
+                     std::int32_t* const found[2], int count[2]);
     /// Lays 16 lists side by side: entry `lane` of row k is list[lane][k], or `filler` from count[lane] on. Writes
     /// `rows` rows; `to` must have room for the next multiple of 16 rows.
     void (*interleave)(const std::int32_t* const* list, const int* count, int rows, std::int32_t filler,

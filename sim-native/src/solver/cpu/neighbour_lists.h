@@ -80,16 +80,17 @@ public:
         const NeighbourKernels<Real>* kernels;
     };
 
-    /// candidates(slot, Surroundings) goes to the slot's cell, or returns false for a slot without particle. choose(slot, found, n) drops those that do not count and returns how many are left. Returns
-    /// the number of entries in all rows.
-    template <class Candidates, class Choose>
-    std::size_t list(const Search& search, ThreadTeam& team, SlicedRows rows, const Candidates& candidates,
+    /// cell_of(slot) gives a slot's cell, or -1 for slots without particle, which come last; go_to(Surroundings, cell) goes
+    /// there. choose(slot, found, n) drops those that do not count and returns how many are left. Returns the number of
+    /// entries in all rows.
+    template <class CellOf, class GoTo, class Choose>
+    std::size_t list(const Search& search, ThreadTeam& team, SlicedRows rows, const CellOf& cell_of, const GoTo& go_to,
                      const Choose& choose) {
         rooms_.resize(team.most_parts());
         for (Room& room : rooms_) room.size = 0;
         // The first part of the blocks has its rows written in place, the others into room of their own, to be appended.
         team.for_parts(search.blocks, search.shortest_part, [&](int part, int begin, int end) {
-            list_part(search, begin, end, rooms_[part], part == 0 ? rows.neighbour : rooms_[part].rows, rows, candidates,
+            list_part(search, begin, end, rooms_[part], part == 0 ? rows.neighbour : rooms_[part].rows, rows, cell_of, go_to,
                       choose);
         });
         std::size_t size = 0;
@@ -117,26 +118,28 @@ private:
         std::size_t size = 0;  ///< of the rows
     };
 
-    template <class Candidates, class Choose>
+    template <class CellOf, class GoTo, class Choose>
     void list_part(const Search& search, int first_block, int end_block, Room& room,
-                   AlignedVector<std::int32_t>& all_rows, SlicedRows rows, const Candidates& candidates,
+                   AlignedVector<std::int32_t>& all_rows, SlicedRows rows, const CellOf& cell_of, const GoTo& go_to,
                    const Choose& choose) {
         Surroundings<Real> around;
         std::size_t end = 0;
         for (int block = first_block; block < end_block; ++block) {
-            int most = 0;
             std::array<int, lanes> count{};
             std::array<const std::int32_t*, lanes> list{};
-            for (int lane = 0; lane < lanes; ++lane) {
-                const int slot = block * lanes + lane;
-                if (!candidates(slot, around)) continue;
-                std::vector<std::int32_t>& found = room.found[lane];
-                if (static_cast<int>(found.size()) < around.slots + lanes) found.resize(2 * around.slots + lanes);
-                const int n = search.kernels->find(search.position, slot, around.runs, search.distance_squared, found.data());
-                list[lane] = found.data();
-                count[lane] = choose(slot, found.data(), n);
-                rows.count[slot] = count[lane];
-                most = std::max(most, count[lane]);
+            std::array<int, lanes> cell{};
+            int used = 0, most = 0;
+            while (used < lanes && (cell[used] = cell_of(block * lanes + used)) >= 0) ++used;
+            for (int lane = 0, found = 1; lane < used; lane += found) {
+                go_to(around, cell[lane]);
+                found = lane + 1 < used && cell[lane + 1] == cell[lane] ? 2 : 1;
+                find(search, block * lanes + lane, found, around, room, &count[lane]);
+                for (int k = lane; k < lane + found; ++k) {
+                    list[k] = room.found[k].data();
+                    count[k] = choose(block * lanes + k, room.found[k].data(), count[k]);
+                    rows.count[block * lanes + k] = count[k];
+                    most = std::max(most, count[k]);
+                }
             }
             const std::size_t needed = end + static_cast<std::size_t>(round_up_to_block(most)) * lanes;
             if (all_rows.size() < needed) all_rows.resize(needed + needed / 2);
@@ -145,6 +148,20 @@ private:
             end += static_cast<std::size_t>(most) * lanes;
         }
         room.size = end;
+    }
+
+    /// Looks for the neighbours of `slots` slots of a cell from `slot` on, one or two of one block, in the room of their lanes.
+    static void find(const Search& search, int slot, int slots, const Surroundings<Real>& around, Room& room, int* count) {
+        std::int32_t* found[2]{};
+        for (int k = 0; k < slots; ++k) {
+            std::vector<std::int32_t>& of_lane = room.found[slot % lanes + k];
+            if (static_cast<int>(of_lane.size()) < around.slots + lanes) of_lane.resize(2 * around.slots + lanes);
+            found[k] = of_lane.data();
+        }
+        if (slots == 2)
+            search.kernels->find_two(search.position, slot, around.runs, search.distance_squared, found, count);
+        else
+            *count = search.kernels->find(search.position, slot, around.runs, search.distance_squared, found[0]);
     }
 
     std::vector<Room> rooms_{1};  ///< by part of the blocks

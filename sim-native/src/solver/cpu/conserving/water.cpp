@@ -182,10 +182,9 @@ void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
 /// Of all particles with all particles and images.
 template <class Real>
 void Water<Real>::list_neighbours(ThreadTeam& team) {
-    const auto candidates = [this](int slot, Surroundings<Real>& around) {
-        if (slot >= particles_) return false;
-        around.go_to(grid_, cell_of_[particle_of_[slot]], cell_begin_, image_cell_begin_);
-        return true;
+    const auto cell_of = [this](int slot) { return slot < particles_ ? cell_of_[particle_of_[slot]] : -1; };
+    const auto go_to = [this](Surroundings<Real>& around, int cell) {
+        around.go_to(grid_, cell, cell_begin_, image_cell_begin_);
     };
     const std::size_t size = lists_.list({.position = {position_.x.data(), position_.y.data(), position_.z.data()},
                                           .blocks = image_begin_ / lanes,
@@ -193,7 +192,7 @@ void Water<Real>::list_neighbours(ThreadTeam& team) {
                                           .filler = far_slot_,
                                           .shortest_part = shortest_part,
                                           .kernels = neighbour_kernels_},
-                                         team, {row_begin_, neighbour_, neighbour_count_}, candidates,
+                                         team, {row_begin_, neighbour_, neighbour_count_}, cell_of, go_to,
                                          [](int, std::int32_t*, int n) { return n; });
     if (gradient_.x.size() < size) gradient_.resize(neighbour_.size());
 }
