@@ -9,15 +9,15 @@ namespace natator::cuda {
 struct Parts {
     int members, size, streams;
 
-    Parts(int members, int most, int most_streams)
-        : members(members), size(ceiling(members, ceiling(members, most))), streams(std::min(count(), most_streams)) {}
+    Parts(int all, int most, int most_streams)
+        : members(all), size(ceiling(all, ceiling(all, most))), streams(std::min(count(), most_streams)) {}
 
     int count() const { return ceiling(members, size); }
     int first(int part) const { return part * size; }
     int size_of(int part) const { return std::min(size, members - first(part)); }
 
     /// So many that each stream has a part, but at most so many.
-    static int most_of(int members, int streams, int most) { return std::min(ceiling(members, streams), most); }
+    static int most_of(int all, int streams, int most) { return std::min(ceiling(all, streams), most); }
 
 private:
     static int ceiling(int dividend, int divisor) { return (dividend + divisor - 1) / divisor; }
