@@ -87,6 +87,7 @@ Eigen::AlignedBox3d box_around(const Obstacle& obstacle) {
 /// Those that are further than `distance` from all others: most of a scene's.
 std::vector<bool> which_are_alone(const std::vector<Obstacle>& obstacles, double distance) {
     std::vector<Eigen::AlignedBox3d> boxes;
+    boxes.reserve(obstacles.size());
     for (const Obstacle& obstacle : obstacles) boxes.push_back(box_around(obstacle));
     std::vector<bool> alone(obstacles.size(), true);
     for (std::size_t a = 0; a < boxes.size(); ++a)
