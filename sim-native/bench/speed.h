@@ -19,7 +19,8 @@ struct SpeedStudy {
     bool quick = false;  ///< a few frames of each scene
 };
 
-/// The thesis' creatures in their tank, 4 s each, creature 1 in vacuum, and its tank with 8 and 64 times the fluid.
+/// The thesis' creatures in their tank, 4 s each, creature 1 in vacuum, its tank with 8 and 64 times the fluid, and creature 2 in
+/// open water.
 std::vector<std::string> speed_scene_names();
 Scene speed_scene(const std::string& name, bool quick);
 /// The thesis' gait where it found one, else all muscles in a travelling wave.

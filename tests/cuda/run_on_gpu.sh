@@ -9,7 +9,7 @@ usage: tests/cuda/run_on_gpu.sh [--build DIR] [--output DIR] [--no-ensembles] [-
   --build DIR     use what was built there (bin/, share/), maybe on another machine; default: build it, preset cuda
   --output DIR    where logs and tables go; default: build/gpu-results
   --no-ensembles  leave out the comparison of 4-s ensembles with the CPU's, which takes minutes of all processors
-  --scene NAME    benchmark this scene; default: creature-1 creature-4 vacuum fluid-x8
+  --scene NAME    benchmark this scene; default: creature-1 creature-4 vacuum fluid-x8 open-water
 TEXT
 }
 
@@ -85,7 +85,7 @@ $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
 # --- benchmarks -----------------------------------------------------------------------------------------------------------
 
 rm -f "$output"/gpu-speed.csv "$output"/gpu-speed-profile.csv
-(( ${#scenes[@]} > 0 )) || scenes=(--scene creature-1 creature-4 vacuum fluid-x8)
+(( ${#scenes[@]} > 0 )) || scenes=(--scene creature-1 creature-4 vacuum fluid-x8 open-water)
 check bench-speed "$simulator" bench speed --backend cuda "${scenes[@]}" --output "$output/gpu-speed.csv"
 check bench-single-scene "$simulator" bench speed --backend cuda --whole-gpu --scene creature-1 --batch 1 \
     --output "$output/gpu-speed.csv"
