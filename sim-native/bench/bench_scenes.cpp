@@ -88,6 +88,12 @@ Subject make_subject(const std::string& name) {
     throw InputError("unknown bench scene \"" + name + "\": must be one of " + known);
 }
 
+int fluid_particles(const Model& model) {
+    int fluid = 0;
+    for (int i = 0; i < model.particles(); ++i) fluid += model.is_fluid(i);
+    return fluid;
+}
+
 nlohmann::json thesis_tank_with(const std::array<int, 3>& count, double spacing) {
     constexpr double margin = 0.05;
     const auto wall = [&](int axis) { return 2 * margin + spacing * (count[axis] - 1); };

@@ -26,6 +26,9 @@ std::vector<std::string> subject_names();
 /// Throws InputError for an unknown name.
 Subject make_subject(const std::string& name);
 
+/// How many of its particles are fluid.
+int fluid_particles(const Model& model);
+
 /// What makes another tank of the thesis': a block of so many particles of such a spacing, and the walls behind it.
 nlohmann::json thesis_tank_with(const std::array<int, 3>& count, double spacing);
 

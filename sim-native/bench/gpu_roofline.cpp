@@ -28,12 +28,10 @@ std::vector<Crowd> crowds(bool quick) {
     return all;
 }
 
-Row row_of(Row key, double bytes_of_pair, double pairs, double seconds, const std::string& share) {
-    for (const std::string& field :
-         {number_text(bytes_of_pair), measured_text(pairs), measured_text(seconds),
-          measured_text(1e-6 * pairs / seconds), measured_text(1e-9 * bytes_of_pair * pairs / seconds), share})
-        key.push_back(field);
-    return key;
+Row row_of(const Row& key, double bytes_of_pair, double pairs, double seconds, const std::string& share) {
+    return joined_rows(key, {number_text(bytes_of_pair), measured_text(pairs), measured_text(seconds),
+                             measured_text(1e-6 * pairs / seconds),
+                             measured_text(1e-9 * bytes_of_pair * pairs / seconds), share});
 }
 
 }  // namespace
@@ -61,10 +59,8 @@ void run_gpu_roofline_study(const GpuRooflineStudy& study, ResultTable& table,
         report(joined(row, " "));
     };
     if (const Row copy{"bandwidth", "memory copied", "", "", device}; !table.has(copy)) {
-        Row row = copy;
         const double bandwidth = cuda::measure_copy_bandwidth(study.device);
-        row.insert(row.end(), {"", "", "", "", measured_text(1e-9 * bandwidth), ""});
-        add(row);
+        add(joined_rows(copy, {"", "", "", "", measured_text(1e-9 * bandwidth), ""}));
     }
     for (const Crowd& crowd : crowds(study.quick)) {
         const auto key = [&](const char* kind, const char* name) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bench_scenes.h"
 #include "natator/batch.h"
 #include "natator/model_builder.h"
 #include "speed.h"
@@ -16,8 +17,7 @@ BatchOptions options_of(const GpuSpeedStudy& study, Precision precision) {
 
 Row figures(const Scene& scene, std::size_t evaluations, int repeats, const TimedBatch& measured) {
     const Model model = build_model(scene);
-    int fluid = 0;
-    for (int i = 0; i < model.particles(); ++i) fluid += model.is_fluid(i);
+    const int fluid = fluid_particles(model);
     const double substeps = std::round(scene.duration / scene.time_step) * scene.solver.substeps;
     const double work = static_cast<double>(evaluations) * (fluid > 0 ? fluid : model.particles()) * substeps *
                         scene.solver.numIterations;
@@ -31,11 +31,6 @@ Row figures(const Scene& scene, std::size_t evaluations, int repeats, const Time
             measured_text(measured.whole),
             measured_text(1e-6 * work / measured.device.kernel),
             measured.hash};
-}
-
-Row joined_rows(Row key, const Row& rest) {
-    key.insert(key.end(), rest.begin(), rest.end());
-    return key;
 }
 
 }  // namespace

@@ -99,6 +99,11 @@ std::string measured_text(double value) {
     return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr};
 }
 
+Row joined_rows(Row key, const Row& rest) {
+    key.insert(key.end(), rest.begin(), rest.end());
+    return key;
+}
+
 std::string path_beside(const std::string& path, const std::string& suffix) {
     const std::filesystem::path file(path);
     return (file.parent_path() / (file.stem().string() + "-" + suffix + ".csv")).string();

@@ -46,6 +46,9 @@ std::string number_text(double value);
 /// The same to 6 digits, for what was measured.
 std::string measured_text(double value);
 
+/// The fields of one row, then those of another.
+Row joined_rows(Row key, const Row& rest);
+
 /// The fields with a separator between them.
 std::string joined(const Row& row, const std::string& separator);
 

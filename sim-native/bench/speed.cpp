@@ -105,8 +105,7 @@ void measure(TimedScene& one) {
 Row figures(const TimedScene& one) {
     const Scene& scene = one.scene;
     const Model model = build_model(scene);
-    int fluid = 0;
-    for (int i = 0; i < model.particles(); ++i) fluid += model.is_fluid(i);
+    const int fluid = fluid_particles(model);
     const double substeps = std::round(scene.duration / scene.time_step) * scene.solver.substeps;
     const double work = (fluid > 0 ? fluid : model.particles()) * substeps * scene.solver.numIterations;
     const double least = *std::min_element(one.seconds.begin(), one.seconds.end());
@@ -120,12 +119,6 @@ Row figures(const TimedScene& one) {
             measured_text(1e-6 * work / least),
             measured_text(one.peak_mb),
             one.hash};
-}
-
-Row row_of(const TimedScene& one, const Row& rest) {
-    Row row = one.key;
-    row.insert(row.end(), rest.begin(), rest.end());
-    return row;
 }
 
 }  // namespace
@@ -176,11 +169,11 @@ void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& p
         for (int repeat = 0; repeat < study.repeats; ++repeat)
             for (TimedScene& one : timed) measure(one);
         for (const TimedScene& one : timed) {
-            table.add(row_of(one, figures(one)));
+            table.add(joined_rows(one.key, figures(one)));
             report(joined(table.rows().back(), " "));
             for (const StageProfile::Entry& entry : one.profile.entries())
-                profile.add(row_of(one, {entry.stage, std::to_string(entry.calls), measured_text(entry.seconds),
-                                         measured_text(entry.seconds / one.profile.seconds())}));
+                profile.add(joined_rows(one.key, {entry.stage, std::to_string(entry.calls), measured_text(entry.seconds),
+                                                  measured_text(entry.seconds / one.profile.seconds())}));
         }
     }
 }

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "bench_scenes.h"
+#include "evaluate/settle.h"
 #include "in_precision.h"
 #include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
@@ -21,12 +22,6 @@ namespace natator::bench {
 namespace {
 
 constexpr double spacing = 0.1;  // fluidRestDistance of the thesis
-
-int fluid_particles(const Model& model) {
-    int fluid = 0;
-    for (int i = 0; i < model.particles(); ++i) fluid += model.is_fluid(i);
-    return fluid;
-}
 
 Scene scene_of(const std::array<int, 3>& count) {
     constexpr double rear = 0.45, high = 0.6, aside = 0.6;
@@ -42,11 +37,7 @@ template <class Real>
 double mean_neighbours(const Scene& scene, const Model& model, int device, bool whole_gpu) {
     GpuSolver<Real> solver(model, {.device = device, .path = whole_gpu ? GpuPath::whole_gpu : GpuPath::block});
     State<Real> state = initial_state<Real>(model);
-    for (int k = 0; k < scene.settling.updates; ++k) {
-        solver.update(state, scene.settling.time_step, scene.settling.substeps);
-        std::fill(state.velocity.begin(), state.velocity.end(), Vector3<Real>::Zero());
-        state.time = 0;
-    }
+    settle(scene.settling, solver, state);
     solver.update(state, model.time_step, model.parameters.substeps);
     const std::vector<int> counts = solver.neighbour_counts();
     double sum = 0;
@@ -121,19 +112,17 @@ private:
     std::optional<double> neighbours_;
 };
 
-void measure_row(Tank& tank, int batch, Row row, ResultTable& table,
+void measure_row(Tank& tank, int batch, const Row& key, ResultTable& table,
                  const std::function<void(const std::string&)>& report) {
-    const std::string name = joined(row, " ");
+    const std::string name = joined(key, " ");
     try {
         const auto measured = tank.measure(batch);
         if (const auto* const reason = std::get_if<std::string>(&measured)) return report(name + ": " + *reason);
-        const Row& rest = std::get<Row>(measured);
-        row.insert(row.end(), rest.begin(), rest.end());
+        table.add(joined_rows(key, std::get<Row>(measured)));
+        report(joined(table.rows().back(), " "));
     } catch (const std::bad_alloc&) {
-        return report(name + ": needs more memory than there is");
+        report(name + ": needs more memory than there is");
     }
-    table.add(row);
-    report(joined(row, " "));
 }
 
 }  // namespace

@@ -67,6 +67,15 @@ void add_common(CLI::App* command, Common& common, std::vector<std::string> prec
     command->add_flag("--quick", common.quick, "A small part of the study, in seconds.");
 }
 
+void add_repeats(CLI::App* command, int& repeats, const std::string& description) {
+    command->add_option("--repeats", repeats, description)->check(CLI::Range(1, 1000))->capture_default_str();
+}
+
+/// Prints a table that has no file.
+void finish(const Common& common, const ResultTable& table) {
+    if (common.output.empty()) print(table.text());
+}
+
 void add_stability(CLI::App* bench, int& status) {
     struct Options {
         Common common;
@@ -82,7 +91,7 @@ void add_stability(CLI::App* bench, int& status) {
         ResultTable table(common.output, stability_columns(), stability_key_columns);
         const StabilityStudy study{common.chosen_schemes(), common.chosen_precisions(), options->axes, common.quick};
         run_stability_study(study, table, report);
-        if (common.output.empty()) print(table.text());
+        finish(common, table);
         for (const std::string& place : where_only_flex_is_ok(table.rows())) report("only flex is ok: " + place);
         status = ok;
     });
@@ -130,9 +139,7 @@ void add_precision(CLI::App* bench, int& status) {
         ->check(CLI::IsMember(subject_names()))
         ->capture_default_str();
     add_grid(command, options->grid);
-    command->add_option("--repeats", options->repeats, "Time measurements per setting; their median counts.")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+    add_repeats(command, options->repeats, "Time measurements per setting; their median counts.");
     command->callback([options, &status] {
         const Common& common = options->common;
         PrecisionStudy study{options->scenes,        common.chosen_schemes(),  common.chosen_precisions(),
@@ -250,7 +257,7 @@ void add_validation(CLI::App* bench, int& status) {
         ResultTable table(common.output, validation_columns(), validation_key_columns);
         ResultTable fronts = table_beside(common, "fronts", front_columns(), front_key_columns);
         run_validation_study(study, table, fronts, report);
-        if (common.output.empty()) print(table.text());
+        finish(common, table);
         status = ok;
     });
 }
@@ -299,7 +306,7 @@ void add_water(CLI::App* bench, int& status) {
         ResultTable table(common.output, water_columns(), water_key_columns);
         ResultTable curves = table_beside(common, "curves", water_curve_columns(), water_curve_key_columns);
         run_water_study(study, table, curves, report);
-        if (common.output.empty()) print(table.text());
+        finish(common, table);
         status = ok;
     });
 }
@@ -327,9 +334,7 @@ void add_speed(CLI::App* bench, int& status) {
     command->add_option("--threads", options->threads, "Threads inside one evaluation.")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command->add_option("--repeats", options->repeats, "Runs of each; the fastest counts.")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+    add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const Common& common = options->common;
         refuse_gpu_options_for_cpu(options->backend);
@@ -372,9 +377,7 @@ void add_throughput(CLI::App* bench, int& status) {
     command->add_option("--batch", options->batches, "Evaluations at a time; with many particles only 1 is done.")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
-    command->add_option("--repeats", options->repeats, "Runs of each; the fastest counts.")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+    add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const Common& common = options->common;
         on_gpu(options->backend, {});
@@ -388,7 +391,7 @@ void add_throughput(CLI::App* bench, int& status) {
         }
         ResultTable table(common.output, throughput_columns(), throughput_key_columns);
         run_throughput_study(study, table, report);
-        if (common.output.empty()) print(table.text());
+        finish(common, table);
         status = ok;
     });
 }
@@ -410,9 +413,7 @@ void add_stages(CLI::App* bench, int& status) {
         ->check(CLI::IsMember({"off", "on"}))
         ->capture_default_str();
     command->add_flag("--skipped-only", asked.skipped_only, "Do not also run everything without skipping.");
-    command->add_option("--repeats", asked.repeats, "Runs of each; the fastest counts.")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+    add_repeats(command, asked.repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const Common& common = options->common;
         StageCostStudy study = options->study;
@@ -422,7 +423,7 @@ void add_stages(CLI::App* bench, int& status) {
             throw InputError("bench stages: --precision: must be float");
         ResultTable table(common.output, stage_cost_columns(), stage_cost_key_columns);
         run_stage_cost_study(study, table, report);
-        if (common.output.empty()) print(table.text());
+        finish(common, table);
         status = ok;
     });
 }
@@ -450,7 +451,7 @@ void add_roofline(CLI::App* bench, int& status) {
                 throw InputError("bench roofline: --scheme: must be conserving on a GPU");
             ResultTable table(common.output, gpu_roofline_columns(), gpu_roofline_key_columns);
             run_gpu_roofline_study({.device = options->backend.device, .quick = common.quick}, table, report);
-            if (common.output.empty()) print(table.text());
+            finish(common, table);
             status = ok;
             return;
         }
@@ -458,7 +459,7 @@ void add_roofline(CLI::App* bench, int& status) {
         if (common.quick) study.frames = 2;
         ResultTable table(common.output, roofline_columns(), roofline_key_columns);
         run_roofline_study(study, table, report);
-        if (common.output.empty()) print(table.text());
+        finish(common, table);
         status = ok;
     });
 }

@@ -41,52 +41,45 @@ void interleave(const std::int32_t* const* list, const int* count, int rows, std
         for (int row = 0; row < rows; ++row) to[row * lanes + lane] = row < count[lane] ? list[lane][row] : filler;
 }
 
-/// `width` slots at a time; the nearer ones move to the front of their vector, which is written as a whole.
-int find_by_vectors(const float* const position[3], int slot, const SlotRuns& runs, float distance_squared,
-                    std::int32_t* found) {
+/// Of so many slots from `slot` on, which what is loaded serves all: `width` candidates at a time; the nearer ones move to the
+/// front of their vector, which is written as a whole.
+template <int slots>
+inline void find_by_vectors(const float* const position[3], int slot, const SlotRuns& runs, float distance_squared,
+                            std::int32_t* const* found, int* count) {
     const float* const x = position[0];
     const float* const y = position[1];
     const float* const z = position[2];
-    const Floats xi = all_lanes(x[slot]), yi = all_lanes(y[slot]), zi = all_lanes(z[slot]);
+    Vec3<Floats> here[slots];
+    std::int32_t* next[slots];
+    for (int s = 0; s < slots; ++s) {
+        here[s] = {all_lanes(x[slot + s]), all_lanes(y[slot + s]), all_lanes(z[slot + s])};
+        next[s] = found[s];
+    }
     const Floats limit = all_lanes(distance_squared);
-    int n = 0;
     for (int k = 0; k < runs.count; ++k) {
         const int end = runs.end[k];
         for (int j = runs.begin[k]; j < end; j += width) {
-            const Floats dx = xi - load_unaligned(x + j);
-            const Floats dy = yi - load_unaligned(y + j);
-            const Floats dz = zi - load_unaligned(z + j);
-            const Floats r2 = squared_length(Vec3<Floats>{dx, dy, dz});
-            const unsigned near = positive_and_below(r2, limit) & first_lanes(end - j);
-            n += store_chosen(found + n, j, near);
+            const Vec3<Floats> there{load_unaligned(x + j), load_unaligned(y + j), load_unaligned(z + j)};
+            const unsigned within = first_lanes(end - j);
+            for (int s = 0; s < slots; ++s) {
+                const unsigned near = positive_and_below(squared_length(here[s] - there), limit) & within;
+                next[s] += store_chosen(next[s], j, near);
+            }
         }
     }
-    return n;
+    for (int s = 0; s < slots; ++s) count[s] = static_cast<int>(next[s] - found[s]);
 }
 
-/// What is loaded serves both.
+int find_one_by_vectors(const float* const position[3], int slot, const SlotRuns& runs, float distance_squared,
+                        std::int32_t* found) {
+    int count = 0;
+    find_by_vectors<1>(position, slot, runs, distance_squared, &found, &count);
+    return count;
+}
+
 void find_two_by_vectors(const float* const position[3], int slot, const SlotRuns& runs, float distance_squared,
                          std::int32_t* const found[2], int count[2]) {
-    const float* const x = position[0];
-    const float* const y = position[1];
-    const float* const z = position[2];
-    const Floats xa = all_lanes(x[slot]), ya = all_lanes(y[slot]), za = all_lanes(z[slot]);
-    const Floats xb = all_lanes(x[slot + 1]), yb = all_lanes(y[slot + 1]), zb = all_lanes(z[slot + 1]);
-    const Floats limit = all_lanes(distance_squared);
-    std::int32_t *a = found[0], *b = found[1];
-    for (int k = 0; k < runs.count; ++k) {
-        const int end = runs.end[k];
-        for (int j = runs.begin[k]; j < end; j += width) {
-            const Floats xj = load_unaligned(x + j), yj = load_unaligned(y + j), zj = load_unaligned(z + j);
-            const unsigned within = first_lanes(end - j);
-            const Floats ra = squared_length(Vec3<Floats>{xa - xj, ya - yj, za - zj});
-            const Floats rb = squared_length(Vec3<Floats>{xb - xj, yb - yj, zb - zj});
-            a += store_chosen(a, j, positive_and_below(ra, limit) & within);
-            b += store_chosen(b, j, positive_and_below(rb, limit) & within);
-        }
-    }
-    count[0] = static_cast<int>(a - found[0]);
-    count[1] = static_cast<int>(b - found[1]);
+    find_by_vectors<2>(position, slot, runs, distance_squared, found, count);
 }
 
 /// Squares of `width` lists by `width` rows, transposed in registers.
@@ -119,7 +112,7 @@ NeighbourKernels<double> neighbour_kernels<double>() {
 
 template <>
 NeighbourKernels<float> neighbour_kernels<float>() {
-    return {&find_by_vectors, &find_two_by_vectors, &interleave_by_vectors};
+    return {&find_one_by_vectors, &find_two_by_vectors, &interleave_by_vectors};
 }
 
 }  // namespace natator::cpu::NATATOR_ISA
