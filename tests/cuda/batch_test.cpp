@@ -1,4 +1,5 @@
 // A member's bits depend on nothing but itself: not on its slot, the batch's size, or the run.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -68,6 +69,8 @@ TEST_P(GpuBatch, AnyBatchSizeSlotAndRunGivesTheSameBits) {
         const std::vector<std::uint64_t> three = hashes(members(k, 3));
         for (int e = 0; e < 3; ++e) EXPECT_EQ(three[e], all[k + e]) << k + e << " among three";
     }
+    for (const int count : {10, 20, 40, 80})  // by fewer and fewer multiprocessors each
+        EXPECT_EQ(hashes(members(0, count)), std::vector(all.begin(), all.begin() + count)) << "the first " << count;
     const std::vector<BatchMember> same(most, members(1, 1).front());
     EXPECT_EQ(hashes(same), std::vector<std::uint64_t>(most, all[1])) << "one gait in every slot";
     EXPECT_EQ(std::set<std::uint64_t>(all.begin(), all.end()).size(), all.size());
@@ -107,6 +110,15 @@ TEST_P(GpuBatch, MembersOfLargeScenesGiveTheBitsThatTheyGiveAlone) {
     }
 }
 
+/// Of fewer, but too many for the chip of a block.
+TEST_P(GpuBatch, MembersOfMiddleScenesGiveTheBitsThatTheyGiveAlone) {
+    scene = tank_of({70, 11, 20}, scene.scheme);
+    scene.duration = scene.time_step;
+    const std::vector<std::uint64_t> all = hashes(members(0, 140));
+    for (const int k : {0, 1, 139}) EXPECT_EQ(hashes(members(k, 1)).front(), all[k]) << k << " alone";
+    EXPECT_EQ(hashes(members(0, 20)), std::vector(all.begin(), all.begin() + 20));
+}
+
 TEST_P(GpuBatch, TellsTheMemoryThatItTakes) {
     scene.duration = scene.time_step;
     const std::size_t number = precision() == Precision::double_precision ? 8 : 4;
@@ -120,7 +132,8 @@ TEST_P(GpuBatch, TellsTheMemoryThatItTakes) {
     }
     EXPECT_GT(memory[0], 3 * of_state) << "positions and velocities";
     EXPECT_LT(memory[0], std::size_t{1} << 30);
-    EXPECT_EQ(memory[0], memory[1]);
+    const auto [least, most] = std::minmax(memory[0], memory[1]);
+    EXPECT_LT(most - least, least / 100) << "the most at a time, of streams side by side";
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, GpuBatch,

@@ -104,11 +104,17 @@ NATATOR_HD Vec3<T> with_dead_band(const Vec3<T>& centre, const Vec3<T>& mean) {
     return {moved(centre.x, mean.x), moved(centre.y, mean.y), moved(centre.z, mean.z)};
 }
 
+/// From a particle to its goal: c + R r_j - x_j.
+template <class T>
+NATATOR_HD Vec3<T> way_to_goal(const Vec3<T>& centre, const T matrix[9], const Vec3<T>& rest, const Vec3<T>& x) {
+    return centre + turned(matrix, rest) - x;
+}
+
 /// Scheme `flex`: Dx_j = k (c + R r_j - x_j).
 template <class T>
 NATATOR_HD Vec3<T> goal_correction(T stiffness, const Vec3<T>& centre, const T matrix[9], const Vec3<T>& rest,
                                    const Vec3<T>& x) {
-    return stiffness * (centre + turned(matrix, rest) - x);
+    return stiffness * way_to_goal(centre, matrix, rest, x);
 }
 
 /// Scheme `conserving`: compliance relative to the mass by XPBD, with the displacement d_j so far, to which it adds:

@@ -4,34 +4,33 @@
 
 namespace natator::cuda {
 
-/// Takes tickets until there are none. A ticket's State may still be in the hands of another block, which then works
+/// A team takes tickets until there are none. A ticket's State may still be in the hands of another team, which then works
 /// on an earlier ticket: waiting cannot lock up.
 template <class Real, bool on_chip, bool effects>
 __global__ void __launch_bounds__(threads, 1) advance(const __grid_constant__ BatchView<Real> batch) {
     extern __shared__ __align__(128) char chip[];
-    __shared__ unsigned ticket;
-    Block<Real, on_chip> block(batch.layout, chip,
-                               batch.scratch + blockIdx.x * std::size_t{batch.layout.scratch_bytes});
-    if (threadIdx.x == 0) {
-        block.shared().watch.totals = batch.profile;
-        block.shared().next_unit[0] = block.shared().next_unit[1] = 0;
-    }
+    using Team = Block<Real, on_chip>;
+    const std::size_t team = blockIdx.x / Team::blocks();
+    Team block(batch.layout, chip, batch.scratch + team * batch.layout.scratch_bytes);
+    auto& shared = block.shared();
+    if (block.thread() == 0) shared.watch.totals = batch.profile;
+    if (threadIdx.x == 0) block.of_block()->next_unit[0] = block.of_block()->next_unit[1] = 0;
     for (;;) {
-        if (threadIdx.x == 0) ticket = atomicAdd(batch.next_ticket, 1u);
-        __syncthreads();
-        const unsigned mine = ticket;
-        if (mine >= static_cast<unsigned>(batch.states) * batch.updates) return;
+        if (block.thread() == 0) shared.ticket = atomicAdd(batch.next_ticket, 1u);
+        block.barrier();
+        const unsigned mine = shared.ticket;
+        if (mine >= static_cast<unsigned>(batch.states) * batch.updates) return block.leave();
         const int state = mine % batch.states, number = mine / batch.states;
-        if (threadIdx.x == 0) {
+        if (block.thread() == 0) {
             while (*static_cast<volatile int*>(batch.updates_done + state) < number) __nanosleep(100);
             __threadfence();
         }
-        __syncthreads();
+        block.barrier();
         if (*static_cast<volatile int*>(&batch.progress[state].stopped) < 0)
             update<effects>(batch, state, number, block);
         __threadfence();
-        __syncthreads();
-        if (threadIdx.x == 0) *static_cast<volatile int*>(batch.updates_done + state) = number + 1;
+        block.barrier();
+        if (block.thread() == 0) *static_cast<volatile int*>(batch.updates_done + state) = number + 1;
     }
 }
 

@@ -1,20 +1,21 @@
 #pragma once
 
-// The arrays that a State has on the device, whether one block advances it (block.cuh) or the whole GPU (large/slots.cuh):
-// X(type, name, how many, where a block has it). Members, accessors, layouts and allocation are all made from these tables,
+// The arrays that a State has on the device, whether a team of threads advances it (block.cuh) or the whole GPU (large/slots.cuh):
+// X(type, name, how many, where a team has it). Members, accessors, layouts and allocation are all made from these tables,
 // and those of what only one of the two has. `all` is one for each slot, and one more for the slot that is far from all
 // others; `room` is what lists have room for, `size` the Model. An Index holds a slot, a particle's number or a count; a
 // Word what cells hold.
 //
-// A block has arrays on the chip, in scratch (device memory), or on the chip where they fit.
+// A team of threads that advances a State has its arrays on the chip of its one block (`team`), or in device memory, its
+// scratch; a block of the team has some on its chip (`block_chip`).
 #define NATATOR_CHIP_ARRAYS(X)                                             \
     /* By slot; w: inverse mass. Positions are read from these in turn. */ \
-    X(Quad<Real>, position, all, where_it_fits)                            \
-    X(Quad<Real>, next, room.next, where_it_fits)                          \
+    X(Quad<Real>, position, all, team)                                     \
+    X(Quad<Real>, next, room.next, team)                                   \
     /* Ends of the fluid's cells, then of the solids'. */                  \
-    X(Word, table, room.cells, where_it_fits)                              \
-    X(Index, slot_of_solid, size.solids, chip)                             \
-    X(ClusterFit<Real>, fit, size.clusters, chip)
+    X(Word, table, room.cells, team)                                       \
+    X(Index, slot_of_solid, size.solids, team)                             \
+    X(ClusterFit<Real>, fit, size.clusters, team)
 
 #define NATATOR_SCRATCH_ARRAYS(X)                                                                                  \
     /* Unsorted: in the order before slots are numbered, with inverse mass and number in w. */                     \
@@ -39,13 +40,15 @@
     X(Quad<Real>, normal, plan.fluid && plan.surface_tension ? all : 0, scratch)                                   \
     X(Quad<Real>, curl, plan.fluid && plan.vorticity ? all : 0, scratch)
 
-// What only the block has.
-#define NATATOR_BLOCK_ONLY_ARRAYS(X)             \
-    X(Real, rest_length, size.springs, chip)     \
-    X(int, scan, warps, chip) /* one per warp */ \
-    X(Shared<Real>, common, 1, chip)             \
+// What only such a team has.
+#define NATATOR_TEAM_ONLY_ARRAYS(X)              \
+    X(Real, rest_length, size.springs, team)     \
+    X(OfBlock, of_block, 1, block_chip)          \
+    X(Shared<Real>, common, 1, team)             \
     X(Quad<Real>, next_velocity, all, scratch)   \
     X(ClusterFit<Real>, fit_before, size.clusters, scratch)
+#define NATATOR_STAGING_ARRAYS(X) X(Index, own_staging, room.staging, block_chip)
 
-// Their order is that of the offsets which the block's kernel keeps in registers: in another it is 1.6 % slower on an H100.
-#define NATATOR_BLOCK_ARRAYS(X) NATATOR_CHIP_ARRAYS(X) NATATOR_BLOCK_ONLY_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X)
+// Their order is that of the offsets which the kernel keeps in registers: in another it is 1.6 % slower on an H100.
+#define NATATOR_TEAM_ARRAYS(X) \
+    NATATOR_CHIP_ARRAYS(X) NATATOR_TEAM_ONLY_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_STAGING_ARRAYS(X)

@@ -23,7 +23,7 @@ struct GaitView {
     const double* offset = nullptr;     ///< likewise; null = 0
 };
 
-/// What the blocks of a launch work on: `updates` updates of each of `states` States.
+/// What the teams of a launch work on: `updates` updates of each of `states` States.
 template <class Real>
 struct BatchView {
     ModelView<Real> model;
@@ -47,24 +47,31 @@ struct BatchView {
     bool stop_at_planes;
     int no_progress_frames;  ///< 0 = never
 
-    // By block.
+    // By team.
     Layout layout;
     char* scratch;
 
-    unsigned long long* profile;  ///< cycles by Stage, of all blocks; null if nobody asks
+    unsigned long long* profile;  ///< cycles by Stage, of all teams; null if nobody asks
 
     // The queue: tickets are handed out update by update, and within an update State by State.
     unsigned* next_ticket;
     int* updates_done;  ///< by State
 };
 
-/// Advances all States; returns at once. `blocks` are resident at the same time.
-template <class Real>
-void launch_batch(const BatchView<Real>& batch, bool on_chip, int blocks);
+/// How States are computed: each by the threads of a block that has it on its chip, or of a cluster of blocks.
+struct Teams {
+    bool on_chip;
+    int blocks;     ///< of a team
+    int count = 0;  ///< that are on the device at a time
+};
 
-/// Blocks that the current device can hold at a time; 0 if a block does not fit on its chip.
+/// The fastest for so many States on the current device; all give the same bits.
 template <class Real>
-int resident_blocks(const ModelView<Real>& model, bool on_chip);
+Teams best_teams(const ModelView<Real>& model, int states);
+
+/// Advances all States; returns at once.
+template <class Real>
+void launch_batch(const BatchView<Real>& batch, const Teams& teams);
 
 /// The kernel that launch_batch starts, with the code of effects (Plan::effects), which is there off chip only, or
 /// without; each in a source of its own.

@@ -17,11 +17,7 @@ namespace natator::cuda {
 template <class Real>
 class BatchRunner {
 public:
-    explicit BatchRunner(const Model& model) : model_(model) {
-        on_chip_ = resident_blocks(model_.view(), true) > 0;
-        blocks_ = resident_blocks(model_.view(), on_chip_);
-        if (blocks_ == 0) throw InputError("backend cuda: the scene has too many springs or clusters for the device");
-    }
+    explicit BatchRunner(const Model& model) : model_(model) {}
 
     const DeviceModel<Real>& model() const { return model_; }
 
@@ -40,9 +36,9 @@ public:
 
     /// Runs the updates to their end; States whose progress has stopped already stay as they are.
     void run(BatchView<Real>& batch, const std::vector<Progress>& progress, StageProfile* profile = nullptr) {
-        const int blocks = std::min(blocks_, batch.states);
-        batch.layout = layout_of(model_.view(), on_chip_);
-        const std::size_t bytes = static_cast<std::size_t>(blocks) * batch.layout.scratch_bytes;
+        const Teams teams = best_teams(model_.view(), batch.states);
+        batch.layout = layout_of(model_.view(), teams.on_chip);
+        const std::size_t bytes = std::size_t{batch.layout.scratch_bytes} * std::min(teams.count, batch.states);
         if (scratch_.size() < bytes) scratch_ = DeviceBuffer<char>(bytes);
         batch.scratch = scratch_.data();
         progress_ = DeviceBuffer<Progress>(progress);
@@ -60,7 +56,7 @@ public:
         batch.profile = cycles.data();
         const Event start, end;
         start.record();
-        launch_batch(batch, on_chip_, blocks);
+        launch_batch(batch, teams);
         end.record();
         check(cudaStreamSynchronize(nullptr), "run");
         seconds_ = end.seconds_since(start);
@@ -73,7 +69,7 @@ public:
     double seconds() const { return seconds_; }  ///< between the kernel's start and end
 
 private:
-    /// The kernel's time, shared out in proportion to the cycles that its blocks booked.
+    /// The kernel's time, shared out in proportion to the cycles that its teams booked.
     void add_to(StageProfile& profile, const std::vector<unsigned long long>& cycles) const {
         double all = 0;
         for (const auto booked : cycles) all += static_cast<double>(booked);
@@ -83,8 +79,6 @@ private:
     }
 
     DeviceModel<Real> model_;
-    bool on_chip_ = false;
-    int blocks_ = 0;
     DeviceBuffer<char> scratch_;
     DeviceBuffer<Progress> progress_;
     DeviceBuffer<double> path_;

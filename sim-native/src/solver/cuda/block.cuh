@@ -5,11 +5,9 @@
 #include "arrays.cuh"
 #include "model_view.h"
 #include "solver/stage.h"
+#include "team.cuh"
 
 namespace natator::cuda {
-
-inline constexpr int threads = 1024;  ///< of the block that advances one State
-inline constexpr int warps = threads / 32;
 
 /// Cluster as the last fit left it: centre, rotation matrix of the fit, and the quaternion that the next one starts
 /// from.
@@ -28,66 +26,93 @@ struct Trace {
     Quad<Real>* velocity = nullptr;   ///< [substep * particles + slot], at the slots of the last iteration
 };
 
-/// Books a block's cycles on its stages, by its first thread; does nothing without totals.
+/// Slots one behind the other.
+struct SlotRun {
+    int begin, end;
+};
+
+/// Books a team's cycles on its stages, by its first thread; does nothing without totals.
 struct Stopwatch {
     unsigned long long* totals;  ///< by Stage, of all blocks
     long long last;
 
-    __device__ void start() {
-        if (threadIdx.x == 0 && totals) last = clock64();
+    __device__ void start(int thread) {
+        if (thread == 0 && totals) last = clock64();
     }
-    __device__ void book(Stage stage) {
-        if (threadIdx.x != 0 || !totals) return;
+    __device__ void book(Stage stage, int thread) {
+        if (thread != 0 || !totals) return;
         const long long now = clock64();
         atomicAdd(totals + static_cast<int>(stage), static_cast<unsigned long long>(now - last));
         last = now;
     }
 };
 
-/// Where in a block's memory its arrays begin, in bytes.
+/// Where in its memory a team's arrays begin, in bytes.
 struct Layout {
 #define NATATOR_OFFSET(type, name, count, place) unsigned name;
-    NATATOR_BLOCK_ARRAYS(NATATOR_OFFSET)
+    NATATOR_TEAM_ARRAYS(NATATOR_OFFSET)
 #undef NATATOR_OFFSET
     unsigned chip_bytes, scratch_bytes;
     int staged;  ///< neighbours per thread that `next` has room for while they are searched
 };
 
-/// Numbers that all threads of a block share.
+/// Numbers that all threads of a team share.
 template <class Real>
 struct Shared {
     int touched;                         ///< slots that have contacts
-    int next_unit[2];                    ///< of work that warps take as they get free, see for_each_unit
     Real solids_low[3], solids_high[3];  ///< box around the solids
+    int flags[2];                        ///< of ClusterTeam::any
+    int block_sums[most_blocks_of_team]; ///< of exclusive_scan
+    unsigned ticket;                     ///< that the team works on
     Stopwatch watch;
 };
 
-/// All that a block works on while it advances one State. Slots are numbered anew in every substep, as on the CPU:
+/// Numbers that the threads of one of the team's blocks share, on the chip.
+struct OfBlock {
+    std::uint64_t arrivals;  ///< of ClusterTeam
+    int next_unit[2];  ///< of work that warps take as they get free, see for_each_unit
+    int sums[warps];   ///< of exclusive_scan
+};
+
+/// All that a team works on while it advances one State: a block that has the State on its chip, or the blocks of a
+/// cluster, which have it in device memory. Slots are numbered anew in every substep, as on the CPU:
 /// first the fluid, then the solids, each in the order of its cells and within a cell by particle, so that the order,
 /// and with it every sum, depends on positions alone. One more slot is far from all others: what ends lists points
 /// there.
 template <class R, bool on_chip>
-class Block {
+class Block : public std::conditional_t<on_chip, BlockTeam, ClusterTeam> {
 public:
     using Real = R;
 
-    __device__ Block(const Layout& layout, char* chip, char* scratch) : at_(layout), chip_(chip), scratch_(scratch) {}
+    /// `chip` is this block's own, `scratch` the team's.
+    __device__ Block(const Layout& layout, char* chip, char* scratch) : at_(layout), chip_(chip), scratch_(scratch) {
+        if constexpr (Block::of_clusters) this->begin(&of_block()->arrivals, shared().flags);
+    }
+    /// Every thread leaves by this.
+    __device__ void leave() const {
+        if constexpr (Block::of_clusters) this->end();
+    }
+
+    /// Several threads for each solid, which takes longer than fluid? Without them, one multiprocessor is full.
+    __device__ static constexpr bool shares_solids() { return Block::blocks() > 1; }
 
     using Index = std::uint16_t;
     using Word = std::uint32_t;  // of two cells
 
 #define NATATOR_ACCESSOR(type, name, count, place) \
     __device__ type* name() const { return reinterpret_cast<type*>(place() + at_.name); }
-    NATATOR_BLOCK_ARRAYS(NATATOR_ACCESSOR)
+    NATATOR_TEAM_ARRAYS(NATATOR_ACCESSOR)
 #undef NATATOR_ACCESSOR
     __device__ Word* keys() const { return reinterpret_cast<Word*>(next()); }         ///< while slots are numbered
-    __device__ Index* staging() const { return reinterpret_cast<Index*>(next()); }    ///< while pairs are searched
+    /// While pairs are searched, entry k of a thread of this block at [k * threads + its number in the block].
+    __device__ Index* staging() const { return on_chip ? reinterpret_cast<Index*>(next()) : own_staging(); }
     __device__ Shared<Real>& shared() const { return *common(); }
-    __device__ void book(Stage stage) const { shared().watch.book(stage); }
+    __device__ void book(Stage stage) const { shared().watch.book(stage, this->thread()); }
 
     // What a substep ends with; w of the position is its inverse mass.
     __device__ Quad<Real>* new_velocity() const { return next_velocity(); }
     __device__ Quad<Real>* end_position() const { return position(); }
+    __device__ Quad<Real>* base() const { return position(); }  ///< predicted, while pairs are searched
 
     __device__ int staged() const { return at_.staged; }
 
@@ -96,29 +121,33 @@ public:
     int phase = 0;                   ///< of for_each_unit
 
 private:
-    __device__ char* chip() const { return chip_; }
+    __device__ char* block_chip() const { return chip_; }
+    __device__ char* team() const { return on_chip ? chip_ : scratch_; }
     __device__ char* scratch() const { return scratch_; }
-    __device__ char* where_it_fits() const { return on_chip ? chip_ : scratch_; }
 
     const Layout& at_;
     char* chip_;
     char* scratch_;
 };
 
-/// Calls work(unit) for the units 0 .. count - 1, each by one whole warp that is free. Every thread of the block calls
-/// it; a barrier must lie between two calls.
+/// Calls work(unit) for the units 0 .. few + many - 1, each by one whole warp. Of the first, which take long, a block of the
+/// team has every so many-th; of the others, which lie side by side in the tank, a row. Its warps take them as they get free.
+/// Every thread of the team calls it; a barrier must lie between two calls.
 template <class Block, class Work>
-__device__ void for_each_unit(Block& block, int count, const Work& work) {
-    auto& shared = block.shared();
+__device__ void for_each_unit(Block& block, int few, int many, const Work& work) {
+    const int own_few = (few - block.block() + block.blocks() - 1) / block.blocks();
+    const int row = (many + block.blocks() - 1) / block.blocks();
+    const int skipped = block.block() * row, own = own_few + max(min(row, many - skipped), 0);
+    int* const next_unit = block.of_block()->next_unit;
     const int turn = block.phase & 1;
     block.phase ^= 1;
-    if (threadIdx.x == 0) shared.next_unit[turn ^ 1] = 0;  // for the next call; nobody uses it any more
+    if (threadIdx.x == 0) next_unit[turn ^ 1] = 0;  // for the next call; nobody uses it any more
     for (;;) {
         int unit = 0;
-        if (threadIdx.x % 32 == 0) unit = atomicAdd(&shared.next_unit[turn], 1);
+        if (threadIdx.x % 32 == 0) unit = atomicAdd(&next_unit[turn], 1);
         unit = __shfl_sync(0xffffffff, unit, 0);
-        if (unit >= count) return;
-        work(unit);
+        if (unit >= own) return;
+        work(unit < own_few ? unit * block.blocks() + block.block() : few + skipped + unit - own_few);
     }
 }
 
@@ -155,40 +184,53 @@ __device__ inline int count_up(std::uint32_t* table, int cell) {
     return (atomicAdd(table + cell / 2, 1u << shift) >> shift) & 0xffff;
 }
 
-/// Replaces the cells' counts by the sums of all before each; every thread of the block calls it. `scan` has a number
-/// per warp. Ends with a barrier.
-__device__ inline void exclusive_scan(std::uint32_t* table, int count, int* scan) {
-    const int words = (count + 1) / 2;
-    const int share = (words + threads - 1) / threads;
-    const int begin = min(static_cast<int>(threadIdx.x) * share, words), end = min(begin + share, words);
-    std::uint32_t sum = 0;
-    for (int i = begin; i < end; ++i) sum += (table[i] & 0xffff) + (table[i] >> 16);
+/// The sum of the values of the threads before this one in its block, and behind a barrier of the block in `of_block` that
+/// of all of them.
+__device__ inline int sum_before(int value, int* sums_of_warps, int& of_block) {
     const int lane = threadIdx.x % 32, warp = threadIdx.x / 32;
-    std::uint32_t inclusive = sum;
-    for (int step = 1; step < 32; step *= 2) {
-        const std::uint32_t before = __shfl_up_sync(0xffffffff, inclusive, step);
-        if (lane >= step) inclusive += before;
-    }
-    if (lane == 31) scan[warp] = static_cast<int>(inclusive);
+    const auto sum_up_to_lane = [lane](int sum) {
+        for (int step = 1; step < 32; step *= 2) {
+            const int before = __shfl_up_sync(0xffffffff, sum, step);
+            if (lane >= step) sum += before;
+        }
+        return sum;
+    };
+    const int of_warp = sum_up_to_lane(value);
+    if (lane == 31) sums_of_warps[warp] = of_warp;
     __syncthreads();
     if (warp == 0) {
-        const int total = lane < warps ? scan[lane] : 0;
-        int up_to = total;
-        for (int step = 1; step < 32; step *= 2) {
-            const int before = __shfl_up_sync(0xffffffff, up_to, step);
-            if (lane >= step) up_to += before;
-        }
-        if (lane < warps) scan[lane] = up_to - total;
+        const int own = sums_of_warps[lane], up_to = sum_up_to_lane(own);
+        sums_of_warps[lane] = up_to - own;
+        if (lane == 31) of_block = up_to;
     }
     __syncthreads();
-    std::uint32_t before = static_cast<std::uint32_t>(scan[warp]) + inclusive - sum;
+    return sums_of_warps[warp] + of_warp - value;
+}
+
+/// Replaces the cells' counts by the sums of all before each; every thread of the team calls it. Ends with a barrier.
+template <class Block>
+__device__ void exclusive_scan(const Block& block, std::uint32_t* table, int count) {
+    static_assert(warps == 32);
+    const int words = (count + 1) / 2;
+    const int share = (words + block.size() - 1) / block.size();
+    const int begin = min((block.block() * threads + static_cast<int>(threadIdx.x)) * share, words);
+    const int end = min(begin + share, words);
+    std::uint32_t sum = 0;
+    for (int i = begin; i < end; ++i) sum += (table[i] & 0xffff) + (table[i] >> 16);
+    int* const block_sums = block.shared().block_sums;
+    auto before = static_cast<std::uint32_t>(
+        sum_before(static_cast<int>(sum), block.of_block()->sums, block_sums[block.block()]));
+    if constexpr (Block::of_clusters) {
+        block.barrier();
+        for (int b = 0; b < block.block(); ++b) before += static_cast<std::uint32_t>(block_sums[b]);
+    }
     for (int i = begin; i < end; ++i) {
         const std::uint32_t word = table[i];
         const std::uint32_t second = before + (word & 0xffff);
         table[i] = before | second << 16;
         before = second + (word >> 16);
     }
-    __syncthreads();
+    block.barrier();
 }
 
 }  // namespace natator::cuda

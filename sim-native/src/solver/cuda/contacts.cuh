@@ -59,6 +59,26 @@ __device__ Real sum_of_lanes(Real value) {
     return value;
 }
 
+/// Calls find(e), which gives a vector with a factor in w, for e = begin .. end - 1, each by one of the `lanes` threads that
+/// share a slot; then, in all of these, add(what was found) in the order of e. All lanes of a warp call it together.
+template <int lanes, class Real, class Find, class Add>
+__device__ void add_in_order(int begin, int end, const Find& find, const Add& add) {
+    if constexpr (lanes == 1) {
+        for (int e = begin; e < end; ++e) add(find(e));
+        return;
+    }
+    constexpr unsigned all_lanes = 0xffffffff;
+    const int lane = threadIdx.x % lanes;
+    for (; __any_sync(all_lanes, begin < end); begin += lanes) {
+        const Quad<Real> own = begin + lane < end ? find(begin + lane) : Quad<Real>{0, 0, 0, 0};
+        for (int k = 0; k < lanes; ++k) {
+            const auto of_lane = [&](Real value) { return __shfl_sync(all_lanes, value, k, lanes); };
+            const Quad<Real> found{of_lane(own.x), of_lane(own.y), of_lane(own.z), of_lane(own.w)};
+            if (begin + k < end) add(found);
+        }
+    }
+}
+
 /// Calls work(slot, lane) for the slots that have contacts, `pair_lanes` threads each, all lanes of a warp together;
 /// slot is -1 for those beyond the last. Units of for_each_unit from 0 on.
 template <class Real, class Block>

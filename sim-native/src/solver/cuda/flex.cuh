@@ -88,7 +88,7 @@ __device__ void push_touched(const ModelView<Real>& model, const Block& block, i
 template <class Real, class Block>
 __device__ void compute_density(const ModelView<Real>& model, Block& block, Real least) {
     const int touched = touched_units<Real>(model, block), slots = (model.particles + 31) / 32;
-    for_each_unit(block, model.clusters + touched + slots, [&](int unit) {
+    for_each_unit(block, model.clusters + touched, slots, [&](int unit) {
         if (unit < model.clusters) return fit_cluster(model, block, unit);
         if (unit < model.clusters + touched) return push_touched(model, block, unit - model.clusters);
         const int s = (unit - model.clusters - touched) * 32 + threadIdx.x % 32;
@@ -98,7 +98,7 @@ __device__ void compute_density(const ModelView<Real>& model, Block& block, Real
         if (model.plan.free_surface_drag && s < model.fluid) block.density()[s] = above + 1;
         block.next()[s] = quad(x, s < model.fluid ? max(above, least) : Real(0));
     });
-    __syncthreads();
+    block.barrier();
 }
 
 template <class Real, class Block>
@@ -114,26 +114,32 @@ __device__ Correction<Real> density_constraint(const ModelView<Real>& model, con
     return {push.correction(inverse_mass, model.radius), push.constraints};
 }
 
-/// Seen from one particle.
-template <class Real, class Block>
-__device__ void add_springs_and_clusters(const ModelView<Real>& model, const Block& block, int solid,
-                                         const Vec3<Real>& x, Real inverse_mass, Correction<Real>& correction) {
-    for (int e = model.spring_shares_begin[solid]; e < model.spring_shares_begin[solid + 1]; ++e) {
+/// Of springs and clusters, seen from one solid, by the `lanes` threads that share it; of none if it is -1.
+template <int lanes, class Real, class Block>
+__device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, const Block& block, int solid,
+                                                 const Vec3<Real>& x, Real inverse_mass) {
+    Correction<Real> correction;
+    const auto add = [&](const Quad<Real>& push) {
+        correction.sum += push.w * xyz(push);
+        correction.constraints += 1;
+    };
+    const auto begin = [solid](const int* shares_begin) { return solid < 0 ? 0 : shares_begin[solid]; };
+    const auto end = [solid](const int* shares_begin) { return solid < 0 ? 0 : shares_begin[solid + 1]; };
+    add_in_order<lanes, Real>(begin(model.spring_shares_begin), end(model.spring_shares_begin), [&](int e) {
         const Share share = model.spring_share[e];
         const Real weights = inverse_mass + model.inverse_mass[model.fluid + share.other];
         const Vec3<Real> difference = x - xyz(block.next()[block.slot_of_solid()[share.other]]);
-        correction.sum +=
-            inverse_mass * physics::spring_push(difference, weights, block.rest_length()[share.constraint],
-                                                model.spring[share.constraint].rule);
-        correction.constraints += 1;
-    }
-    for (int e = model.cluster_shares_begin[solid]; e < model.cluster_shares_begin[solid + 1]; ++e) {
+        return quad(physics::spring_push(difference, weights, block.rest_length()[share.constraint],
+                                         model.spring[share.constraint].rule),
+                    inverse_mass);
+    }, add);
+    add_in_order<lanes, Real>(begin(model.cluster_shares_begin), end(model.cluster_shares_begin), [&](int e) {
         const Share share = model.cluster_share[e];
         const ClusterFit<Real>& fit = block.fit()[share.constraint];
-        correction.sum += goal_correction(model.cluster[share.constraint].stiffness, fit.centre, fit.matrix,
-                                          model.offset[share.other], x);
-        correction.constraints += 1;
-    }
+        return quad(physics::way_to_goal(fit.centre, fit.matrix, model.offset[share.other], x),
+                    model.cluster[share.constraint].stiffness);
+    }, add);
+    return correction;
 }
 
 template <class Real, class Block>
@@ -147,32 +153,48 @@ __device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Block& bl
     return x;
 }
 
-/// Every correction from the same positions, summed, relaxed and applied, planes last.
+/// Adds the contacts to the corrections of slot s, relaxes and applies the sum, planes last.
+template <class Real, class Block>
+__device__ void apply(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x, Real inverse_mass,
+                      Correction<Real> correction) {
+    if (model.plan.contacts && block.contact_count()[s] > 0) {
+        const Quad<Real> push = block.contact_push()[s];
+        correction.sum = correction.sum + xyz(push);
+        correction.constraints += push.w;
+    }
+    const Real scale = physics::relaxation(correction.constraints, model.relaxation_factor, model.local_relaxation);
+    const Vec3<Real> moved = x + scale * correction.sum;
+    block.position()[s] = quad(solve_planes(model, block, s, moved), inverse_mass);
+}
+
+/// Corrects the solids of a unit, by so many threads each.
+template <int lanes, class Real, class Block>
+__device__ void correct_solids(const ModelView<Real>& model, const Block& block, int unit) {
+    const int s = model.fluid + (unit * 32 + threadIdx.x % 32) / lanes;
+    const bool there = s < model.particles;
+    if (lanes == 1 && !there) return;
+    const Quad<Real> here = block.next()[there ? s : model.particles];
+    const Real inverse_mass = block.position()[there ? s : model.particles].w;
+    const int solid = there ? block.number()[s] - model.fluid : -1;
+    const auto correction = springs_and_clusters<lanes>(model, block, solid, xyz(here), inverse_mass);
+    if (there && threadIdx.x % lanes == 0) apply(model, block, s, xyz(here), inverse_mass, correction);
+}
+
+/// Every correction from the same positions: first of the solids, which take longest.
 template <class Real, class Block>
 __device__ void apply_corrections(const ModelView<Real>& model, Block& block) {
-    const int units = (model.particles + 31) / 32;
-    for_each_unit(block, units, [&](int unit) {
-        const int s = (units - 1 - unit) * 32 + threadIdx.x % 32;  // the last slots first: solids take longest
-        if (s >= model.particles) return;
+    const int in_unit = block.shares_solids() ? slots_of_warp : 32, of_solids = (model.solids + in_unit - 1) / in_unit;
+    for_each_unit(block, of_solids, (model.fluid + 31) / 32, [&](int unit) {
+        if (unit < of_solids)
+            return block.shares_solids() ? correct_solids<pair_lanes>(model, block, unit)
+                                         : correct_solids<1>(model, block, unit);
+        const int s = (unit - of_solids) * 32 + threadIdx.x % 32;
+        if (s >= model.fluid) return;
         const Quad<Real> here = block.next()[s];
-        const Vec3<Real> x = xyz(here);
         const Real inverse_mass = block.position()[s].w;
-        Correction<Real> correction;
-        if (s < model.fluid) {
-            correction = density_constraint(model, block, s, here, inverse_mass);
-            if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, block, s);
-        } else {
-            add_springs_and_clusters(model, block, block.number()[s] - model.fluid, x, inverse_mass, correction);
-        }
-        if (model.plan.contacts && block.contact_count()[s] > 0) {
-            const Quad<Real> push = block.contact_push()[s];
-            correction.sum = correction.sum + xyz(push);
-            correction.constraints += push.w;
-        }
-        const Real scale =
-            physics::relaxation(correction.constraints, model.relaxation_factor, model.local_relaxation);
-        const Vec3<Real> moved = x + scale * correction.sum;
-        block.position()[s] = quad(solve_planes(model, block, s, moved), inverse_mass);
+        Correction<Real> correction = density_constraint(model, block, s, here, inverse_mass);
+        if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, block, s);
+        apply(model, block, s, xyz(here), inverse_mass, correction);
     });
 }
 
@@ -209,12 +231,12 @@ __device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Block& bl
 template <class Real, class Block>
 __device__ bool update_velocities(const ModelView<Real>& model, Block& block) {
     if (model.plan.viscosity) {
-        for (int s = threadIdx.x; s < model.fluid; s += threads)
+        for (int s = block.thread(); s < model.fluid; s += block.size())
             block.next()[s] = quad(moved_per_second<Real>(block, s), Real(0));
-        __syncthreads();
+        block.barrier();
     }
     bool finite = true;
-    for_each_unit(block, (model.particles + 31) / 32, [&](int unit) {
+    for_each_unit(block, 0, (model.particles + 31) / 32, [&](int unit) {
         const int s = unit * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
         const Quad<Real> here = block.position()[s];

@@ -11,6 +11,11 @@
 
 namespace natator::cuda {
 
+/// Cells one behind the other; none if the last is before the first.
+struct CellRun {
+    int first, last;
+};
+
 /// Cells as in the CPU's CellGrid, laid once over the scene's box: positions outside belong to its border cells.
 template <class Real>
 struct GridView {
@@ -30,27 +35,26 @@ struct GridView {
         return (coordinate(x.z, 2) * count[1] + coordinate(x.y, 1)) * count[0] + coordinate(x.x, 0);
     }
 
-    /// Calls visit(first_cell, last_cell) for each run of cells that may hold particles within the search distance. To
-    /// cut the runs to the sphere saves a third of the candidates and costs more: runs of the lanes then differ.
+    /// Calls visit(run) for the runs of cells that may hold particles within the search distance of x. To cut them to the
+    /// sphere saves a third of the candidates and costs more: runs of the lanes then differ.
     template <class Visit>
     __device__ void for_each_run(const Vec3<Real>& x, const Visit& visit) const {
         const int cx = coordinate(x.x, 0), cy = coordinate(x.y, 1), cz = coordinate(x.z, 2);
-        const int first_x = max(cx - reach_x, 0);
-        const int last_x = min(cx + reach_x, count[0] - 1);
         for (int iz = max(cz - 1, 0); iz <= min(cz + 1, count[2] - 1); ++iz)
-            for (int iy = max(cy - 1, 0); iy <= min(cy + 1, count[1] - 1); ++iy) {
-                const int row = (iz * count[1] + iy) * count[0];
-                visit(row + first_x, row + last_x);
-            }
+            for (int iy = max(cy - 1, 0); iy <= min(cy + 1, count[1] - 1); ++iy) visit(around(cx, iy, iz));
+    }
+    /// Run k of them, in the same order; one that is outside has no cells.
+    __device__ CellRun run(const Vec3<Real>& x, int k) const {
+        const int iy = coordinate(x.y, 1) + k % 3 - 1, iz = coordinate(x.z, 2) + k / 3 - 1;
+        if (iy < 0 || iy >= count[1] || iz < 0 || iz >= count[2]) return {0, -1};
+        return around(coordinate(x.x, 0), iy, iz);
     }
     static constexpr int runs = 9;
-    /// Calls visit(first_cell, last_cell) for run k of them, in the same order, if it is within the grid.
-    template <class Visit>
-    __device__ void for_run(const Vec3<Real>& x, int k, const Visit& visit) const {
-        const int cx = coordinate(x.x, 0), iy = coordinate(x.y, 1) + k % 3 - 1, iz = coordinate(x.z, 2) + k / 3 - 1;
-        if (iy < 0 || iy >= count[1] || iz < 0 || iz >= count[2]) return;
+
+private:
+    __device__ CellRun around(int cx, int iy, int iz) const {
         const int row = (iz * count[1] + iy) * count[0];
-        visit(row + max(cx - reach_x, 0), row + min(cx + reach_x, count[0] - 1));
+        return {row + max(cx - reach_x, 0), row + min(cx + reach_x, count[0] - 1)};
     }
 };
 

@@ -21,10 +21,10 @@ __device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec
 template <class Real, class Block>
 __device__ void predict(const ModelView<Real>& model, Block& block) {
     std::uint32_t* const table = block.table();
-    for (int c = threadIdx.x; c < model.grid.cells; c += threads) table[c] = 0;
-    __syncthreads();
-    for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit_before()[k] = block.fit()[k];
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
+    for (int c = block.thread(); c < model.grid.cells; c += block.size()) table[c] = 0;
+    block.barrier();
+    for (int k = block.thread(); k < model.clusters; k += block.size()) block.fit_before()[k] = block.fit()[k];
+    for (int s = block.thread(); s < model.particles; s += block.size()) {
         const Quad<Real> x = block.position()[s];
         const Real inverse_mass = x.w;
         const Vec3<Real> v = predicted_velocity(model, xyz(block.velocity[s]), inverse_mass, s < model.fluid, block.h);
@@ -33,15 +33,16 @@ __device__ void predict(const ModelView<Real>& model, Block& block) {
         block.unsorted_velocity()[s] = quad(v, inverse_mass);
         if (needs_cells(model)) count_up(table, model.grid.cell(there) + (s < model.fluid ? 0 : model.grid.cells));
     }
-    __syncthreads();
+    block.barrier();
 }
 
 /// Box around the solids at their predicted positions, by the first warp.
 template <class Real, class Block>
 __device__ void bound_solids(const ModelView<Real>& model, Block& block) {
-    if (threadIdx.x >= 32) return;
+    const int lane = block.thread();
+    if (lane >= 32) return;
     Real low[3] = {Real(1e30), Real(1e30), Real(1e30)}, high[3] = {Real(-1e30), Real(-1e30), Real(-1e30)};
-    for (int s = model.fluid + threadIdx.x; s < model.particles; s += 32) {
+    for (int s = model.fluid + lane; s < model.particles; s += 32) {
         const Quad<Real> x = block.position()[s];
         const Real at[3] = {x.x, x.y, x.z};
         for (int axis = 0; axis < 3; ++axis) {
@@ -54,7 +55,7 @@ __device__ void bound_solids(const ModelView<Real>& model, Block& block) {
             low[axis] = min(low[axis], __shfl_xor_sync(0xffffffff, low[axis], step));
             high[axis] = max(high[axis], __shfl_xor_sync(0xffffffff, high[axis], step));
         }
-        if (threadIdx.x == 0) {
+        if (lane == 0) {
             block.shared().solids_low[axis] = low[axis] - model.search_distance;
             block.shared().solids_high[axis] = high[axis] + model.search_distance;
         }
@@ -70,18 +71,18 @@ __device__ void sort_keys(const ModelView<Real>& model, Block& block) {
     std::uint32_t* const keys = block.keys();
     const auto key_of = [](int number, int s) { return static_cast<std::uint32_t>(number) << 16 | s; };
     if (!needs_cells(model)) {
-        for (int s = threadIdx.x; s < model.particles; s += threads) keys[s] = key_of(block.number()[s], s);
-        __syncthreads();
+        for (int s = block.thread(); s < model.particles; s += block.size()) keys[s] = key_of(block.number()[s], s);
+        block.barrier();
         return;
     }
-    exclusive_scan(table, 2 * model.grid.cells, block.scan());
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
+    exclusive_scan(block, table, 2 * model.grid.cells);
+    for (int s = block.thread(); s < model.particles; s += block.size()) {
         const Quad<Real> there = block.unsorted_position()[s];
         const int cell = model.grid.cell(xyz(there)) + (s < model.fluid ? 0 : model.grid.cells);
         keys[count_up(table, cell)] = key_of(number_in(there.w), s);
     }
-    __syncthreads();
-    for (int c = threadIdx.x; c < 2 * model.grid.cells; c += threads) {
+    block.barrier();
+    for (int c = block.thread(); c < 2 * model.grid.cells; c += block.size()) {
         const int begin = c > 0 ? half_of(table, c - 1) : 0, end = half_of(table, c);
         for (int k = begin + 1; k < end; ++k) {
             const std::uint32_t key = keys[k];
@@ -90,7 +91,7 @@ __device__ void sort_keys(const ModelView<Real>& model, Block& block) {
             keys[place] = key;
         }
     }
-    __syncthreads();
+    block.barrier();
 }
 
 /// Numbers the slots anew and puts everything in its new place. Ends with a barrier.
@@ -98,13 +99,13 @@ template <class Real, class Block>
 __device__ void sort_into_cells(const ModelView<Real>& model, Block& block) {
     sort_keys(model, block);
     const std::uint32_t* const keys = block.keys();
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
+    for (int s = block.thread(); s < model.particles; s += block.size()) {
         const int before = keys[s] & 0xffff;
         block.start()[s] = block.position()[before];
         block.predicted_velocity()[s] = block.unsorted_velocity()[before];
     }
-    __syncthreads();
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
+    block.barrier();
+    for (int s = block.thread(); s < model.particles; s += block.size()) {
         const std::uint32_t key = keys[s];
         const int number = static_cast<int>(key >> 16);
         const Quad<Real> there = quad(xyz(block.unsorted_position()[key & 0xffff]), block.predicted_velocity()[s].w);
@@ -112,10 +113,10 @@ __device__ void sort_into_cells(const ModelView<Real>& model, Block& block) {
         block.number()[s] = static_cast<std::uint16_t>(number);
         if (s >= model.fluid) block.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);
     }
-    __syncthreads();
+    block.barrier();
     if (model.plan.contacts) bound_solids(model, block);
-    if (threadIdx.x == 0) block.shared().touched = 0;
-    __syncthreads();
+    if (block.thread() == 0) block.shared().touched = 0;
+    block.barrier();
 }
 
 /// Does particle i feel particle j? The same as Substep::collides.
@@ -127,22 +128,141 @@ __device__ bool collides(const ModelView<Real>& model, int i, int j) {
     return norm(model.rest_position[i] - model.rest_position[j]) >= model.radius;
 }
 
-/// Calls visit(slot, nearer than the search distance) for the slots in the cells around x, of the fluid or the solids.
+/// The slots in a run of cells, of the fluid or the solids.
+template <class Real, class R, bool on_chip>
+__device__ SlotRun slots_in(const ModelView<Real>& model, const Block<R, on_chip>& block, bool solids, const CellRun& run) {
+    if (run.last < run.first) return {0, 0};
+    const std::uint32_t* const table = block.table();
+    const int offset = solids ? model.grid.cells : 0;
+    return {run.first + offset > 0 ? half_of(table, run.first + offset - 1) : 0, half_of(table, run.last + offset)};
+}
+
+/// Is a predicted position nearer to x than the search distance, but not there?
+template <class Real>
+__device__ bool is_near(const ModelView<Real>& model, const Vec3<Real>& x, const Quad<Real>& predicted) {
+    const Vec3<Real> difference = x - xyz(predicted);
+    const Real r2 = dot(difference, difference);
+    return r2 < model.search_distance * model.search_distance && r2 > 0;
+}
+
+/// Calls visit(slot, is it near?) for the slots in the cells around x, of the fluid or the solids.
 template <class Real, class Block, class Visit>
 __device__ void for_each_candidate(const ModelView<Real>& model, const Block& block, bool solids, const Vec3<Real>& x,
                                    const Visit& visit) {
-    const std::uint32_t* const table = block.table();
-    const int offset = solids ? model.grid.cells : 0;
-    const Real distance_squared = model.search_distance * model.search_distance;
-    model.grid.for_each_run(x, [&](int first, int last) {
-        const int begin = first + offset > 0 ? half_of(table, first + offset - 1) : 0;
-        const int end = half_of(table, last + offset);
-        for (int other = begin; other < end; ++other) {
-            const Vec3<Real> difference = x - xyz(block.position()[other]);
-            const Real r2 = dot(difference, difference);
-            visit(other, r2 < distance_squared && r2 > 0);
-        }
+    model.grid.for_each_run(x, [&](const CellRun& cells) {
+        const SlotRun run = slots_in(model, block, solids, cells);
+        for (int other = run.begin; other < run.end; ++other) visit(other, is_near(model, x, block.base()[other]));
     });
+}
+
+/// Are particle i and what is in slot `other` in contact where they are near?
+template <class Real, class Block>
+__device__ bool may_touch(const ModelView<Real>& model, const Block& block, int i, int other) {
+    const int j = block.number()[other];
+    return collides(model, i, j) || (model.plan.mutual_contacts && collides(model, j, i));
+}
+
+/// Does slot s touch fluid, too?
+template <class Real>
+__device__ bool touches_fluid(const ModelView<Real>& model, int s) {
+    return s >= model.fluid && !model.plan.water;
+}
+
+/// Calls visit(k, slot) for what slot s is in contact with, in the order of its list; returns how many there are.
+template <class Real, class Block, class Visit>
+__device__ int search_contacts(const ModelView<Real>& model, const Block& block, int s, const Visit& visit) {
+    const Vec3<Real> x = xyz(block.base()[s]);
+    const int i = block.number()[s];
+    int n = 0;
+    const auto search = [&](bool solids) {
+        for_each_candidate(model, block, solids, x, [&](int other, bool near) {
+            if (!near || !may_touch(model, block, i, other)) return;
+            visit(n, other);
+            ++n;
+        });
+    };
+    if (touches_fluid(model, s)) search(false);
+    search(true);
+    return n;
+}
+
+/// The same by a warp, each of them visited by one lane. What a thread finds one after another takes a solid, which is
+/// near many, longer than all else takes.
+template <class Real, class Block, class Visit>
+__device__ int search_contacts_by_warp(const ModelView<Real>& model, const Block& block, int s, const Visit& visit) {
+    constexpr unsigned all_lanes = 0xffffffff;
+    constexpr int runs = GridView<Real>::runs;
+    const int lane = threadIdx.x % 32;
+    const Vec3<Real> x = xyz(block.base()[s]);
+    const int i = block.number()[s];
+    // A run for each lane, the fluid's first, and where its slots end among those of all runs.
+    const bool solids = lane >= runs;
+    SlotRun run{0, 0};
+    if (lane < 2 * runs && (solids || touches_fluid(model, s)))
+        run = slots_in(model, block, solids, model.grid.run(x, lane % runs));
+    int end = run.end - run.begin;
+    for (int step = 1; step < 2 * runs; step *= 2) {
+        const int before = __shfl_up_sync(all_lanes, end, step);
+        if (lane >= step) end += before;
+    }
+    const int count = __shfl_sync(all_lanes, end, 2 * runs - 1);
+    int n = 0;
+    for (int k = lane; k - lane < count; k += 32) {
+        int before = 0;  // runs that end before candidate k; every lane takes part in all shuffles
+        for (int step = 16; step > 0; step /= 2)
+            if (__shfl_sync(all_lanes, end, before + step - 1) <= k) before += step;
+        const int other = __shfl_sync(all_lanes, run.end - end, before) + k;
+        const bool found = k < count && is_near(model, x, block.base()[other]) && may_touch(model, block, i, other);
+        const unsigned all_found = __ballot_sync(all_lanes, found);
+        if (found) visit(n + __popc(all_found & ((1u << lane) - 1)), other);
+        n += __popc(all_found);
+    }
+    return n;
+}
+
+/// Is it in the box around the solids?
+template <class Block, class Real>
+__device__ bool near_solids(const Block& block, const Vec3<Real>& x) {
+    const auto& shared = block.shared();
+    const Real at[3] = {x.x, x.y, x.z};
+    for (int axis = 0; axis < 3; ++axis)
+        if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return false;
+    return true;
+}
+
+/// What lists the contacts of a slot.
+template <class Real, class R, bool on_chip>
+__device__ auto contact_lister(const ModelView<Real>& model, const Block<R, on_chip>& block, int s) {
+    const bool fluid = s < model.fluid;
+    std::uint16_t* const list = fluid ? block.fluid_contact() + s : block.solid_contact() + (s - model.fluid);
+    const std::size_t stride = fluid ? model.fluid : model.solids;
+    return [=](int k, int other) { list[k * stride] = static_cast<std::uint16_t>(other); };
+}
+
+template <class Block>
+__device__ void note_contacts(const Block& block, int s, int contacts) {
+    using Index = typename Block::Index;
+    block.contact_count()[s] = static_cast<Index>(contacts);
+    if (contacts > 0) block.touched()[atomicAdd(&block.shared().touched, 1)] = static_cast<Index>(s);
+}
+
+/// Planes that slot s may touch in this substep.
+template <class Real, class Block>
+__device__ void note_near_planes(const ModelView<Real>& model, const Block& block, int s, const Quad<Real>& here) {
+    unsigned planes = 0;
+    for (int k = 0; k < model.planes; ++k)
+        if (distance_to(model.plane[k].surface, xyz(here)) <= model.plane_search_distance) planes |= 1u << k;
+    block.plane_contact()[s] = static_cast<typename Block::Index>(here.w > 0 ? planes : 0);
+}
+
+/// Lists contacts and planes of a solid, by a warp.
+template <class Real, class Block>
+__device__ void find_neighbours_of_solid(const ModelView<Real>& model, const Block& block, int s) {
+    int contacts = 0;
+    if (model.plan.contacts) contacts = search_contacts_by_warp(model, block, s, contact_lister(model, block, s));
+    if (threadIdx.x % 32 != 0) return;
+    if (model.plan.contacts) note_contacts(block, s, contacts);
+    note_near_planes(model, block, s, block.base()[s]);
 }
 
 /// Entry k of the list of fluid neighbours of slot s.
@@ -195,60 +315,39 @@ __device__ void list_fluid_neighbours(const ModelView<Real>& model, Block& block
     block.neighbour_count()[s] = static_cast<std::uint16_t>(n);
 }
 
-/// Appends the slots near x that slot s is in contact with to a list; returns how many it has then.
+/// Lists contacts and planes of the solids of a unit: by a warp for one, or a thread for each of 32.
 template <class Real, class Block>
-__device__ int append_contacts(const ModelView<Real>& model, const Block& block, bool solids, int s,
-                               const Vec3<Real>& x, std::uint16_t* list, int stride, int n) {
-    const int i = block.number()[s];
-    for_each_candidate(model, block, solids, x, [&](int other, bool near) {
-        if (!near) return;
-        const int j = block.number()[other];
-        if (!collides(model, i, j) && !(model.plan.mutual_contacts && collides(model, j, i))) return;
-        list[static_cast<std::size_t>(n) * stride] = static_cast<std::uint16_t>(other);
-        ++n;
-    });
-    return n;
+__device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Block& block, int unit) {
+    if (block.shares_solids()) return find_neighbours_of_solid(model, block, model.fluid + unit);
+    const int s = model.fluid + unit * 32 + threadIdx.x % 32;
+    if (s >= model.particles) return;
+    if (model.plan.contacts)
+        note_contacts(block, s, search_contacts(model, block, s, contact_lister(model, block, s)));
+    note_near_planes(model, block, s, block.base()[s]);
 }
 
-template <class Real, class Block>
-__device__ int list_contacts(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x) {
-    if (s >= model.fluid) {
-        std::uint16_t* const list = block.solid_contact() + (s - model.fluid);
-        const int n = append_contacts(model, block, false, s, x, list, model.solids, 0);
-        return append_contacts(model, block, true, s, x, list, model.solids, n);
-    }
-    const auto& shared = block.shared();
-    const Real at[3] = {x.x, x.y, x.z};
-    for (int axis = 0; axis < 3; ++axis)
-        if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return 0;
-    return append_contacts(model, block, true, s, x, block.fluid_contact() + s, model.fluid, 0);
-}
-
-/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions. Ends with a barrier.
+/// Lists fluid neighbours, contacts and planes of every slot at the predicted positions: first of the solids, which take
+/// longest. Ends with a barrier.
 template <class Real, class Block>
 __device__ void find_neighbours(const ModelView<Real>& model, Block& block) {
-    // The last slots first: solids take longest.
-    const int units = (model.particles + 31) / 32;
-    for_each_unit(block, units, [&](int unit) {
-        const int s = (units - 1 - unit) * 32 + threadIdx.x % 32;
-        if (s >= model.particles) return;
-        const Quad<Real> here = block.position()[s];
+    const int of_solids = block.shares_solids() ? model.solids : (model.solids + 31) / 32;
+    for_each_unit(block, of_solids, (model.fluid + 31) / 32, [&](int unit) {
+        if (unit < of_solids) return find_neighbours_of_solids(model, block, unit);
+        const int s = (unit - of_solids) * 32 + threadIdx.x % 32;
+        if (s >= model.fluid) return;
+        const Quad<Real> here = block.base()[s];
         const Vec3<Real> x = xyz(here);
-        if (s < model.fluid) list_fluid_neighbours(model, block, s, x);
+        list_fluid_neighbours(model, block, s, x);
         if (model.plan.contacts) {
-            const int contacts = list_contacts(model, block, s, x);
-            block.contact_count()[s] = static_cast<std::uint16_t>(contacts);
-            if (contacts > 0) block.touched()[atomicAdd(&block.shared().touched, 1)] = static_cast<std::uint16_t>(s);
+            const bool searched = near_solids(block, x);
+            note_contacts(block, s, searched ? search_contacts(model, block, s, contact_lister(model, block, s)) : 0);
         }
-        unsigned planes = 0;
-        for (int k = 0; k < model.planes; ++k)
-            if (distance_to(model.plane[k].surface, x) <= model.plane_search_distance) planes |= 1u << k;
-        block.plane_contact()[s] = static_cast<std::uint16_t>(here.w > 0 ? planes : 0);
+        note_near_planes(model, block, s, here);
     });
-    __syncthreads();
+    block.barrier();
     // `next` was room for the search; its far slot is what lists end with.
-    if (threadIdx.x == 0) block.next()[model.particles] = far_away<Real>();
-    __syncthreads();
+    if (block.thread() == 0) block.next()[model.particles] = far_away<Real>();
+    block.barrier();
 }
 
 }  // namespace natator::cuda

@@ -1,6 +1,6 @@
 #pragma once
 
-// One update of one State by one block of threads, scheme flex.
+// One update of one State by a team of threads, scheme flex.
 #include "batch_kernel.cuh"
 #include "flex.cuh"
 #include "measure.cuh"
@@ -14,17 +14,17 @@ namespace natator::cuda {
 template <class Real, class Block>
 __device__ void rest(const BatchView<Real>& batch, int state, Block& block) {
     const ModelView<Real>& model = batch.model;
-    for (int s = threadIdx.x; s < model.springs; s += threads)
+    for (int s = block.thread(); s < model.springs; s += block.size())
         block.rest_length()[s] =
             batch.rest_length ? batch.rest_length[state * model.springs + s] : model.spring[s].rest_length;
-    __syncthreads();
+    block.barrier();
 }
 
 /// Ends with a barrier.
 template <class Real, class Block>
 __device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time, Block& block) {
     if (!gait.frequency) return;
-    for (int m = threadIdx.x; m < model.muscles; m += threads) {
+    for (int m = block.thread(); m < model.muscles; m += block.size()) {
         const MuscleView muscle = model.muscle[m];
         const int a = state * model.actuators + muscle.actuator;
         const double activation =
@@ -34,13 +34,13 @@ __device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int 
         block.rest_length()[muscle.spring] =
             static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }
-    __syncthreads();
+    block.barrier();
 }
 
 template <class Real, class Block>
 __device__ void record(const Block& block, int particles, Quad<Real>* to, int row) {
     if (!to) return;
-    for (int s = threadIdx.x; s < particles; s += threads)
+    for (int s = block.thread(); s < particles; s += block.size())
         to[static_cast<std::size_t>(row) * particles + s] =
             quad(xyz(block.position()[s]), as_number<Real>(block.number()[s]));
 }
@@ -73,11 +73,11 @@ struct BlockStages {
     __device__ void compute_density_and_fits() { compute_density(model, block, Real(0)); }
     __device__ void apply_corrections() {
         cuda::apply_corrections(model, block);
-        __syncthreads();
+        block.barrier();
     }
     __device__ void update_velocities() {
         finite = cuda::update_velocities(model, block);
-        finite = !__syncthreads_or(!finite);
+        finite = !block.any(!finite);
     }
     __device__ void damp_contacts() {
         for_each(model.particles, [&](int s) { damp(model, block, s); });
@@ -107,14 +107,14 @@ struct BlockStages {
             const Vec3<Real> both = xyz(block.end_position()[s]) + velocity_of<Real>(block, s);
             bad |= !isfinite(both.x + both.y + both.z);
         });
-        return !__syncthreads_or(bad) && finite;
+        return !block.any(bad) && finite;
     }
 
     /// Ends with a barrier.
     template <class Work>
     __device__ void for_each(int count, const Work& work) {
-        for (int s = threadIdx.x; s < count; s += threads) work(s);
-        __syncthreads();
+        for (int s = block.thread(); s < count; s += block.size()) work(s);
+        block.barrier();
     }
 };
 
@@ -134,19 +134,19 @@ struct AfterBlockStage {
 /// Particles of infinite mass keep their place. Ends with a barrier.
 template <class Real, class Block>
 __device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Block& block, int number) {
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
+    for (int s = block.thread(); s < model.particles; s += block.size()) {
         if (!(block.position()[s].w > 0)) block.position()[s] = block.start()[s];
         const Quad<Real> v = block.next_velocity()[s];
         block.velocity[s] = v;
         if (trace.velocity) trace.velocity[static_cast<std::size_t>(number) * model.particles + s] = v;
     }
-    __syncthreads();
+    block.barrier();
 }
 
 /// Notes the lowest particle that is not finite, and gives the State its values from before the substep back.
 template <class Real, class Block>
 __device__ void note_instability(const ModelView<Real>& model, Block& block, double time, Progress& progress) {
-    if (threadIdx.x == 0) {
+    if (block.thread() == 0) {
         int lowest = model.particles;
         for (int s = 0; s < model.particles; ++s) {
             const Quad<Real> x = block.position()[s], v = block.next_velocity()[s];
@@ -157,19 +157,19 @@ __device__ void note_instability(const ModelView<Real>& model, Block& block, dou
         progress.bad_particle = lowest;
         progress.bad_time = time;
     }
-    __syncthreads();
+    block.barrier();
     std::uint32_t* const slot_of = block.keys();
-    for (int s = threadIdx.x; s < model.particles; s += threads) slot_of[block.number()[s]] = s;
-    __syncthreads();
+    for (int s = block.thread(); s < model.particles; s += block.size()) slot_of[block.number()[s]] = s;
+    block.barrier();
     // Velocities are still in the order that slots had before the substep.
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
+    for (int s = block.thread(); s < model.particles; s += block.size()) {
         block.position()[s] = block.start()[s];
         block.next_velocity()[slot_of[number_in(block.unsorted_position()[s].w)]] = block.velocity[s];
     }
-    for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit()[k] = block.fit_before()[k];
-    __syncthreads();
-    for (int s = threadIdx.x; s < model.particles; s += threads) block.velocity[s] = block.next_velocity()[s];
-    __syncthreads();
+    for (int k = block.thread(); k < model.clusters; k += block.size()) block.fit()[k] = block.fit_before()[k];
+    block.barrier();
+    for (int s = block.thread(); s < model.particles; s += block.size()) block.velocity[s] = block.next_velocity()[s];
+    block.barrier();
 }
 
 /// What the last update of a State leaves for those who ask.
@@ -178,13 +178,13 @@ __device__ void report(const BatchView<Real>& batch, int state, Block& block) {
     const ModelView<Real>& model = batch.model;
     if (batch.neighbours) {
         int* const counts = batch.neighbours + static_cast<std::size_t>(state) * model.particles;
-        for (int s = threadIdx.x; s < model.particles; s += threads)
+        for (int s = block.thread(); s < model.particles; s += block.size())
             counts[block.number()[s]] = (s < model.fluid ? block.neighbour_count()[s] : 0) +
                                         (model.plan.contacts ? block.contact_count()[s] : 0);
     }
     if (!batch.density || !model.plan.fluid) return;
     compute_density(model, block, Real(-1));
-    for (int s = threadIdx.x; s < model.fluid; s += threads)
+    for (int s = block.thread(); s < model.fluid; s += block.size())
         batch.density[static_cast<std::size_t>(state) * model.fluid + block.number()[s]] = block.next()[s].w + 1;
 }
 
@@ -195,14 +195,14 @@ __device__ void end_frame(const BatchView<Real>& batch, int state, int update, B
     double* const path = batch.path + static_cast<std::size_t>(state) * (batch.updates + 1);
     measure_path(batch.model, block, path + update + 1);
     const bool touches = batch.stop_at_planes && touches_plane(batch.model, block);
-    if (threadIdx.x == 0) {
+    if (block.thread() == 0) {
         progress.frames = update + 1;
         if (touches)
             progress.stopped = static_cast<int>(StopReason::touched_plane);
         else if (physics::without_progress(path, update + 1, batch.no_progress_frames))
             progress.stopped = static_cast<int>(StopReason::no_progress);
     }
-    __syncthreads();
+    block.barrier();
 }
 
 /// Update `number` of a State.
@@ -213,17 +213,17 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
     Quad<Real>* const velocity = batch.velocity + static_cast<std::size_t>(state) * model.particles;
     ClusterFit<Real>* const fit = batch.fit + state * model.clusters;
     Progress& progress = batch.progress[state];
-    block.shared().watch.start();
+    block.shared().watch.start(block.thread());
     block.velocity = velocity;
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
+    for (int s = block.thread(); s < model.particles; s += block.size()) {
         const Quad<Real> x = position[s];
         const int i = number_in(x.w);
         block.position()[s] = quad(xyz(x), model.inverse_mass[i]);
         block.number()[s] = static_cast<std::uint16_t>(i);
         if (s >= model.fluid) block.slot_of_solid()[i - model.fluid] = static_cast<std::uint16_t>(s);
     }
-    if (threadIdx.x == 0) block.position()[model.particles] = block.start()[model.particles] = far_away<Real>();
-    for (int k = threadIdx.x; k < model.clusters; k += threads) block.fit()[k] = fit[k];
+    if (block.thread() == 0) block.position()[model.particles] = block.start()[model.particles] = far_away<Real>();
+    for (int k = block.thread(); k < model.clusters; k += block.size()) block.fit()[k] = fit[k];
     block.h = static_cast<Real>(batch.time_step) / static_cast<Real>(batch.substeps);
     const bool last = number + 1 == batch.updates;
     const Trace<Real> trace = last ? batch.trace : Trace<Real>{};
@@ -245,11 +245,11 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Bloc
         commit(model, trace, block, k);
         block.book(Stage::commit);
     }
-    for (int s = threadIdx.x; s < model.particles; s += threads) {
+    for (int s = block.thread(); s < model.particles; s += block.size()) {
         position[s] = quad(xyz(block.position()[s]), as_number<Real>(block.number()[s]));
         if (batch.settling) velocity[s] = {0, 0, 0, 0};
     }
-    for (int k = threadIdx.x; k < model.clusters; k += threads) fit[k] = block.fit()[k];
+    for (int k = block.thread(); k < model.clusters; k += block.size()) fit[k] = block.fit()[k];
     if (progress.stopped >= 0) return;
     if (!batch.settling) end_frame(batch, state, number, block);
     if (progress.stopped >= 0 || last) report(batch, state, block);

@@ -5,8 +5,8 @@
 
 namespace natator::cuda {
 
-/// Scenes of more particles are computed one by one, each by the whole GPU; smaller ones in batches, a block each. What
-/// a scene gives must not depend on the others, so the choice does not either.
+/// Scenes of more particles are computed by kernels of the whole GPU; smaller ones by blocks of their own. What a scene gives
+/// must not depend on the others, so the choice does not either.
 inline constexpr int most_particles_of_a_block = 20000;
 
 /// Whether members are computed so: all but scheme flex is, and what has goals or companions; `asked`: for every scene.

@@ -44,16 +44,6 @@ __device__ int list_fluid_neighbours(const ModelView<Real>& model, const Slots<R
     return n;
 }
 
-/// Is it in the box around the solids?
-template <class Real>
-__device__ bool near_solids(const Slots<Real>& slots, const Vec3<Real>& x) {
-    const auto& shared = slots.shared();
-    const Real at[3] = {x.x, x.y, x.z};
-    for (int axis = 0; axis < 3; ++axis)
-        if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return false;
-    return true;
-}
-
 /// What lists the contacts of a slot as far as there is room.
 template <class Real>
 __device__ auto contact_lister(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
@@ -64,30 +54,6 @@ __device__ auto contact_lister(const ModelView<Real>& model, const Slots<Real>& 
     return [=](int k, int other) {
         if (k < room) list[k * stride] = other;
     };
-}
-
-template <class Real>
-__device__ void note_contacts(const Slots<Real>& slots, int s, int contacts) {
-    slots.contact_count()[s] = contacts;
-    if (contacts > 0) slots.touched()[atomicAdd(&slots.shared().touched, 1)] = s;
-}
-
-template <class Real>
-__device__ void note_near_planes(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Quad<Real>& here) {
-    int planes = 0;
-    for (int k = 0; k < model.planes; ++k)
-        if (distance_to(model.plane[k].surface, xyz(here)) <= model.plane_search_distance) planes |= 1 << k;
-    slots.plane_contact()[s] = here.w > 0 ? planes : 0;
-}
-
-/// Lists contacts and planes of a solid, by a warp.
-template <class Real>
-__device__ void find_neighbours_of_solid(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    int contacts = 0;
-    if (model.plan.contacts) contacts = search_contacts_by_warp(model, slots, s, contact_lister(model, slots, s));
-    if (threadIdx.x % 32 != 0) return;
-    if (model.plan.contacts) note_contacts(slots, s, contacts);
-    note_near_planes(model, slots, s, slots.base()[s]);
 }
 
 /// Lists fluid neighbours, contacts and planes of a fluid slot. Walls of water are mirrors.

@@ -99,11 +99,12 @@ struct ContactRoom {
 /// Large States as the kernels see them, and one of them: what Block is to the kernel of a batch, for a grid of blocks.
 /// The functions of both take either. The y of the grid is the State's number.
 template <class R>
-class Slots {
+class Slots : public BlockTeam {
 public:
     using Real = R;
     using Index = typename StateArrays<Real>::Index;
     using Word = typename StateArrays<Real>::Word;
+    __device__ static constexpr bool shares_solids() { return true; }
 
 #define NATATOR_ACCESSOR(type, name, ...) \
     __device__ type* name() const { return at.name; }
@@ -170,10 +171,10 @@ __device__ inline int block_threads() {
 
 /// Units of work by the warps of the whole grid.
 template <class Real, class Work>
-__device__ void for_each_unit(const Slots<Real>&, int count, const Work& work) {
+__device__ void for_each_unit(const Slots<Real>&, int few, int many, const Work& work) {
     const int warps_of_block = static_cast<int>(blockDim.x) / 32;
     const int first = static_cast<int>(blockIdx.x) * warps_of_block + static_cast<int>(threadIdx.x) / 32;
-    for (int unit = first; unit < count; unit += static_cast<int>(gridDim.x) * warps_of_block) work(unit);
+    for (int unit = first; unit < few + many; unit += static_cast<int>(gridDim.x) * warps_of_block) work(unit);
 }
 
 /// Calls visit(slot) for the fluid neighbours of fluid slot s, and for the far slot until a chunk is full.
@@ -194,99 +195,11 @@ __device__ void for_each_neighbour(const ModelView<Real>&, const Slots<Real>& sl
     }
 }
 
-/// The slots in a run of cells, of the fluid or the solids.
-struct SlotRun {
-    int begin, end;
-};
 template <class Real>
-__device__ SlotRun slots_in(const ModelView<Real>& model, const Slots<Real>& slots, bool solids, int first_cell,
-                            int last_cell) {
+__device__ SlotRun slots_in(const ModelView<Real>& model, const Slots<Real>& slots, bool solids, const CellRun& run) {
+    if (run.last < run.first) return {0, 0};
     const int* const table = slots.at.table + (solids ? model.grid.cells : 0);
-    return {first_cell > 0 || solids ? table[first_cell - 1] : 0, table[last_cell]};
-}
-
-/// Is a slot nearer to x than the search distance at the predicted positions, but not there?
-template <class Real>
-__device__ bool is_near(const ModelView<Real>& model, const Slots<Real>& slots, const Vec3<Real>& x, int other) {
-    const Vec3<Real> difference = x - xyz(slots.base()[other]);
-    const Real r2 = dot(difference, difference);
-    return r2 < model.search_distance * model.search_distance && r2 > 0;
-}
-
-/// Calls visit(slot, is it near?) for the slots in the cells around x, of the fluid or the solids.
-template <class Real, class Visit>
-__device__ void for_each_candidate(const ModelView<Real>& model, const Slots<Real>& slots, bool solids,
-                                   const Vec3<Real>& x, const Visit& visit) {
-    model.grid.for_each_run(x, [&](int first, int last) {
-        const SlotRun run = slots_in(model, slots, solids, first, last);
-        for (int other = run.begin; other < run.end; ++other) visit(other, is_near(model, slots, x, other));
-    });
-}
-
-/// Are particle i and what is in slot `other` in contact where they are near?
-template <class Real>
-__device__ bool may_touch(const ModelView<Real>& model, const Slots<Real>& slots, int i, int other) {
-    const int j = slots.number()[other];
-    return collides(model, i, j) || (model.plan.mutual_contacts && collides(model, j, i));
-}
-
-/// Does slot s touch fluid, too?
-template <class Real>
-__device__ bool touches_fluid(const ModelView<Real>& model, int s) {
-    return s >= model.fluid && !model.plan.water;
-}
-
-/// Calls visit(k, slot) for what slot s is in contact with, in the order of its list.
-template <class Real, class Visit>
-__device__ int search_contacts(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Visit& visit) {
-    const Vec3<Real> x = xyz(slots.base()[s]);
-    const int i = slots.number()[s];
-    int n = 0;
-    for (int solids = touches_fluid(model, s) ? 0 : 1; solids < 2; ++solids)
-        for_each_candidate(model, slots, solids == 1, x, [&](int other, bool near) {
-            if (!near || !may_touch(model, slots, i, other)) return;
-            visit(n, other);
-            ++n;
-        });
-    return n;
-}
-
-/// The same by a warp, each of them visited by one lane. What a thread finds one after another takes a solid, which is
-/// near many, longer than all else takes the whole GPU.
-template <class Real, class Visit>
-__device__ int search_contacts_by_warp(const ModelView<Real>& model, const Slots<Real>& slots, int s,
-                                       const Visit& visit) {
-    constexpr unsigned all_lanes = 0xffffffff;
-    constexpr int runs = GridView<Real>::runs;
-    const int lane = threadIdx.x % 32;
-    const Vec3<Real> x = xyz(slots.base()[s]);
-    const int i = slots.number()[s];
-    // A run for each lane, the fluid's first, and where its slots end among those of all runs.
-    const bool solids = lane >= runs;
-    SlotRun run{0, 0};
-    if (lane < 2 * runs && (solids || touches_fluid(model, s)))
-        model.grid.for_run(x, lane % runs,
-                           [&](int first, int last) { run = slots_in(model, slots, solids, first, last); });
-    int end = run.end - run.begin;
-    for (int step = 1; step < 2 * runs; step *= 2) {
-        const int before = __shfl_up_sync(all_lanes, end, step);
-        if (lane >= step) end += before;
-    }
-    const int count = __shfl_sync(all_lanes, end, 2 * runs - 1);
-    int n = 0;
-    for (int k = lane; k - lane < count; k += 32) {
-        int other = -1;
-        for (int r = 0; r < 2 * runs; ++r) {  // every lane takes part in all shuffles
-            const int slot = __shfl_sync(all_lanes, run.end - end, r) + k;  // if it is in this run
-            const int begin = __shfl_sync(all_lanes, run.begin, r), run_end = __shfl_sync(all_lanes, run.end, r);
-            if (slot >= begin && slot < run_end) other = slot;
-        }
-        const bool found = other >= 0 && is_near(model, slots, x, other) && may_touch(model, slots, i, other);
-        const unsigned all_found = __ballot_sync(all_lanes, found);
-        if (found) visit(n + __popc(all_found & ((1u << lane) - 1)), other);
-        n += __popc(all_found);
-    }
-    return n;
+    return {run.first > 0 || solids ? table[run.first - 1] : 0, table[run.last]};
 }
 
 template <class Real, class Visit>

@@ -30,7 +30,7 @@ __device__ Real contact_depth(const ModelView<Real>& model, const Slots<Real>& s
 template <class Real>
 __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& slots) {
     const int units = touched_units<Real>(model, slots);
-    for_each_unit(slots, units, [&](int unit) {
+    for_each_unit(slots, units, 0, [&](int unit) {
         work_on_touched(slots, unit, [&](int s, int lane) {
             int active = 0;
             if (s >= 0)
@@ -41,7 +41,7 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& 
         });
     });
     __syncthreads();
-    for_each_unit(slots, units, [&](int unit) {
+    for_each_unit(slots, units, 0, [&](int unit) {
         work_on_touched(slots, unit, [&](int s, int lane) {
             const Real inverse_mass = s >= 0 ? slots.position()[s].w : Real(0);
             const int active = s >= 0 ? slots.constraint_count()[s] : 0;
