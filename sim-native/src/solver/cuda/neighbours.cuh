@@ -331,9 +331,10 @@ __device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Bl
 template <class Real, class Block>
 __device__ void find_neighbours(const ModelView<Real>& model, Block& block) {
     const int of_solids = block.shares_solids() ? model.solids : (model.solids + 31) / 32;
-    for_each_unit(block, of_solids, (model.fluid + 31) / 32, [&](int unit) {
+    const int of_fluid = (model.fluid + 31) / 32;
+    for_each_unit(block, of_solids, of_fluid, [&](int unit) {
         if (unit < of_solids) return find_neighbours_of_solids(model, block, unit);
-        const int s = (unit - of_solids) * 32 + threadIdx.x % 32;
+        const int s = (of_solids + of_fluid - 1 - unit) * 32 + threadIdx.x % 32;
         if (s >= model.fluid) return;
         const Quad<Real> here = block.base()[s];
         const Vec3<Real> x = xyz(here);
