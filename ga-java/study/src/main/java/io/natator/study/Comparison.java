@@ -5,19 +5,25 @@ import java.util.List;
 /**
  * Mean speeds of one variant over one interval, in scene units per second.
  *
- * @param flex what NVIDIA Flex gave
- * @param ours what our simulator gave
+ * @param flex     what NVIDIA Flex gave, from the start as stated
+ * @param ours     what our simulator gave, from starts that differ invisibly
+ * @param asStated what it gave from the start as stated; NaN if it did not
  */
-record Comparison(Variant variant, Interval interval, Sample flex, Sample ours) {
+record Comparison(Variant variant, Interval interval, Sample flex, Sample ours, double asStated) {
 
-    static Comparison of(Variant variant, Interval interval, List<Double> ourSpeeds) {
+    static Comparison of(Variant variant, Interval interval, List<Double> ourSpeeds, List<Double> asStated) {
         List<Double> flexSpeeds = variant.flexRuns().stream().map(run -> run.speed(interval)).toList();
-        return new Comparison(variant, interval, Sample.of(flexSpeeds), Sample.of(ourSpeeds));
+        return new Comparison(variant, interval, Sample.of(flexSpeeds), Sample.of(ourSpeeds), Sample.of(asStated).mean());
     }
 
     /** Ours minus theirs. */
     double difference() {
         return ours.mean() - flex.mean();
+    }
+
+    /** The same of the start as stated. */
+    double differenceAsStated() {
+        return asStated - flex.mean();
     }
 
     /**

@@ -9,7 +9,7 @@ import java.util.stream.Collectors;
 final class ComparisonTable {
 
     private static final String HEADER = "variant,about,medium,flex_runs,interval_s,"
-            + "flex_n,flex_mean,flex_sd,ours_n,ours_mean,ours_sd,difference,spread,difference_in_spreads,standard_error";
+            + "flex_n,flex_mean,flex_sd,ours_n,ours_mean,ours_sd,ours_as_stated,difference,spread,difference_in_spreads,standard_error";
 
     private ComparisonTable() {
     }
@@ -23,7 +23,8 @@ final class ComparisonTable {
         String runs = variant.flexRuns().stream().map(FlexRun::name).collect(Collectors.joining(" "));
         return String.join(",", variant.name(), Json.line(variant.about()), variant.inFluid() ? "fluid" : "vacuum", runs,
                 number(comparison.interval().duration()),
-                sample(comparison.flex()), sample(comparison.ours()), number(comparison.difference()),
+                sample(comparison.flex()), sample(comparison.ours()), number(comparison.asStated()),
+                number(comparison.difference()),
                 number(comparison.spread()), number(comparison.differenceInSpreads()),
                 number(comparison.standardError()));
     }

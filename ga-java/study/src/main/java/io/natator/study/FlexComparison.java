@@ -9,14 +9,16 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.ListIterator;
 import java.util.Locale;
+import java.util.Map;
+import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 import java.util.stream.Stream;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * Runs each variant several times from starts that differ invisibly, and sets the mean speeds beside those of NVIDIA
- * Flex. What is finished is kept on disk and not done again.
+ * Runs each variant from the start as stated and several times from starts that differ invisibly, and sets the speeds
+ * beside those of NVIDIA Flex. What is finished is kept on disk and not done again.
  */
 final class FlexComparison {
 
@@ -30,14 +32,14 @@ final class FlexComparison {
     /**
      * A study whose evaluations are kept in {@code logFile}.
      *
-     * @param runs            per variant and interval, with seeds 1, 2, …
+     * @param runs            per variant and interval, with seeds 1, 2, …, beside the one from the start as stated
      * @param simulatorDigest SHA-256 of the native program; evaluations that another one made do not count
      */
     FlexComparison(List<Variant> variants, int runs, Path logFile, String simulatorDigest) {
         this.variants = variants;
         this.studyRuns = variants.stream()
                 .flatMap(variant -> Arrays.stream(Interval.values())
-                        .flatMap(interval -> IntStream.rangeClosed(1, runs)
+                        .flatMap(interval -> IntStream.rangeClosed(0, runs)
                                 .mapToObj(seed -> new StudyRun(variant, interval, seed))))
                 .toList();
         this.logFile = logFile;
@@ -86,12 +88,11 @@ final class FlexComparison {
     }
 
     private Comparison compare(Variant variant, Interval interval, StudyLog log) {
-        List<Double> speeds = studyRuns.stream()
+        Map<Boolean, List<Double>> speeds = studyRuns.stream()
                 .filter(run -> run.variant() == variant && run.interval() == interval)
-                .map(log::resultOf)
-                .flatMap(FlexComparison::speed)
-                .toList();
-        return Comparison.of(variant, interval, speeds);
+                .collect(Collectors.partitioningBy(run -> run.seed() == 0,
+                        Collectors.flatMapping(run -> speed(log.resultOf(run)), Collectors.toList())));
+        return Comparison.of(variant, interval, speeds.get(false), speeds.get(true));
     }
 
     private static Stream<Double> speed(SimulationResult result) {

@@ -6,7 +6,8 @@ import io.natator.simulator.SimulationRequest;
 /**
  * One evaluation of a study.
  *
- * @param seed of the random shift that makes equal runs differ, as they do in Flex by themselves
+ * @param seed of the random shift that makes equal runs differ, as they do in Flex by themselves; 0 for none: the start as
+ *             it is stated, which is Flex' as well, with the symmetries that a shift breaks
  */
 record StudyRun(Variant variant, Interval interval, int seed) {
 
@@ -15,6 +16,6 @@ record StudyRun(Variant variant, Interval interval, int seed) {
 
     SimulationRequest request(long id) {
         return new SimulationRequest(id, variant.scene(), variant.gait(), interval.duration(), null,
-                variant.overrides(), new Perturbation(SHIFT, seed));
+                variant.overrides(), seed == 0 ? null : new Perturbation(SHIFT, seed));
     }
 }

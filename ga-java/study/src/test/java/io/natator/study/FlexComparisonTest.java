@@ -39,8 +39,9 @@ class FlexComparisonTest {
     @Test
     void everySeedOfEveryIntervalIsRunOnce() throws InterruptedException {
         List<Comparison> comparisons = study(FIRST, SECOND);
-        assertThat(simulator.requests).hasSize(2 * 2 * RUNS).doesNotHaveDuplicates();
-        assertThat(simulator.requests).allSatisfy(request -> {
+        assertThat(simulator.requests).hasSize(2 * 2 * (1 + RUNS)).doesNotHaveDuplicates();
+        assertThat(simulator.requests).filteredOn(request -> request.perturbation() == null).hasSize(2 * 2);
+        assertThat(simulator.requests).filteredOn(request -> request.perturbation() != null).allSatisfy(request -> {
             assertThat(request.perturbation().amplitude()).isEqualTo(1e-6);
             assertThat(request.perturbation().seed()).isBetween(1L, 3L);
         });
@@ -50,6 +51,7 @@ class FlexComparisonTest {
         assertThat(last.interval()).isEqualTo(Interval.FOUR_SECONDS);
         assertThat(last.ours().mean()).isCloseTo(2 + 0.2, within(1e-12));
         assertThat(last.ours().standardDeviation()).isCloseTo(1, within(1e-12));
+        assertThat(last.asStated()).isCloseTo(0.2, within(1e-12));
     }
 
     @Test
@@ -68,7 +70,7 @@ class FlexComparisonTest {
         simulator.requests.clear();
         assertThat(study(FIRST)).isEqualTo(before);
         assertThat(simulator.requests).hasSize(1);
-        assertThat(Files.readAllLines(log)).hasSize(2 * RUNS);
+        assertThat(Files.readAllLines(log)).hasSize(2 * (1 + RUNS));
     }
 
     @Test
@@ -90,11 +92,11 @@ class FlexComparisonTest {
         simulator.requests.clear();
         Variant changed = StudyFixtures.variant("second", "{\"solver\":{\"damping\":0.3}}", 2.0);
         study(FIRST, changed);
-        assertThat(simulator.requests).hasSize(2 * RUNS)
+        assertThat(simulator.requests).hasSize(2 * (1 + RUNS))
                 .allMatch(request -> request.overrides().equals(changed.overrides()));
         simulator.requests.clear();
         new FlexComparison(List.of(FIRST), RUNS, log, "another program").run(new WorkerPool(simulator, 1), null);
-        assertThat(simulator.requests).hasSize(2 * RUNS);
+        assertThat(simulator.requests).hasSize(2 * (1 + RUNS));
     }
 
     @Test
@@ -130,7 +132,7 @@ class FlexComparisonTest {
         Files.writeString(log, "noise\n", StandardOpenOption.APPEND);
         String before = Files.readString(log);
         assertThatThrownBy(() -> study(FIRST)).isInstanceOf(InvalidInputException.class)
-                .hasMessageStartingWith(log + ", line " + (2 * RUNS + 1) + ": ");
+                .hasMessageStartingWith(log + ", line " + (2 * (1 + RUNS) + 1) + ": ");
         assertThat(log).hasContent(before);
     }
 
@@ -138,7 +140,7 @@ class FlexComparisonTest {
         return new FlexComparison(List.of(variants), RUNS, log, "program").run(new WorkerPool(simulator, 1), null);
     }
 
-    /** Swims at the speed seed + damping, whatever the time. */
+    /** Swims at the speed seed + damping, whatever the time; the seed is 0 where there is no perturbation. */
     private static final class FakeSimulator implements Simulator {
 
         private final ConcurrentLinkedQueue<SimulationRequest> requests = new ConcurrentLinkedQueue<>();
@@ -147,8 +149,9 @@ class FlexComparisonTest {
         @Override
         public SimulationResult evaluate(SimulationRequest request) {
             requests.add(request);
-            Status status = request.perturbation().seed() == 2 ? statusOfSeedTwo : Status.OK;
-            double speed = request.perturbation().seed() + request.overrides().at("/solver/damping").asDouble();
+            long seed = request.perturbation() == null ? 0 : request.perturbation().seed();
+            Status status = seed == 2 ? statusOfSeedTwo : Status.OK;
+            double speed = seed + request.overrides().at("/solver/damping").asDouble();
             return new SimulationResult(request.id(), status, speed * request.duration(), "completed",
                     request.duration(), 1, "flex", "float", "0000000000000000", null, null);
         }
