@@ -1,7 +1,7 @@
 """Writes an SVG of throughput over the size of a scene, a line for each size of a batch, from throughput.csv to the standard output.
 
 usage: draw_throughput.py [SCHEME [PRECISION [DEVICE]]]; default: conserving float and the first device that throughput.csv has of
-them. Both axes are logarithmic. Rings are scenes that a block of threads computes each, discs those of the whole GPU. Needs Python alone.
+them. Both axes are logarithmic. Rings are scenes that have blocks of threads of their own, discs those of the whole GPU. Needs Python alone.
 """
 import csv
 import math
