@@ -133,7 +133,8 @@ TEST_P(GpuBatch, TellsTheMemoryThatItTakes) {
     EXPECT_GT(memory[0], 3 * of_state) << "positions and velocities";
     EXPECT_LT(memory[0], std::size_t{1} << 30);
     const auto [least, most] = std::minmax(memory[0], memory[1]);
-    EXPECT_LT(most - least, least / 100) << "the most at a time, of streams side by side";
+    const bool by_streams = scene.scheme == Scheme::conserving;  // side by side: what both have at a time differs
+    EXPECT_LE(most - least, by_streams ? least / 100 : 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, GpuBatch,

@@ -9,28 +9,28 @@ namespace natator::cuda {
 template <class Real, bool on_chip, bool effects>
 __global__ void __launch_bounds__(threads, 1) advance(const __grid_constant__ BatchView<Real> batch) {
     extern __shared__ __align__(128) char chip[];
-    using Team = Block<Real, on_chip>;
-    const std::size_t team = blockIdx.x / Team::blocks();
-    Team block(batch.layout, chip, batch.scratch + team * batch.layout.scratch_bytes);
-    auto& shared = block.shared();
-    if (block.thread() == 0) shared.watch.totals = batch.profile;
-    if (threadIdx.x == 0) block.of_block()->next_unit[0] = block.of_block()->next_unit[1] = 0;
+    using Team = StateTeam<Real, on_chip>;
+    const std::size_t scratch = blockIdx.x / Team::blocks() * std::size_t{batch.layout.scratch_bytes};
+    Team team(batch.layout, chip, batch.scratch + scratch);
+    auto& shared = team.shared();
+    if (team.thread() == 0) shared.watch.totals = batch.profile;
+    if (threadIdx.x == 0) team.of_block().next_unit[0] = team.of_block().next_unit[1] = 0;
     for (;;) {
-        if (block.thread() == 0) shared.ticket = atomicAdd(batch.next_ticket, 1u);
-        block.barrier();
+        if (team.thread() == 0) shared.ticket = atomicAdd(batch.next_ticket, 1u);
+        team.barrier();
         const unsigned mine = shared.ticket;
-        if (mine >= static_cast<unsigned>(batch.states) * batch.updates) return block.leave();
+        if (mine >= static_cast<unsigned>(batch.states) * batch.updates) return team.leave();
         const int state = mine % batch.states, number = mine / batch.states;
-        if (block.thread() == 0) {
+        if (team.thread() == 0) {
             while (*static_cast<volatile int*>(batch.updates_done + state) < number) __nanosleep(100);
             __threadfence();
         }
-        block.barrier();
+        team.barrier();
         if (*static_cast<volatile int*>(&batch.progress[state].stopped) < 0)
-            update<effects>(batch, state, number, block);
+            update<effects>(batch, state, number, team);
         __threadfence();
-        block.barrier();
-        if (block.thread() == 0) *static_cast<volatile int*>(batch.updates_done + state) = number + 1;
+        team.barrier();
+        if (team.thread() == 0) *static_cast<volatile int*>(batch.updates_done + state) = number + 1;
     }
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-// The arrays that a State has on the device, whether a team of threads advances it (block.cuh) or the whole GPU (large/slots.cuh):
-// X(type, name, how many, where a team has it). Members, accessors, layouts and allocation are all made from these tables,
-// and those of what only one of the two has. `all` is one for each slot, and one more for the slot that is far from all
-// others; `room` is what lists have room for, `size` the Model. An Index holds a slot, a particle's number or a count; a
-// Word what cells hold.
+// The arrays that a State has on the device, whether a team of threads advances it (state_team.cuh) or the whole GPU
+// (large/slots.cuh): X(type, name, how many, where a team has it). Members, accessors, layouts and allocation are all
+// made from these tables, and those of what only one of the two has. `all` is one for each slot, and one more for the
+// slot that is far from all others; `room` is what lists have room for, `size` the Model. An Index holds a slot, a
+// particle's number or a count; a Word what cells hold.
 //
 // A team of threads that advances a State has its arrays on the chip of its one block (`team`), or in device memory, its
 // scratch; a block of the team has some on its chip (`block_chip`).
@@ -41,11 +41,11 @@
     X(Quad<Real>, curl, plan.fluid && plan.vorticity ? all : 0, scratch)
 
 // What only such a team has.
-#define NATATOR_TEAM_ONLY_ARRAYS(X)              \
-    X(Real, rest_length, size.springs, team)     \
-    X(OfBlock, of_block, 1, block_chip)          \
-    X(Shared<Real>, common, 1, team)             \
-    X(Quad<Real>, next_velocity, all, scratch)   \
+#define NATATOR_TEAM_ONLY_ARRAYS(X)                    \
+    X(Real, rest_length, size.springs, team)           \
+    X(SharedByBlock, shared_by_block, 1, block_chip)   \
+    X(SharedByTeam<Real>, shared_by_team, 1, team)     \
+    X(Quad<Real>, next_velocity, all, scratch)         \
     X(ClusterFit<Real>, fit_before, size.clusters, scratch)
 #define NATATOR_STAGING_ARRAYS(X) X(Index, own_staging, room.staging, block_chip)
 

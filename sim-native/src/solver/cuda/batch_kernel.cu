@@ -15,27 +15,41 @@ const void* kernel(const ModelView<Real>& model, bool on_chip) {
     return model.plan.effects() ? batch_kernel<Real, true>(on_chip) : batch_kernel<Real, false>(on_chip);
 }
 
-int attribute(cudaDeviceAttr what) {
+int device_attribute(cudaDeviceAttr what) {
     int device = 0, value = 0;
     check(cudaGetDevice(&device), "current device");
     check(cudaDeviceGetAttribute(&value, what, device), "attribute of the device");
     return value;
 }
 
-/// What a launch of so many teams is asked with; `attribute` is part of it.
-cudaLaunchConfig_t configuration(const Teams& teams, int count, unsigned chip_bytes, cudaLaunchAttribute& attribute) {
-    attribute.id = cudaLaunchAttributeClusterDimension;
-    attribute.val.clusterDim = {static_cast<unsigned>(teams.blocks), 1, 1};
+/// What a launch of so many teams is asked with; `cluster` is part of it.
+cudaLaunchConfig_t configuration(const Teams& teams, int count, cudaLaunchAttribute& cluster) {
+    cluster.id = cudaLaunchAttributeClusterDimension;
+    cluster.val.clusterDim = {static_cast<unsigned>(teams.blocks), 1, 1};
     cudaLaunchConfig_t launch{};
     launch.gridDim = dim3(count * teams.blocks);
     launch.blockDim = dim3(threads);
-    launch.dynamicSmemBytes = chip_bytes;
-    launch.attrs = &attribute;
+    launch.dynamicSmemBytes = teams.layout.chip_bytes;
+    launch.attrs = &cluster;
     launch.numAttrs = teams.blocks > 1 ? 1 : 0;
     return launch;
 }
 
-/// How many teams the current device can hold at a time; 0 if a block does not fit on its chip.
+/// How many such clusters the current device holds at a time; 0 where it holds none, or the kernel was compiled for devices
+/// that have none.
+int resident_clusters(const void* function, const cudaFuncAttributes& attributes, const Teams& teams) {
+    if (attributes.ptxVersion < 90) return 0;  // ClusterTeam's blocks are teams of their own there
+    cudaLaunchAttribute cluster;
+    const cudaLaunchConfig_t launch = configuration(teams, 1, cluster);
+    int count = 0;
+    const bool known =
+        cudaFuncSetAttribute(function, cudaFuncAttributeNonPortableClusterSizeAllowed, 1) == cudaSuccess &&
+        cudaOccupancyMaxActiveClusters(&count, function, &launch) == cudaSuccess;
+    if (!known) cudaGetLastError();  // forgets that it was asked
+    return known ? count : 0;
+}
+
+/// How many teams the current device holds at a time; 0 if a block does not fit on its chip, or a team on the device.
 template <class Real>
 int resident(const ModelView<Real>& model, const Teams& teams) {
     if (teams.on_chip && model.plan.effects()) return 0;  // no such kernel: they are rare, and take long to compile
@@ -43,25 +57,18 @@ int resident(const ModelView<Real>& model, const Teams& teams) {
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, function), "kernel");
     const int most_bytes =
-        attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin) - static_cast<int>(attributes.sharedSizeBytes);
-    const unsigned bytes = layout_of(model, teams.on_chip).chip_bytes;
-    if (most_bytes < 0 || bytes > static_cast<unsigned>(most_bytes)) return 0;
-    // The limit belongs to the kernel, for all Models and threads: one of this Model alone could come between another's limit and
-    // its launch.
+        device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin) - static_cast<int>(attributes.sharedSizeBytes);
+    if (most_bytes < 0 || teams.layout.chip_bytes > static_cast<unsigned>(most_bytes)) return 0;
+    // The limit belongs to the kernel, for all Models and threads: one of this Model alone could come between another's
+    // limit and its launch.
     check(cudaFuncSetAttribute(function, cudaFuncAttributeMaxDynamicSharedMemorySize, most_bytes), "shared memory");
+    if (teams.blocks > 1) return resident_clusters(function, attributes, teams);
     int count = 0;
-    if (teams.blocks == 1) {
-        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads, bytes), "occupancy");
-        return count * attribute(cudaDevAttrMultiProcessorCount);
-    }
-    check(cudaFuncSetAttribute(function, cudaFuncAttributeNonPortableClusterSizeAllowed, 1), "clusters");
-    cudaLaunchAttribute cluster;
-    const cudaLaunchConfig_t launch = configuration(teams, 1, bytes, cluster);
-    check(cudaOccupancyMaxActiveClusters(&count, function, &launch), "occupancy");
-    return count;
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads, teams.layout.chip_bytes), "occupancy");
+    return count * device_attribute(cudaDevAttrMultiProcessorCount);
 }
 
-/// What a frame of 4 substeps takes a team, microseconds, nearly: measured on an H100 with 5915 and 16 223 particles.
+/// What a frame of 4 substeps takes a team, microseconds, nearly: measured on an H100 in float, with 5915 and 16 223 particles.
 double time_of(const Teams& teams, int particles) {
     return teams.on_chip ? 0.236 * particles : 330 + 0.24 * particles / teams.blocks;
 }
@@ -70,9 +77,13 @@ double time_of(const Teams& teams, int particles) {
 
 template <class Real>
 Teams best_teams(const ModelView<Real>& model, int states) {
+    // Few rows fit the smallest chips, of 64 KiB; lists that are longer take longer.
+    constexpr int small_chip = 96 << 10, few_rows = 24, rows = 40;
+    const bool small = device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin) < small_chip;
     Teams best{};
     double least = 0;
-    const auto consider = [&](Teams teams) {
+    const auto consider = [&](bool on_chip, int blocks) {
+        Teams teams{.on_chip = on_chip, .blocks = blocks, .layout = layout_of(model, on_chip, small ? few_rows : rows)};
         teams.count = resident(model, teams);
         if (teams.count == 0) return;
         const double time = time_of(teams, model.particles) * std::max(1.0, static_cast<double>(states) / teams.count);
@@ -80,9 +91,10 @@ Teams best_teams(const ModelView<Real>& model, int states) {
         best = teams;
         least = time;
     };
-    consider({.on_chip = true, .blocks = 1});
-    const int most_blocks = attribute(cudaDevAttrClusterLaunch) ? most_blocks_of_team : 1;
-    for (int blocks = 1; blocks <= most_blocks; blocks *= 2) consider({.on_chip = false, .blocks = blocks});
+    consider(true, 1);
+    const int most_blocks = device_attribute(cudaDevAttrClusterLaunch) ? most_blocks_of_team : 1;
+    for (int blocks = 1; blocks <= most_blocks; blocks *= 2) consider(false, blocks);
+    if (best.count == 0) throw InputError("backend cuda: a block of threads does not fit on the device's chip");
     return best;
 }
 
@@ -91,8 +103,7 @@ void launch_batch(const BatchView<Real>& batch, const Teams& teams) {
     BatchView<Real> argument = batch;
     void* arguments[] = {&argument};
     cudaLaunchAttribute cluster;
-    const cudaLaunchConfig_t launch =
-        configuration(teams, std::min(teams.count, batch.states), batch.layout.chip_bytes, cluster);
+    const cudaLaunchConfig_t launch = configuration(teams, std::min(teams.count, batch.states), cluster);
     check(cudaLaunchKernelExC(&launch, kernel(batch.model, teams.on_chip), arguments), "launch");
 }
 

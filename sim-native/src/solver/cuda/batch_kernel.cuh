@@ -1,6 +1,6 @@
 #pragma once
 
-#include "block.cuh"
+#include "state_team.cuh"
 #include "natator/evaluate.h"
 
 namespace natator::cuda {
@@ -62,10 +62,11 @@ struct BatchView {
 struct Teams {
     bool on_chip;
     int blocks;     ///< of a team
+    Layout layout;  ///< of what a team works on
     int count = 0;  ///< that are on the device at a time
 };
 
-/// The fastest for so many States on the current device; all give the same bits.
+/// The fastest for so many States on the current device; all give the same bits. Throws InputError where there are none.
 template <class Real>
 Teams best_teams(const ModelView<Real>& model, int states);
 

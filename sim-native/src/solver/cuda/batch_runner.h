@@ -7,7 +7,6 @@
 #include "batch_kernel.cuh"
 #include "device_states.h"
 #include "event.h"
-#include "layout.cuh"
 #include "natator/error.h"
 #include "natator/execution.h"
 
@@ -36,9 +35,12 @@ public:
 
     /// Runs the updates to their end; States whose progress has stopped already stay as they are.
     void run(BatchView<Real>& batch, const std::vector<Progress>& progress, StageProfile* profile = nullptr) {
-        const Teams teams = best_teams(model_.view(), batch.states);
-        batch.layout = layout_of(model_.view(), teams.on_chip);
-        const std::size_t bytes = std::size_t{batch.layout.scratch_bytes} * std::min(teams.count, batch.states);
+        if (!teams_ || states_of_teams_ != batch.states) {
+            teams_ = best_teams(model_.view(), batch.states);
+            states_of_teams_ = batch.states;
+        }
+        batch.layout = teams_->layout;
+        const std::size_t bytes = std::size_t{batch.layout.scratch_bytes} * std::min(teams_->count, batch.states);
         if (scratch_.size() < bytes) scratch_ = DeviceBuffer<char>(bytes);
         batch.scratch = scratch_.data();
         progress_ = DeviceBuffer<Progress>(progress);
@@ -56,7 +58,7 @@ public:
         batch.profile = cycles.data();
         const Event start, end;
         start.record();
-        launch_batch(batch, teams);
+        launch_batch(batch, *teams_);
         end.record();
         check(cudaStreamSynchronize(nullptr), "run");
         seconds_ = end.seconds_since(start);
@@ -79,6 +81,8 @@ private:
     }
 
     DeviceModel<Real> model_;
+    std::optional<Teams> teams_;  ///< of the last run, which had so many States
+    int states_of_teams_ = 0;
     DeviceBuffer<char> scratch_;
     DeviceBuffer<Progress> progress_;
     DeviceBuffer<double> path_;

@@ -1,33 +1,33 @@
 #pragma once
 
-#include "block.cuh"
+#include "state_team.cuh"
 #include "physics/pair.h"
 #include "physics/plane.h"
 
 namespace natator::cuda {
 
 /// Calls visit(slot) for every `step`th contact of slot s, from `first` on.
-template <class Real, class Block, class Visit>
-__device__ void for_each_contact_of(const ModelView<Real>& model, const Block& block, int s, int first, int step,
+template <class Real, class Team, class Visit>
+__device__ void for_each_contact_of(const ModelView<Real>& model, const Team& team, int s, int first, int step,
                                     const Visit& visit) {
     const bool fluid = s < model.fluid;
-    const std::uint16_t* const list = fluid ? block.fluid_contact() + s : block.solid_contact() + (s - model.fluid);
+    const std::uint16_t* const list = fluid ? team.fluid_contact() + s : team.solid_contact() + (s - model.fluid);
     const std::size_t stride = fluid ? model.fluid : model.solids;
-    const int count = block.contact_count()[s];
+    const int count = team.contact_count()[s];
     for (int k = first; k < count; k += step) visit(static_cast<int>(list[k * stride]));
 }
 
 /// Calls visit(slot) for the contacts of slot s.
-template <class Real, class Block, class Visit>
-__device__ void for_each_contact(const ModelView<Real>& model, const Block& block, int s, const Visit& visit) {
-    if (model.plan.contacts) for_each_contact_of(model, block, s, 0, 1, visit);
+template <class Real, class Team, class Visit>
+__device__ void for_each_contact(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
+    if (model.plan.contacts) for_each_contact_of(model, team, s, 0, 1, visit);
 }
 
 /// Calls visit(slot) for the fluid neighbours of fluid slot s, and for the far slot until a chunk is full.
-template <class Real, class Block, class Visit>
-__device__ void for_each_neighbour(const ModelView<Real>& model, const Block& block, int s, const Visit& visit) {
-    const int chunks = (block.neighbour_count()[s] + 7) / 8;
-    const uint4* chunk = block.neighbour() + s;
+template <class Real, class Team, class Visit>
+__device__ void for_each_neighbour(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
+    const int chunks = (team.neighbour_count()[s] + 7) / 8;
+    const uint4* chunk = team.neighbour() + s;
     if (chunks == 0) return;
     uint4 next = *chunk;
     for (int c = 1; c <= chunks; ++c) {
@@ -59,36 +59,38 @@ __device__ Real sum_of_lanes(Real value) {
     return value;
 }
 
-/// Calls find(e), which gives a vector with a factor in w, for e = begin .. end - 1, each by one of the `lanes` threads that
-/// share a slot; then, in all of these, add(what was found) in the order of e. All lanes of a warp call it together.
+/// Calls find(e), which gives a vector with a factor in w, for e = begin .. end - 1, each by one of the `lanes` threads
+/// that share a slot; then, in all of these, add(what was found) in the order of e. Where threads share, all lanes of a
+/// warp call it together.
 template <int lanes, class Real, class Find, class Add>
 __device__ void add_in_order(int begin, int end, const Find& find, const Add& add) {
     if constexpr (lanes == 1) {
         for (int e = begin; e < end; ++e) add(find(e));
-        return;
-    }
-    constexpr unsigned all_lanes = 0xffffffff;
-    const int lane = threadIdx.x % lanes;
-    for (; __any_sync(all_lanes, begin < end); begin += lanes) {
-        const Quad<Real> own = begin + lane < end ? find(begin + lane) : Quad<Real>{0, 0, 0, 0};
-        for (int k = 0; k < lanes; ++k) {
-            const auto of_lane = [&](Real value) { return __shfl_sync(all_lanes, value, k, lanes); };
-            const Quad<Real> found{of_lane(own.x), of_lane(own.y), of_lane(own.z), of_lane(own.w)};
-            if (begin + k < end) add(found);
+    } else {
+        constexpr unsigned all_lanes = 0xffffffff;
+        const int lane = threadIdx.x % lanes;
+        for (; __any_sync(all_lanes, begin < end); begin += lanes) {
+            const Quad<Real> own = begin + lane < end ? find(begin + lane) : Quad<Real>{0, 0, 0, 0};
+            for (int k = 0; k < lanes; ++k) {
+                const auto of_lane = [&](Real value) { return __shfl_sync(all_lanes, value, k, lanes); };
+                const Quad<Real> found{of_lane(own.x), of_lane(own.y), of_lane(own.z), of_lane(own.w)};
+                if (begin + k < end) add(found);
+            }
         }
     }
 }
 
-/// Calls work(slot, lane) for the slots that have contacts, `pair_lanes` threads each, all lanes of a warp together;
-/// slot is -1 for those beyond the last. Units of for_each_unit from 0 on.
-template <class Real, class Block>
-__device__ int touched_units(const ModelView<Real>& model, const Block& block) {
-    return model.plan.contacts ? (block.shared().touched * pair_lanes + 31) / 32 : 0;
+/// Units of for_each_unit that the slots with contacts make.
+template <class Real, class Team>
+__device__ int touched_units(const ModelView<Real>& model, const Team& team) {
+    return model.plan.contacts ? (team.shared().touched * pair_lanes + 31) / 32 : 0;
 }
-template <class Block, class Work>
-__device__ void work_on_touched(const Block& block, int unit, const Work& work) {
+/// Calls work(slot, lane) for the slots of such a unit, `pair_lanes` threads each, all lanes of a warp together; slot is -1
+/// for those beyond the last.
+template <class Team, class Work>
+__device__ void work_on_touched(const Team& team, int unit, const Work& work) {
     const int lane = threadIdx.x % 32, k = unit * (32 / pair_lanes) + lane / pair_lanes;
-    work(k < block.shared().touched ? static_cast<int>(block.touched()[k]) : -1, lane % pair_lanes);
+    work(k < team.shared().touched ? static_cast<int>(team.touched()[k]) : -1, lane % pair_lanes);
 }
 
 /// Of contacts of particles, and of planes.
@@ -102,28 +104,28 @@ __device__ physics::Friction<Real> plane_friction(const ModelView<Real>& model) 
 }
 
 /// Inverse mass of contact partner `other` as slot s feels it: shock propagation changes it.
-template <class Real, class Block>
-__device__ Real partner_weight(const ModelView<Real>& model, const Block& block, int s, int other) {
-    const Real w = block.position()[other].w;
+template <class Real, class Team>
+__device__ Real partner_weight(const ModelView<Real>& model, const Team& team, int s, int other) {
+    const Real w = team.position()[other].w;
     if (!model.plan.shock_propagation) return w;
     return w * physics::shock_factor(model.up, model.shock_propagation,
-                                     xyz(block.start()[s]) - xyz(block.start()[other]));
+                                     xyz(team.start()[s]) - xyz(team.start()[other]));
 }
 
 /// What a contact of this depth pushes slot s by, before its share is taken.
-template <class Real, class Block>
-__device__ Vec3<Real> contact_push(const ModelView<Real>& model, const Block& block, int s, int other, Real depth) {
-    const Vec3<Real> x = xyz(block.position()[s]), there = xyz(block.position()[other]);
+template <class Real, class Team>
+__device__ Vec3<Real> contact_push(const ModelView<Real>& model, const Team& team, int s, int other, Real depth) {
+    const Vec3<Real> x = xyz(team.position()[s]), there = xyz(team.position()[other]);
     return physics::contact_push(x - there, norm(x - there), depth, particle_friction(model), [&] {
-        return (x - xyz(block.start()[s])) - (there - xyz(block.start()[other]));
+        return (x - xyz(team.start()[s])) - (there - xyz(team.start()[other]));
     });
 }
 
 /// Calls visit(plane, distance) for the planes near slot s, the last plane first; x may change between two calls.
-template <class Real, class Block, class Visit>
-__device__ void for_each_near_plane(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x,
+template <class Real, class Team, class Visit>
+__device__ void for_each_near_plane(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
                                     const Visit& visit) {
-    const unsigned near = block.plane_contact()[s];
+    const unsigned near = team.plane_contact()[s];
     if (near == 0) return;
     for (int k = model.planes - 1; k >= 0; --k)
         if (near >> k & 1) visit(model.plane[k].surface, distance_to(model.plane[k].surface, x));

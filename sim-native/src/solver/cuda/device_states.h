@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "block.cuh"
 #include "device_model.h"
 #include "natator/state.h"
+#include "state_team.cuh"
 
 namespace natator::cuda {
 

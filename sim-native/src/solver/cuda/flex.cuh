@@ -10,23 +10,23 @@
 namespace natator::cuda {
 
 /// rho_i - 1 of the fluid in a slot.
-template <class Real, class Block>
-__device__ Real compression_of(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x) {
+template <class Real, class Team>
+__device__ Real compression_of(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x) {
     const auto left = [&](int other) {
-        return 1 - physics::length_of(x - xyz(block.position()[other])) * model.inverse_radius;
+        return 1 - physics::length_of(x - xyz(team.position()[other])) * model.inverse_radius;
     };
     physics::FlexDensity<Real> fluid, solids;
-    for_each_neighbour(model, block, s, [&](int other) { fluid.add(left(other)); });
-    if (model.plan.solid_pressure) for_each_contact(model, block, s, [&](int other) { solids.add(left(other)); });
+    for_each_neighbour(model, team, s, [&](int other) { fluid.add(left(other)); });
+    if (model.plan.solid_pressure) for_each_contact(model, team, s, [&](int other) { solids.add(left(other)); });
     return fluid.density(model.solid_pressure * solids.sum, model.density_scale) - 1;
 }
 
 /// Fits the rotation and centre of cluster k, by one warp.
-template <class Real, class Block>
-__device__ void fit_cluster(const ModelView<Real>& model, const Block& block, int k) {
+template <class Real, class Team>
+__device__ void fit_cluster(const ModelView<Real>& model, const Team& team, int k) {
     const int lane = threadIdx.x % 32;
     const ClusterView<Real> cluster = model.cluster[k];
-    const auto place = [&](int m) { return xyz(block.position()[block.slot_of_solid()[model.member[m]]]); };
+    const auto place = [&](int m) { return xyz(team.position()[team.slot_of_solid()[model.member[m]]]); };
     Vec3<double> sum{};
     for (int m = cluster.begin + lane; m < cluster.end; m += 32) sum += physics::cast<double>(place(m));
     sum = {sum_of_warp(sum.x), sum_of_warp(sum.y), sum_of_warp(sum.z)};
@@ -37,7 +37,7 @@ __device__ void fit_cluster(const ModelView<Real>& model, const Block& block, in
         add_arm(covariance, place(m) - mean, model.offset[m]);
     for (double& entry : covariance.entry) entry = sum_of_warp(entry);
 
-    ClusterFit<Real>& fit = block.fit()[k];
+    ClusterFit<Real>& fit = team.fit()[k];
     double q[4] = {fit.rotation[0], fit.rotation[1], fit.rotation[2], fit.rotation[3]};
     __syncwarp();
     physics::fit_rotation(covariance, q, physics::flex_fit_steps);
@@ -57,56 +57,56 @@ struct Correction {
 };
 
 /// Writes what the contacts of the slots in a unit push them by.
-template <class Real, class Block>
-__device__ void push_touched(const ModelView<Real>& model, const Block& block, int unit) {
-    work_on_touched(block, unit, [&](int s, int lane) {
+template <class Real, class Team>
+__device__ void push_touched(const ModelView<Real>& model, const Team& team, int unit) {
+    work_on_touched(team, unit, [&](int s, int lane) {
         Correction<Real> push;
         if (s >= 0) {
-            const Quad<Real> here = block.position()[s];
-            for_each_contact_of(model, block, s, lane, pair_lanes, [&](int other) {
-                const Quad<Real> there = block.position()[other];
+            const Quad<Real> here = team.position()[s];
+            for_each_contact_of(model, team, s, lane, pair_lanes, [&](int other) {
+                const Quad<Real> there = team.position()[other];
                 const Vec3<Real> difference = xyz(here) - xyz(there);
                 const Real r = norm(difference);
                 const Real depth = model.solid_rest_distance - r;
                 if (!(depth > 0)) return;
                 const Vec3<Real> by =
                     physics::contact_push(difference, r, depth, particle_friction(model), [&] {
-                        return (xyz(here) - xyz(block.start()[s])) - (xyz(there) - xyz(block.start()[other]));
+                        return (xyz(here) - xyz(team.start()[s])) - (xyz(there) - xyz(team.start()[other]));
                     });
-                push.sum += physics::weight_share(here.w, partner_weight(model, block, s, other)) * by;
+                push.sum += physics::weight_share(here.w, partner_weight(model, team, s, other)) * by;
                 push.constraints += 1;
             });
         }
         const Quad<Real> all{sum_of_lanes(push.sum.x), sum_of_lanes(push.sum.y), sum_of_lanes(push.sum.z),
                              sum_of_lanes(push.constraints)};
-        if (s >= 0 && lane == 0) block.contact_push()[s] = all;
+        if (s >= 0 && lane == 0) team.contact_push()[s] = all;
     });
 }
 
 /// rho_i - 1, but at least `least`, beside the positions in `next`; and all that depends on positions alone: fits of
 /// clusters and pushes of contacts. Ends with a barrier.
-template <class Real, class Block>
-__device__ void compute_density(const ModelView<Real>& model, Block& block, Real least) {
-    const int touched = touched_units<Real>(model, block), slots = (model.particles + 31) / 32;
-    for_each_unit(block, model.clusters + touched, slots, [&](int unit) {
-        if (unit < model.clusters) return fit_cluster(model, block, unit);
-        if (unit < model.clusters + touched) return push_touched(model, block, unit - model.clusters);
+template <class Real, class Team>
+__device__ void compute_density(const ModelView<Real>& model, Team& team, Real least) {
+    const int touched = touched_units<Real>(model, team), slots = (model.particles + 31) / 32;
+    for_each_unit(team, model.clusters + touched, slots, [&](int unit) {
+        if (unit < model.clusters) return fit_cluster(model, team, unit);
+        if (unit < model.clusters + touched) return push_touched(model, team, unit - model.clusters);
         const int s = (unit - model.clusters - touched) * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
-        const Vec3<Real> x = xyz(block.position()[s]);
-        const Real above = s < model.fluid ? compression_of(model, block, s, x) : Real(0);
-        if (model.plan.free_surface_drag && s < model.fluid) block.density()[s] = above + 1;
-        block.next()[s] = quad(x, s < model.fluid ? max(above, least) : Real(0));
+        const Vec3<Real> x = xyz(team.position()[s]);
+        const Real above = s < model.fluid ? compression_of(model, team, s, x) : Real(0);
+        if (model.plan.free_surface_drag && s < model.fluid) team.density()[s] = above + 1;
+        team.next()[s] = quad(x, s < model.fluid ? max(above, least) : Real(0));
     });
-    block.barrier();
+    team.barrier();
 }
 
-template <class Real, class Block>
-__device__ Correction<Real> density_constraint(const ModelView<Real>& model, const Block& block, int s,
+template <class Real, class Team>
+__device__ Correction<Real> density_constraint(const ModelView<Real>& model, const Team& team, int s,
                                                const Quad<Real>& here, Real inverse_mass) {
     physics::FlexPush<Real> push;
-    for_each_neighbour(model, block, s, [&](int other) {
-        const Quad<Real> there = block.next()[other];
+    for_each_neighbour(model, team, s, [&](int other) {
+        const Quad<Real> there = team.next()[other];
         const Vec3<Real> difference = xyz(here) - xyz(there);
         const physics::Distance<Real> distance = physics::distance_of(difference);
         push.add(difference, distance, 1 - distance.r * model.inverse_radius, here.w + there.w);
@@ -115,8 +115,8 @@ __device__ Correction<Real> density_constraint(const ModelView<Real>& model, con
 }
 
 /// Of springs and clusters, seen from one solid, by the `lanes` threads that share it; of none if it is -1.
-template <int lanes, class Real, class Block>
-__device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, const Block& block, int solid,
+template <int lanes, class Real, class Team>
+__device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, const Team& team, int solid,
                                                  const Vec3<Real>& x, Real inverse_mass) {
     Correction<Real> correction;
     const auto add = [&](const Quad<Real>& push) {
@@ -128,123 +128,132 @@ __device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, c
     add_in_order<lanes, Real>(begin(model.spring_shares_begin), end(model.spring_shares_begin), [&](int e) {
         const Share share = model.spring_share[e];
         const Real weights = inverse_mass + model.inverse_mass[model.fluid + share.other];
-        const Vec3<Real> difference = x - xyz(block.next()[block.slot_of_solid()[share.other]]);
-        return quad(physics::spring_push(difference, weights, block.rest_length()[share.constraint],
+        const Vec3<Real> difference = x - xyz(team.next()[team.slot_of_solid()[share.other]]);
+        return quad(physics::spring_push(difference, weights, team.rest_length()[share.constraint],
                                          model.spring[share.constraint].rule),
                     inverse_mass);
     }, add);
     add_in_order<lanes, Real>(begin(model.cluster_shares_begin), end(model.cluster_shares_begin), [&](int e) {
         const Share share = model.cluster_share[e];
-        const ClusterFit<Real>& fit = block.fit()[share.constraint];
+        const ClusterFit<Real>& fit = team.fit()[share.constraint];
         return quad(physics::way_to_goal(fit.centre, fit.matrix, model.offset[share.other], x),
                     model.cluster[share.constraint].stiffness);
     }, add);
     return correction;
 }
 
-template <class Real, class Block>
-__device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Block& block, int s, Vec3<Real> x) {
-    for_each_near_plane(model, block, s, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {
+template <class Real, class Team>
+__device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Team& team, int s, Vec3<Real> x) {
+    for_each_near_plane(model, team, s, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {
         const Real depth = model.collision_distance - distance;
         if (depth > 0)
             x = resolve_plane_penetration(x, depth, plane.normal, plane_friction(model),
-                                          [&](const Vec3<Real>& to) { return to - xyz(block.start()[s]); });
+                                          [&](const Vec3<Real>& to) { return to - xyz(team.start()[s]); });
     });
     return x;
 }
 
 /// Adds the contacts to the corrections of slot s, relaxes and applies the sum, planes last.
-template <class Real, class Block>
-__device__ void apply(const ModelView<Real>& model, const Block& block, int s, const Vec3<Real>& x, Real inverse_mass,
+template <class Real, class Team>
+__device__ void apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real inverse_mass,
                       Correction<Real> correction) {
-    if (model.plan.contacts && block.contact_count()[s] > 0) {
-        const Quad<Real> push = block.contact_push()[s];
+    if (model.plan.contacts && team.contact_count()[s] > 0) {
+        const Quad<Real> push = team.contact_push()[s];
         correction.sum = correction.sum + xyz(push);
         correction.constraints += push.w;
     }
     const Real scale = physics::relaxation(correction.constraints, model.relaxation_factor, model.local_relaxation);
     const Vec3<Real> moved = x + scale * correction.sum;
-    block.position()[s] = quad(solve_planes(model, block, s, moved), inverse_mass);
+    team.position()[s] = quad(solve_planes(model, team, s, moved), inverse_mass);
 }
 
 /// Corrects the solids of a unit, by so many threads each.
-template <int lanes, class Real, class Block>
-__device__ void correct_solids(const ModelView<Real>& model, const Block& block, int unit) {
+template <int lanes, class Real, class Team>
+__device__ void correct_solids(const ModelView<Real>& model, const Team& team, int unit) {
     const int s = model.fluid + (unit * 32 + threadIdx.x % 32) / lanes;
     const bool there = s < model.particles;
     if (lanes == 1 && !there) return;
-    const Quad<Real> here = block.next()[there ? s : model.particles];
-    const Real inverse_mass = block.position()[there ? s : model.particles].w;
-    const int solid = there ? block.number()[s] - model.fluid : -1;
-    const auto correction = springs_and_clusters<lanes>(model, block, solid, xyz(here), inverse_mass);
-    if (there && threadIdx.x % lanes == 0) apply(model, block, s, xyz(here), inverse_mass, correction);
+    const Quad<Real> here = team.next()[there ? s : model.particles];
+    const Real inverse_mass = team.position()[there ? s : model.particles].w;
+    const int solid = there ? team.number()[s] - model.fluid : -1;
+    const auto correction = springs_and_clusters<lanes>(model, team, solid, xyz(here), inverse_mass);
+    if (there && threadIdx.x % lanes == 0) apply(model, team, s, xyz(here), inverse_mass, correction);
 }
 
-/// Every correction from the same positions: first of the solids, which take longest, then of the last fluid slots: 3 %
-/// faster for batches on an H100 than from the first.
-template <class Real, class Block>
-__device__ void apply_corrections(const ModelView<Real>& model, Block& block) {
-    const int in_unit = block.shares_solids() ? slots_of_warp : 32, of_solids = (model.solids + in_unit - 1) / in_unit;
-    const int of_fluid = (model.fluid + 31) / 32;
-    for_each_unit(block, of_solids, of_fluid, [&](int unit) {
+/// Units of apply_corrections: of solids, with one thread or several for each, and of fluid.
+template <class Real>
+__host__ __device__ int solid_units(const ModelView<Real>& model, bool shared) {
+    const int in_unit = shared ? slots_of_warp : 32;
+    return (model.solids + in_unit - 1) / in_unit;
+}
+template <class Real>
+__host__ __device__ int fluid_units(const ModelView<Real>& model) {
+    return (model.fluid + 31) / 32;
+}
+
+/// Every correction from the same positions: first of the solids, which take longest.
+template <class Real, class Team>
+__device__ void apply_corrections(const ModelView<Real>& model, Team& team) {
+    const int of_solids = solid_units(model, team.shares_solids()), of_fluid = fluid_units(model);
+    for_each_unit(team, of_solids, of_fluid, [&](int unit) {
         if (unit < of_solids)
-            return block.shares_solids() ? correct_solids<pair_lanes>(model, block, unit)
-                                         : correct_solids<1>(model, block, unit);
-        const int s = (of_solids + of_fluid - 1 - unit) * 32 + threadIdx.x % 32;
+            return team.shares_solids() ? correct_solids<pair_lanes>(model, team, unit)
+                                         : correct_solids<1>(model, team, unit);
+        const int s = fluid_slot(unit - of_solids, of_fluid);
         if (s >= model.fluid) return;
-        const Quad<Real> here = block.next()[s];
-        const Real inverse_mass = block.position()[s].w;
-        Correction<Real> correction = density_constraint(model, block, s, here, inverse_mass);
-        if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, block, s);
-        apply(model, block, s, xyz(here), inverse_mass, correction);
+        const Quad<Real> here = team.next()[s];
+        const Real inverse_mass = team.position()[s].w;
+        Correction<Real> correction = density_constraint(model, team, s, here, inverse_mass);
+        if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, team, s);
+        apply(model, team, s, xyz(here), inverse_mass, correction);
     });
 }
 
 /// What slot s moved by per second.
-template <class Real, class Block>
-__device__ Vec3<Real> moved_per_second(const Block& block, int s) {
-    return 1 / block.h * (xyz(block.position()[s]) - xyz(block.start()[s]));
+template <class Real, class Team>
+__device__ Vec3<Real> moved_per_second(const Team& team, int s) {
+    return 1 / team.h * (xyz(team.position()[s]) - xyz(team.start()[s]));
 }
 
 /// The velocity that slot s leaves the substep with; for viscosity `next` holds what the fluid moved by per second.
-template <class Real, class Block>
-__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Block& block, int s) {
-    const Vec3<Real> x = xyz(block.position()[s]), u = moved_per_second<Real>(block, s);
+template <class Real, class Team>
+__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s) {
+    const Vec3<Real> x = xyz(team.position()[s]), u = moved_per_second<Real>(team, s);
     physics::FlexSmoothing<Real> smoothing;
     const bool viscous = model.plan.viscosity && s < model.fluid;
     if (viscous)
-        for_each_neighbour(model, block, s, [&](int other) {
-            const Real r = physics::length_of(x - xyz(block.position()[other]));
-            smoothing.add(1 - r * model.inverse_radius, xyz(block.next()[other]) - u);
+        for_each_neighbour(model, team, s, [&](int other) {
+            const Real r = physics::length_of(x - xyz(team.position()[other]));
+            smoothing.add(1 - r * model.inverse_radius, xyz(team.next()[other]) - u);
         });
-    const Vec3<Real> predicted = xyz(block.predicted_velocity()[s]);
+    const Vec3<Real> predicted = xyz(team.predicted_velocity()[s]);
     const physics::VelocityRule<Real> rule{viscous,
-                                           block.h * model.viscosity,
+                                           team.h * model.viscosity,
                                            model.plan.damping,
-                                           block.h * model.damping,
+                                           team.h * model.damping,
                                            model.plan.clamp_acceleration,
-                                           block.h * model.max_acceleration,
+                                           team.h * model.max_acceleration,
                                            model.plan.clamp_speed,
                                            model.max_speed};
     return flex_velocity(u, model.density_scale * smoothing.sum, predicted, rule);
 }
 
 /// True if all that this thread wrote is finite.
-template <class Real, class Block>
-__device__ bool update_velocities(const ModelView<Real>& model, Block& block) {
+template <class Real, class Team>
+__device__ bool update_velocities(const ModelView<Real>& model, Team& team) {
     if (model.plan.viscosity) {
-        for (int s = block.thread(); s < model.fluid; s += block.size())
-            block.next()[s] = quad(moved_per_second<Real>(block, s), Real(0));
-        block.barrier();
+        for (int s = team.thread(); s < model.fluid; s += team.size())
+            team.next()[s] = quad(moved_per_second<Real>(team, s), Real(0));
+        team.barrier();
     }
     bool finite = true;
-    for_each_unit(block, 0, (model.particles + 31) / 32, [&](int unit) {
+    for_each_unit(team, 0, (model.particles + 31) / 32, [&](int unit) {
         const int s = unit * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
-        const Quad<Real> here = block.position()[s];
-        const Vec3<Real> v = new_velocity(model, block, s);
+        const Quad<Real> here = team.position()[s];
+        const Vec3<Real> v = new_velocity(model, team, s);
         finite &= isfinite(here.x + here.y + here.z) && isfinite(v.x + v.y + v.z);
-        block.next_velocity()[s] = quad(here.w > 0 ? v : xyz(block.predicted_velocity()[s]), Real(0));
+        team.next_velocity()[s] = quad(here.w > 0 ? v : xyz(team.predicted_velocity()[s]), Real(0));
     });
     return finite;
 }

@@ -198,10 +198,10 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     if (path == GpuPath::by_size)
         path = model.scheme == Scheme::flex && small ? GpuPath::block : GpuPath::whole_gpu;
     if (path == GpuPath::block && model.scheme != Scheme::flex)
-        throw InputError("backend cuda: scheme conserving in one block; must be on the whole GPU");
+        throw InputError("backend cuda: scheme conserving by blocks; must be on the whole GPU");
     if (path == GpuPath::block && model.particles() > 65535)
         throw InputError("backend cuda: " + std::to_string(model.particles()) +
-                         " particles in one block; must be at most 65535");
+                         " particles by blocks; must be at most 65535");
     if (path == GpuPath::block)
         implementation_ = std::make_unique<ByBlock>(model);
     else

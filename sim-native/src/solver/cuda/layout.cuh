@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
-#include "block.cuh"
+#include "natator/error.h"
+#include "state_team.cuh"
 
 namespace natator::cuda {
 
@@ -16,30 +18,34 @@ public:
         used_ += (count * sizeof(T) + alignment - 1) / alignment * alignment;
         return static_cast<unsigned>(offset);
     }
-    unsigned used() const { return static_cast<unsigned>(used_); }
+    unsigned used() const {
+        if (used_ > std::numeric_limits<unsigned>::max())
+            throw InputError("backend cuda: the scene has more contacts than a block has room for");
+        return static_cast<unsigned>(used_);
+    }
 
 private:
     std::size_t used_ = 0;
 };
 
-/// `on_chip` says where a team's arrays are.
+/// `on_chip` says where a team's arrays are; else each of its blocks has `staging_rows` neighbours' room for each thread on
+/// the chip, and one row more for what is no neighbour. Throws InputError for lists that offsets cannot reach.
 template <class Real>
-Layout layout_of(const ModelView<Real>& model, bool on_chip) {
-    using Index = typename Block<Real, true>::Index;
-    using Word = typename Block<Real, true>::Word;
-    constexpr std::size_t least_rows = 25, own_rows = 41;  // of staging; the last is for what is no neighbour
+Layout layout_of(const ModelView<Real>& model, bool on_chip, std::size_t staging_rows) {
+    using Index = typename StateTeam<Real, true>::Index;
+    using Word = typename StateTeam<Real, true>::Word;
     const ModelView<Real>& size = model;
     const Plan& plan = model.plan;
     const std::size_t all = model.particles + 1, fluid = model.fluid, solids = model.solids;
-    const std::size_t least_staging = least_rows * threads * sizeof(Index) / sizeof(Quad<Real>);
+    const std::size_t row = threads * sizeof(Index), least_rows = 25;
     const struct {
         std::size_t next, cells, neighbours, fluid_contacts, solid_contacts, staging;
-    } room{on_chip ? std::max(all, least_staging) : all,
+    } room{on_chip ? std::max(all, least_rows * row / sizeof(Quad<Real>)) : all,
            static_cast<std::size_t>(model.grid.cells),
            fluid * ((model.most_neighbours + 7) / 8),
            plan.contacts ? fluid * solids : 0,
            plan.contacts ? solids * model.particles : 0,
-           on_chip ? 0 : own_rows * threads};
+           on_chip ? 0 : (staging_rows + 1) * threads};
     Layout at{};
     Pieces block_chip, scratch;
     Pieces& team = on_chip ? block_chip : scratch;
@@ -48,7 +54,7 @@ Layout layout_of(const ModelView<Real>& model, bool on_chip) {
 #undef NATATOR_TAKE
     at.chip_bytes = block_chip.used();
     at.scratch_bytes = scratch.used();
-    const std::size_t rows = on_chip ? room.next * sizeof(Quad<Real>) / (threads * sizeof(Index)) : own_rows;
+    const std::size_t rows = on_chip ? room.next * sizeof(Quad<Real>) / row : staging_rows + 1;
     at.staged = static_cast<int>(rows - 1) / 8 * 8;
     return at;
 }

@@ -18,32 +18,32 @@ __device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec
 }
 
 /// v*, x* = x + h v*; counts the particles of each cell, the fluid's first. Ends with a barrier.
-template <class Real, class Block>
-__device__ void predict(const ModelView<Real>& model, Block& block) {
-    std::uint32_t* const table = block.table();
-    for (int c = block.thread(); c < model.grid.cells; c += block.size()) table[c] = 0;
-    block.barrier();
-    for (int k = block.thread(); k < model.clusters; k += block.size()) block.fit_before()[k] = block.fit()[k];
-    for (int s = block.thread(); s < model.particles; s += block.size()) {
-        const Quad<Real> x = block.position()[s];
+template <class Real, class Team>
+__device__ void predict(const ModelView<Real>& model, Team& team) {
+    std::uint32_t* const table = team.table();
+    for (int c = team.thread(); c < model.grid.cells; c += team.size()) table[c] = 0;
+    team.barrier();
+    for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit_before()[k] = team.fit()[k];
+    for (int s = team.thread(); s < model.particles; s += team.size()) {
+        const Quad<Real> x = team.position()[s];
         const Real inverse_mass = x.w;
-        const Vec3<Real> v = predicted_velocity(model, xyz(block.velocity[s]), inverse_mass, s < model.fluid, block.h);
-        const Vec3<Real> there = xyz(x) + block.h * v;
-        block.unsorted_position()[s] = quad(there, as_number<Real>(block.number()[s]));
-        block.unsorted_velocity()[s] = quad(v, inverse_mass);
+        const Vec3<Real> v = predicted_velocity(model, xyz(team.velocity[s]), inverse_mass, s < model.fluid, team.h);
+        const Vec3<Real> there = xyz(x) + team.h * v;
+        team.unsorted_position()[s] = quad(there, as_number<Real>(team.number()[s]));
+        team.unsorted_velocity()[s] = quad(v, inverse_mass);
         if (needs_cells(model)) count_up(table, model.grid.cell(there) + (s < model.fluid ? 0 : model.grid.cells));
     }
-    block.barrier();
+    team.barrier();
 }
 
 /// Box around the solids at their predicted positions, by the first warp.
-template <class Real, class Block>
-__device__ void bound_solids(const ModelView<Real>& model, Block& block) {
-    const int lane = block.thread();
+template <class Real, class Team>
+__device__ void bound_solids(const ModelView<Real>& model, Team& team) {
+    const int lane = team.thread();
     if (lane >= 32) return;
     Real low[3] = {Real(1e30), Real(1e30), Real(1e30)}, high[3] = {Real(-1e30), Real(-1e30), Real(-1e30)};
     for (int s = model.fluid + lane; s < model.particles; s += 32) {
-        const Quad<Real> x = block.position()[s];
+        const Quad<Real> x = team.position()[s];
         const Real at[3] = {x.x, x.y, x.z};
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] = min(low[axis], at[axis]);
@@ -56,8 +56,8 @@ __device__ void bound_solids(const ModelView<Real>& model, Block& block) {
             high[axis] = max(high[axis], __shfl_xor_sync(0xffffffff, high[axis], step));
         }
         if (lane == 0) {
-            block.shared().solids_low[axis] = low[axis] - model.search_distance;
-            block.shared().solids_high[axis] = high[axis] + model.search_distance;
+            team.shared().solids_low[axis] = low[axis] - model.search_distance;
+            team.shared().solids_high[axis] = high[axis] + model.search_distance;
         }
     }
 }
@@ -65,24 +65,24 @@ __device__ void bound_solids(const ModelView<Real>& model, Block& block) {
 /// Keys of the slots, number and slot before, in the order that slots will have: counting sort by cell, then by
 /// particle within each cell, which makes the order the same whatever order the atomics came in. Leaves the cells' ends
 /// in the table. Ends with a barrier.
-template <class Real, class Block>
-__device__ void sort_keys(const ModelView<Real>& model, Block& block) {
-    std::uint32_t* const table = block.table();
-    std::uint32_t* const keys = block.keys();
+template <class Real, class Team>
+__device__ void sort_keys(const ModelView<Real>& model, Team& team) {
+    std::uint32_t* const table = team.table();
+    std::uint32_t* const keys = team.keys();
     const auto key_of = [](int number, int s) { return static_cast<std::uint32_t>(number) << 16 | s; };
     if (!needs_cells(model)) {
-        for (int s = block.thread(); s < model.particles; s += block.size()) keys[s] = key_of(block.number()[s], s);
-        block.barrier();
+        for (int s = team.thread(); s < model.particles; s += team.size()) keys[s] = key_of(team.number()[s], s);
+        team.barrier();
         return;
     }
-    exclusive_scan(block, table, 2 * model.grid.cells);
-    for (int s = block.thread(); s < model.particles; s += block.size()) {
-        const Quad<Real> there = block.unsorted_position()[s];
+    exclusive_scan(team, table, 2 * model.grid.cells);
+    for (int s = team.thread(); s < model.particles; s += team.size()) {
+        const Quad<Real> there = team.unsorted_position()[s];
         const int cell = model.grid.cell(xyz(there)) + (s < model.fluid ? 0 : model.grid.cells);
         keys[count_up(table, cell)] = key_of(number_in(there.w), s);
     }
-    block.barrier();
-    for (int c = block.thread(); c < 2 * model.grid.cells; c += block.size()) {
+    team.barrier();
+    for (int c = team.thread(); c < 2 * model.grid.cells; c += team.size()) {
         const int begin = c > 0 ? half_of(table, c - 1) : 0, end = half_of(table, c);
         for (int k = begin + 1; k < end; ++k) {
             const std::uint32_t key = keys[k];
@@ -91,32 +91,32 @@ __device__ void sort_keys(const ModelView<Real>& model, Block& block) {
             keys[place] = key;
         }
     }
-    block.barrier();
+    team.barrier();
 }
 
 /// Numbers the slots anew and puts everything in its new place. Ends with a barrier.
-template <class Real, class Block>
-__device__ void sort_into_cells(const ModelView<Real>& model, Block& block) {
-    sort_keys(model, block);
-    const std::uint32_t* const keys = block.keys();
-    for (int s = block.thread(); s < model.particles; s += block.size()) {
+template <class Real, class Team>
+__device__ void sort_into_cells(const ModelView<Real>& model, Team& team) {
+    sort_keys(model, team);
+    const std::uint32_t* const keys = team.keys();
+    for (int s = team.thread(); s < model.particles; s += team.size()) {
         const int before = keys[s] & 0xffff;
-        block.start()[s] = block.position()[before];
-        block.predicted_velocity()[s] = block.unsorted_velocity()[before];
+        team.start()[s] = team.position()[before];
+        team.predicted_velocity()[s] = team.unsorted_velocity()[before];
     }
-    block.barrier();
-    for (int s = block.thread(); s < model.particles; s += block.size()) {
+    team.barrier();
+    for (int s = team.thread(); s < model.particles; s += team.size()) {
         const std::uint32_t key = keys[s];
         const int number = static_cast<int>(key >> 16);
-        const Quad<Real> there = quad(xyz(block.unsorted_position()[key & 0xffff]), block.predicted_velocity()[s].w);
-        block.position()[s] = there;
-        block.number()[s] = static_cast<std::uint16_t>(number);
-        if (s >= model.fluid) block.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);
+        const Quad<Real> there = quad(xyz(team.unsorted_position()[key & 0xffff]), team.predicted_velocity()[s].w);
+        team.position()[s] = there;
+        team.number()[s] = static_cast<std::uint16_t>(number);
+        if (s >= model.fluid) team.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);
     }
-    block.barrier();
-    if (model.plan.contacts) bound_solids(model, block);
-    if (block.thread() == 0) block.shared().touched = 0;
-    block.barrier();
+    team.barrier();
+    if (model.plan.contacts) bound_solids(model, team);
+    if (team.thread() == 0) team.shared().touched = 0;
+    team.barrier();
 }
 
 /// Does particle i feel particle j? The same as Substep::collides.
@@ -130,9 +130,10 @@ __device__ bool collides(const ModelView<Real>& model, int i, int j) {
 
 /// The slots in a run of cells, of the fluid or the solids.
 template <class Real, class R, bool on_chip>
-__device__ SlotRun slots_in(const ModelView<Real>& model, const Block<R, on_chip>& block, bool solids, const CellRun& run) {
+__device__ SlotRun slots_in(const ModelView<Real>& model, const StateTeam<R, on_chip>& team, bool solids,
+                            const CellRun& run) {
     if (run.last < run.first) return {0, 0};
-    const std::uint32_t* const table = block.table();
+    const std::uint32_t* const table = team.table();
     const int offset = solids ? model.grid.cells : 0;
     return {run.first + offset > 0 ? half_of(table, run.first + offset - 1) : 0, half_of(table, run.last + offset)};
 }
@@ -146,19 +147,19 @@ __device__ bool is_near(const ModelView<Real>& model, const Vec3<Real>& x, const
 }
 
 /// Calls visit(slot, is it near?) for the slots in the cells around x, of the fluid or the solids.
-template <class Real, class Block, class Visit>
-__device__ void for_each_candidate(const ModelView<Real>& model, const Block& block, bool solids, const Vec3<Real>& x,
+template <class Real, class Team, class Visit>
+__device__ void for_each_candidate(const ModelView<Real>& model, const Team& team, bool solids, const Vec3<Real>& x,
                                    const Visit& visit) {
     model.grid.for_each_run(x, [&](const CellRun& cells) {
-        const SlotRun run = slots_in(model, block, solids, cells);
-        for (int other = run.begin; other < run.end; ++other) visit(other, is_near(model, x, block.base()[other]));
+        const SlotRun run = slots_in(model, team, solids, cells);
+        for (int other = run.begin; other < run.end; ++other) visit(other, is_near(model, x, team.base()[other]));
     });
 }
 
 /// Are particle i and what is in slot `other` in contact where they are near?
-template <class Real, class Block>
-__device__ bool may_touch(const ModelView<Real>& model, const Block& block, int i, int other) {
-    const int j = block.number()[other];
+template <class Real, class Team>
+__device__ bool may_touch(const ModelView<Real>& model, const Team& team, int i, int other) {
+    const int j = team.number()[other];
     return collides(model, i, j) || (model.plan.mutual_contacts && collides(model, j, i));
 }
 
@@ -169,14 +170,14 @@ __device__ bool touches_fluid(const ModelView<Real>& model, int s) {
 }
 
 /// Calls visit(k, slot) for what slot s is in contact with, in the order of its list; returns how many there are.
-template <class Real, class Block, class Visit>
-__device__ int search_contacts(const ModelView<Real>& model, const Block& block, int s, const Visit& visit) {
-    const Vec3<Real> x = xyz(block.base()[s]);
-    const int i = block.number()[s];
+template <class Real, class Team, class Visit>
+__device__ int search_contacts(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
+    const Vec3<Real> x = xyz(team.base()[s]);
+    const int i = team.number()[s];
     int n = 0;
     const auto search = [&](bool solids) {
-        for_each_candidate(model, block, solids, x, [&](int other, bool near) {
-            if (!near || !may_touch(model, block, i, other)) return;
+        for_each_candidate(model, team, solids, x, [&](int other, bool near) {
+            if (!near || !may_touch(model, team, i, other)) return;
             visit(n, other);
             ++n;
         });
@@ -188,18 +189,18 @@ __device__ int search_contacts(const ModelView<Real>& model, const Block& block,
 
 /// The same by a warp, each of them visited by one lane. What a thread finds one after another takes a solid, which is
 /// near many, longer than all else takes.
-template <class Real, class Block, class Visit>
-__device__ int search_contacts_by_warp(const ModelView<Real>& model, const Block& block, int s, const Visit& visit) {
+template <class Real, class Team, class Visit>
+__device__ int search_contacts_by_warp(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
     constexpr unsigned all_lanes = 0xffffffff;
     constexpr int runs = GridView<Real>::runs;
     const int lane = threadIdx.x % 32;
-    const Vec3<Real> x = xyz(block.base()[s]);
-    const int i = block.number()[s];
+    const Vec3<Real> x = xyz(team.base()[s]);
+    const int i = team.number()[s];
     // A run for each lane, the fluid's first, and where its slots end among those of all runs.
     const bool solids = lane >= runs;
     SlotRun run{0, 0};
     if (lane < 2 * runs && (solids || touches_fluid(model, s)))
-        run = slots_in(model, block, solids, model.grid.run(x, lane % runs));
+        run = slots_in(model, team, solids, model.grid.run(x, lane % runs));
     int end = run.end - run.begin;
     for (int step = 1; step < 2 * runs; step *= 2) {
         const int before = __shfl_up_sync(all_lanes, end, step);
@@ -212,7 +213,7 @@ __device__ int search_contacts_by_warp(const ModelView<Real>& model, const Block
         for (int step = 16; step > 0; step /= 2)
             if (__shfl_sync(all_lanes, end, before + step - 1) <= k) before += step;
         const int other = __shfl_sync(all_lanes, run.end - end, before) + k;
-        const bool found = k < count && is_near(model, x, block.base()[other]) && may_touch(model, block, i, other);
+        const bool found = k < count && is_near(model, x, team.base()[other]) && may_touch(model, team, i, other);
         const unsigned all_found = __ballot_sync(all_lanes, found);
         if (found) visit(n + __popc(all_found & ((1u << lane) - 1)), other);
         n += __popc(all_found);
@@ -221,9 +222,9 @@ __device__ int search_contacts_by_warp(const ModelView<Real>& model, const Block
 }
 
 /// Is it in the box around the solids?
-template <class Block, class Real>
-__device__ bool near_solids(const Block& block, const Vec3<Real>& x) {
-    const auto& shared = block.shared();
+template <class Team, class Real>
+__device__ bool near_solids(const Team& team, const Vec3<Real>& x) {
+    const auto& shared = team.shared();
     const Real at[3] = {x.x, x.y, x.z};
     for (int axis = 0; axis < 3; ++axis)
         if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return false;
@@ -232,123 +233,123 @@ __device__ bool near_solids(const Block& block, const Vec3<Real>& x) {
 
 /// What lists the contacts of a slot.
 template <class Real, class R, bool on_chip>
-__device__ auto contact_lister(const ModelView<Real>& model, const Block<R, on_chip>& block, int s) {
+__device__ auto contact_lister(const ModelView<Real>& model, const StateTeam<R, on_chip>& team, int s) {
     const bool fluid = s < model.fluid;
-    std::uint16_t* const list = fluid ? block.fluid_contact() + s : block.solid_contact() + (s - model.fluid);
+    std::uint16_t* const list = fluid ? team.fluid_contact() + s : team.solid_contact() + (s - model.fluid);
     const std::size_t stride = fluid ? model.fluid : model.solids;
     return [=](int k, int other) { list[k * stride] = static_cast<std::uint16_t>(other); };
 }
 
-template <class Block>
-__device__ void note_contacts(const Block& block, int s, int contacts) {
-    using Index = typename Block::Index;
-    block.contact_count()[s] = static_cast<Index>(contacts);
-    if (contacts > 0) block.touched()[atomicAdd(&block.shared().touched, 1)] = static_cast<Index>(s);
+template <class Team>
+__device__ void note_contacts(const Team& team, int s, int contacts) {
+    using Index = typename Team::Index;
+    team.contact_count()[s] = static_cast<Index>(contacts);
+    if (contacts > 0) team.touched()[atomicAdd(&team.shared().touched, 1)] = static_cast<Index>(s);
 }
 
 /// Planes that slot s may touch in this substep.
-template <class Real, class Block>
-__device__ void note_near_planes(const ModelView<Real>& model, const Block& block, int s, const Quad<Real>& here) {
+template <class Real, class Team>
+__device__ void note_near_planes(const ModelView<Real>& model, const Team& team, int s, const Quad<Real>& here) {
     unsigned planes = 0;
     for (int k = 0; k < model.planes; ++k)
         if (distance_to(model.plane[k].surface, xyz(here)) <= model.plane_search_distance) planes |= 1u << k;
-    block.plane_contact()[s] = static_cast<typename Block::Index>(here.w > 0 ? planes : 0);
+    team.plane_contact()[s] = static_cast<typename Team::Index>(here.w > 0 ? planes : 0);
 }
 
 /// Lists contacts and planes of a solid, by a warp.
-template <class Real, class Block>
-__device__ void find_neighbours_of_solid(const ModelView<Real>& model, const Block& block, int s) {
+template <class Real, class Team>
+__device__ void find_neighbours_of_solid(const ModelView<Real>& model, const Team& team, int s) {
     int contacts = 0;
-    if (model.plan.contacts) contacts = search_contacts_by_warp(model, block, s, contact_lister(model, block, s));
+    if (model.plan.contacts) contacts = search_contacts_by_warp(model, team, s, contact_lister(model, team, s));
     if (threadIdx.x % 32 != 0) return;
-    if (model.plan.contacts) note_contacts(block, s, contacts);
-    note_near_planes(model, block, s, block.base()[s]);
+    if (model.plan.contacts) note_contacts(team, s, contacts);
+    note_near_planes(model, team, s, team.base()[s]);
 }
 
 /// Entry k of the list of fluid neighbours of slot s.
-template <class Real, class Block>
-__device__ std::uint16_t& list_entry(const ModelView<Real>& model, const Block& block, int s, int k) {
-    uint4* const chunk = block.neighbour() + static_cast<std::size_t>(k / 8) * model.fluid + s;
+template <class Real, class Team>
+__device__ std::uint16_t& list_entry(const ModelView<Real>& model, const Team& team, int s, int k) {
+    uint4* const chunk = team.neighbour() + static_cast<std::size_t>(k / 8) * model.fluid + s;
     return reinterpret_cast<std::uint16_t*>(chunk)[k % 8];
 }
 
 /// Lists the fluid neighbours of a fluid slot. Entries are written on the chip first, one behind the other, without a
 /// branch on what is near: what is not is written over by the next. A list that is too long for that is made anew in
 /// its place. What ends the last chunk is the far slot.
-template <class Real, class Block>
-__device__ void list_fluid_neighbours(const ModelView<Real>& model, Block& block, int s, const Vec3<Real>& x) {
-    std::uint16_t* const staging = block.staging() + threadIdx.x;
-    const int staged = min(block.staged(), model.most_neighbours / 8 * 8);
-    const int i = model.plan.uniform_fluid ? 0 : block.number()[s];
+template <class Real, class Team>
+__device__ void list_fluid_neighbours(const ModelView<Real>& model, Team& team, int s, const Vec3<Real>& x) {
+    std::uint16_t* const staging = team.staging() + threadIdx.x;
+    const int staged = min(team.staged(), model.most_neighbours / 8 * 8);
+    const int i = model.plan.uniform_fluid ? 0 : team.number()[s];
     const auto felt = [&](int other) {
-        return model.plan.uniform_fluid || collides(model, i, static_cast<int>(block.number()[other]));
+        return model.plan.uniform_fluid || collides(model, i, static_cast<int>(team.number()[other]));
     };
     int n = 0;
     if (model.plan.uniform_fluid)
-        for_each_candidate(model, block, false, x, [&](int other, bool near) {
+        for_each_candidate(model, team, false, x, [&](int other, bool near) {
             staging[min(n, staged) * threads] = static_cast<std::uint16_t>(other);
             n += near;
         });
     else
-        for_each_candidate(model, block, false, x, [&](int other, bool near) {
+        for_each_candidate(model, team, false, x, [&](int other, bool near) {
             staging[min(n, staged) * threads] = static_cast<std::uint16_t>(other);
             n += near && felt(other);
         });
     const std::uint16_t beyond = static_cast<std::uint16_t>(model.particles);
     if (n > staged) {
         n = 0;
-        for_each_candidate(model, block, false, x, [&](int other, bool near) {
+        for_each_candidate(model, team, false, x, [&](int other, bool near) {
             if (!near || n >= model.most_neighbours || !felt(other)) return;
-            list_entry(model, block, s, n) = static_cast<std::uint16_t>(other);
+            list_entry(model, team, s, n) = static_cast<std::uint16_t>(other);
             ++n;
         });
-        for (int k = n; k % 8 != 0; ++k) list_entry(model, block, s, k) = beyond;
+        for (int k = n; k % 8 != 0; ++k) list_entry(model, team, s, k) = beyond;
     } else {
         for (int k = n; k % 8 != 0; ++k) staging[k * threads] = beyond;
         for (int k = 0; k < n; k += 8) {
             const auto two = [&](int e) {
                 return staging[(k + e) * threads] | static_cast<unsigned>(staging[(k + e + 1) * threads]) << 16;
             };
-            block.neighbour()[static_cast<std::size_t>(k / 8) * model.fluid + s] = {two(0), two(2), two(4), two(6)};
+            team.neighbour()[static_cast<std::size_t>(k / 8) * model.fluid + s] = {two(0), two(2), two(4), two(6)};
         }
     }
-    block.neighbour_count()[s] = static_cast<std::uint16_t>(n);
+    team.neighbour_count()[s] = static_cast<std::uint16_t>(n);
 }
 
 /// Lists contacts and planes of the solids of a unit: by a warp for one, or a thread for each of 32.
-template <class Real, class Block>
-__device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Block& block, int unit) {
-    if (block.shares_solids()) return find_neighbours_of_solid(model, block, model.fluid + unit);
+template <class Real, class Team>
+__device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Team& team, int unit) {
+    if (team.shares_solids()) return find_neighbours_of_solid(model, team, model.fluid + unit);
     const int s = model.fluid + unit * 32 + threadIdx.x % 32;
     if (s >= model.particles) return;
     if (model.plan.contacts)
-        note_contacts(block, s, search_contacts(model, block, s, contact_lister(model, block, s)));
-    note_near_planes(model, block, s, block.base()[s]);
+        note_contacts(team, s, search_contacts(model, team, s, contact_lister(model, team, s)));
+    note_near_planes(model, team, s, team.base()[s]);
 }
 
 /// Lists fluid neighbours, contacts and planes of every slot at the predicted positions: first of the solids, which take
 /// longest. Ends with a barrier.
-template <class Real, class Block>
-__device__ void find_neighbours(const ModelView<Real>& model, Block& block) {
-    const int of_solids = block.shares_solids() ? model.solids : (model.solids + 31) / 32;
+template <class Real, class Team>
+__device__ void find_neighbours(const ModelView<Real>& model, Team& team) {
+    const int of_solids = team.shares_solids() ? model.solids : (model.solids + 31) / 32;
     const int of_fluid = (model.fluid + 31) / 32;
-    for_each_unit(block, of_solids, of_fluid, [&](int unit) {
-        if (unit < of_solids) return find_neighbours_of_solids(model, block, unit);
-        const int s = (of_solids + of_fluid - 1 - unit) * 32 + threadIdx.x % 32;
+    for_each_unit(team, of_solids, of_fluid, [&](int unit) {
+        if (unit < of_solids) return find_neighbours_of_solids(model, team, unit);
+        const int s = fluid_slot(unit - of_solids, of_fluid);
         if (s >= model.fluid) return;
-        const Quad<Real> here = block.base()[s];
+        const Quad<Real> here = team.base()[s];
         const Vec3<Real> x = xyz(here);
-        list_fluid_neighbours(model, block, s, x);
+        list_fluid_neighbours(model, team, s, x);
         if (model.plan.contacts) {
-            const bool searched = near_solids(block, x);
-            note_contacts(block, s, searched ? search_contacts(model, block, s, contact_lister(model, block, s)) : 0);
+            const bool searched = near_solids(team, x);
+            note_contacts(team, s, searched ? search_contacts(model, team, s, contact_lister(model, team, s)) : 0);
         }
-        note_near_planes(model, block, s, here);
+        note_near_planes(model, team, s, here);
     });
-    block.barrier();
+    team.barrier();
     // `next` was room for the search; its far slot is what lists end with.
-    if (block.thread() == 0) block.next()[model.particles] = far_away<Real>();
-    block.barrier();
+    if (team.thread() == 0) team.next()[model.particles] = far_away<Real>();
+    team.barrier();
 }
 
 }  // namespace natator::cuda

@@ -13,7 +13,7 @@ inline constexpr int most_blocks_of_team = 16;  ///< of a thread-block cluster o
 /// The threads that advance one State: a block's. The code of a State's stages knows no more of threads than this. All
 /// of them call barrier() and any().
 struct BlockTeam {
-    static constexpr bool of_clusters = false;
+    static constexpr bool of_several_blocks = false;
 
     __device__ static int thread() { return static_cast<int>(threadIdx.x); }
     __device__ static constexpr int size() { return threads; }
@@ -27,11 +27,15 @@ struct BlockTeam {
 /// The threads of the blocks of a thread-block cluster, so that one State has several multiprocessors. The warps of the
 /// blocks are numbered in turn, so that little work is spread over all of them.
 ///
-/// Its barrier is one of each block, then one of the blocks by a thread of each: that of the cluster itself, in which every
-/// thread waits for what it has written and forgets what it has read, takes twice as long.
+/// Its barrier is one of each block, then one of the blocks by a warp of each: in that of the cluster itself every warp waits
+/// for what it has written and forgets what the multiprocessor has read.
 class ClusterTeam {
 public:
-    static constexpr bool of_clusters = true;
+    static constexpr bool of_several_blocks = true;
+
+    ClusterTeam() = default;
+    ClusterTeam(const ClusterTeam&) = delete;  // each counts the barriers
+    ClusterTeam& operator=(const ClusterTeam&) = delete;
 
     __device__ static int thread() {
         return (static_cast<int>(threadIdx.x) / 32 * blocks() + block()) * 32 + static_cast<int>(threadIdx.x) % 32;
@@ -74,8 +78,10 @@ public:
 #endif
     /// Of two flags that begin with 0, each call sets the one that the call before it does not read.
     __device__ bool any(bool value) const {
+        const bool in_block = __syncthreads_or(value);
+        if (blocks() == 1) return in_block;
         int& flag = flags_[++calls_ % 2];
-        if (__syncthreads_or(value) && threadIdx.x == 0) flag = calls_;
+        if (in_block && threadIdx.x == 0) atomicExch(&flag, calls_);
         barrier();
         return flag == calls_;
     }

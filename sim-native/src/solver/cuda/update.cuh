@@ -11,43 +11,43 @@
 namespace natator::cuda {
 
 /// Rest lengths as the State or the Model has them. Ends with a barrier.
-template <class Real, class Block>
-__device__ void rest(const BatchView<Real>& batch, int state, Block& block) {
+template <class Real, class Team>
+__device__ void rest(const BatchView<Real>& batch, int state, Team& team) {
     const ModelView<Real>& model = batch.model;
-    for (int s = block.thread(); s < model.springs; s += block.size())
-        block.rest_length()[s] =
+    for (int s = team.thread(); s < model.springs; s += team.size())
+        team.rest_length()[s] =
             batch.rest_length ? batch.rest_length[state * model.springs + s] : model.spring[s].rest_length;
-    block.barrier();
+    team.barrier();
 }
 
 /// Ends with a barrier.
-template <class Real, class Block>
-__device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time, Block& block) {
+template <class Real, class Team>
+__device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time, Team& team) {
     if (!gait.frequency) return;
-    for (int m = block.thread(); m < model.muscles; m += block.size()) {
+    for (int m = team.thread(); m < model.muscles; m += team.size()) {
         const MuscleView muscle = model.muscle[m];
         const int a = state * model.actuators + muscle.actuator;
         const double activation =
             physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
         double drive = gait.amplitude[a] * activation;
         if (gait.offset) drive += gait.offset[a];
-        block.rest_length()[muscle.spring] =
+        team.rest_length()[muscle.spring] =
             static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }
-    block.barrier();
+    team.barrier();
 }
 
-template <class Real, class Block>
-__device__ void record(const Block& block, int particles, Quad<Real>* to, int row) {
+template <class Real, class Team>
+__device__ void record(const Team& team, int particles, Quad<Real>* to, int row) {
     if (!to) return;
-    for (int s = block.thread(); s < particles; s += block.size())
+    for (int s = team.thread(); s < particles; s += team.size())
         to[static_cast<std::size_t>(row) * particles + s] =
-            quad(xyz(block.position()[s]), as_number<Real>(block.number()[s]));
+            quad(xyz(team.position()[s]), as_number<Real>(team.number()[s]));
 }
 
-/// The stages of substep `number` of an update, by the threads of a block, with the code of effects or without.
-template <bool with_effects, class R, class Block>
-struct BlockStages {
+/// The stages of substep `number` of an update, by the threads of a team, with the code of effects or without.
+template <bool with_effects, class R, class Team>
+struct TeamStages {
     using Real = R;
     static constexpr Scheme scheme = Scheme::flex;
     static constexpr bool effects = with_effects;
@@ -55,48 +55,48 @@ struct BlockStages {
 
     const ModelView<Real>& model;
     const Trace<Real>& trace;
-    Block& block;
+    Team& team;
     int number;
     int iteration = 0;
     bool finite = true;  ///< of all velocities, before what acts behind them
 
-    __device__ void predict() { cuda::predict(model, block); }
-    __device__ void sort_into_cells() { cuda::sort_into_cells(model, block); }
+    __device__ void predict() { cuda::predict(model, team); }
+    __device__ void sort_into_cells() { cuda::sort_into_cells(model, team); }
     template <class AfterStage>
     __device__ void find_neighbours(const AfterStage&) {
-        cuda::find_neighbours(model, block);
+        cuda::find_neighbours(model, team);
     }
     __device__ void begin_iterations() {
         if constexpr (effects)
-            if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, block, s); });
+            if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, team, s); });
     }
-    __device__ void compute_density_and_fits() { compute_density(model, block, Real(0)); }
+    __device__ void compute_density_and_fits() { compute_density(model, team, Real(0)); }
     __device__ void apply_corrections() {
-        cuda::apply_corrections(model, block);
-        block.barrier();
+        cuda::apply_corrections(model, team);
+        team.barrier();
     }
     __device__ void update_velocities() {
-        finite = cuda::update_velocities(model, block);
-        finite = !block.any(!finite);
+        finite = cuda::update_velocities(model, team);
+        finite = !team.any(!finite);
     }
     __device__ void damp_contacts() {
-        for_each(model.particles, [&](int s) { damp(model, block, s); });
+        for_each(model.particles, [&](int s) { damp(model, team, s); });
     }
     __device__ void drag_free_surface() {
-        for_each(model.fluid, [&](int s) { drag(model, block, s); });
+        for_each(model.fluid, [&](int s) { drag(model, team, s); });
     }
     __device__ void apply_fluid_forces() {
-        for_each(model.fluid, [&](int s) { measure_fluid(model, block, s); });
-        for_each(model.fluid, [&](int s) { push_fluid_by_forces(model, block, s); });
+        for_each(model.fluid, [&](int s) { measure_fluid(model, team, s); });
+        for_each(model.fluid, [&](int s) { push_fluid_by_forces(model, team, s); });
     }
     __device__ void apply_adhesion() {
-        for_each(model.particles, [&](int s) { cuda::apply_adhesion(model, block, s); });
+        for_each(model.particles, [&](int s) { cuda::apply_adhesion(model, team, s); });
     }
     __device__ void apply_restitution() {
-        for_each(model.particles, [&](int s) { cuda::apply_restitution(model, block, s); });
+        for_each(model.particles, [&](int s) { cuda::apply_restitution(model, team, s); });
     }
     __device__ void apply_sleep() {
-        for_each(model.particles, [&](int s) { cuda::apply_sleep(model, block, s); });
+        for_each(model.particles, [&](int s) { cuda::apply_sleep(model, team, s); });
     }
 
     /// Looks at all once more, if anything came behind the velocities.
@@ -104,156 +104,156 @@ struct BlockStages {
         if constexpr (!effects) return finite;
         bool bad = false;
         for_each(model.particles, [&](int s) {
-            const Vec3<Real> both = xyz(block.end_position()[s]) + velocity_of<Real>(block, s);
+            const Vec3<Real> both = xyz(team.end_position()[s]) + velocity_of<Real>(team, s);
             bad |= !isfinite(both.x + both.y + both.z);
         });
-        return !block.any(bad) && finite;
+        return !team.any(bad) && finite;
     }
 
     /// Ends with a barrier.
     template <class Work>
     __device__ void for_each(int count, const Work& work) {
-        for (int s = block.thread(); s < count; s += block.size()) work(s);
-        block.barrier();
+        for (int s = team.thread(); s < count; s += team.size()) work(s);
+        team.barrier();
     }
 };
 
-/// Books a block's time, and writes down what an observer sees.
+/// Books a team's time, and writes down what an observer sees.
 template <class Stages>
-struct AfterBlockStage {
+struct AfterTeamStage {
     Stages& stages;
     __device__ void operator()(Stage stage) const {
         const int particles = stages.model.particles, iterations = stages.model.iterations;
-        if (stage != Stage::iteration) stages.block.book(stage);
-        if (stage == Stage::cells) record(stages.block, particles, stages.trace.predicted, stages.number);
+        if (stage != Stage::iteration) stages.team.book(stage);
+        if (stage == Stage::cells) record(stages.team, particles, stages.trace.predicted, stages.number);
         if (stage == Stage::iteration)
-            record(stages.block, particles, stages.trace.iterated, stages.number * iterations + stages.iteration++);
+            record(stages.team, particles, stages.trace.iterated, stages.number * iterations + stages.iteration++);
     }
 };
 
 /// Particles of infinite mass keep their place. Ends with a barrier.
-template <class Real, class Block>
-__device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Block& block, int number) {
-    for (int s = block.thread(); s < model.particles; s += block.size()) {
-        if (!(block.position()[s].w > 0)) block.position()[s] = block.start()[s];
-        const Quad<Real> v = block.next_velocity()[s];
-        block.velocity[s] = v;
+template <class Real, class Team>
+__device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Team& team, int number) {
+    for (int s = team.thread(); s < model.particles; s += team.size()) {
+        if (!(team.position()[s].w > 0)) team.position()[s] = team.start()[s];
+        const Quad<Real> v = team.next_velocity()[s];
+        team.velocity[s] = v;
         if (trace.velocity) trace.velocity[static_cast<std::size_t>(number) * model.particles + s] = v;
     }
-    block.barrier();
+    team.barrier();
 }
 
 /// Notes the lowest particle that is not finite, and gives the State its values from before the substep back.
-template <class Real, class Block>
-__device__ void note_instability(const ModelView<Real>& model, Block& block, double time, Progress& progress) {
-    if (block.thread() == 0) {
+template <class Real, class Team>
+__device__ void note_instability(const ModelView<Real>& model, Team& team, double time, Progress& progress) {
+    if (team.thread() == 0) {
         int lowest = model.particles;
         for (int s = 0; s < model.particles; ++s) {
-            const Quad<Real> x = block.position()[s], v = block.next_velocity()[s];
+            const Quad<Real> x = team.position()[s], v = team.next_velocity()[s];
             const bool finite = isfinite(x.x + x.y + x.z) && isfinite(v.x + v.y + v.z);
-            if (!finite) lowest = min(lowest, static_cast<int>(block.number()[s]));
+            if (!finite) lowest = min(lowest, static_cast<int>(team.number()[s]));
         }
         progress.stopped = static_cast<int>(StopReason::unstable);
         progress.bad_particle = lowest;
         progress.bad_time = time;
     }
-    block.barrier();
-    std::uint32_t* const slot_of = block.keys();
-    for (int s = block.thread(); s < model.particles; s += block.size()) slot_of[block.number()[s]] = s;
-    block.barrier();
+    team.barrier();
+    std::uint32_t* const slot_of = team.keys();
+    for (int s = team.thread(); s < model.particles; s += team.size()) slot_of[team.number()[s]] = s;
+    team.barrier();
     // Velocities are still in the order that slots had before the substep.
-    for (int s = block.thread(); s < model.particles; s += block.size()) {
-        block.position()[s] = block.start()[s];
-        block.next_velocity()[slot_of[number_in(block.unsorted_position()[s].w)]] = block.velocity[s];
+    for (int s = team.thread(); s < model.particles; s += team.size()) {
+        team.position()[s] = team.start()[s];
+        team.next_velocity()[slot_of[number_in(team.unsorted_position()[s].w)]] = team.velocity[s];
     }
-    for (int k = block.thread(); k < model.clusters; k += block.size()) block.fit()[k] = block.fit_before()[k];
-    block.barrier();
-    for (int s = block.thread(); s < model.particles; s += block.size()) block.velocity[s] = block.next_velocity()[s];
-    block.barrier();
+    for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit()[k] = team.fit_before()[k];
+    team.barrier();
+    for (int s = team.thread(); s < model.particles; s += team.size()) team.velocity[s] = team.next_velocity()[s];
+    team.barrier();
 }
 
 /// What the last update of a State leaves for those who ask.
-template <class Real, class Block>
-__device__ void report(const BatchView<Real>& batch, int state, Block& block) {
+template <class Real, class Team>
+__device__ void report(const BatchView<Real>& batch, int state, Team& team) {
     const ModelView<Real>& model = batch.model;
     if (batch.neighbours) {
         int* const counts = batch.neighbours + static_cast<std::size_t>(state) * model.particles;
-        for (int s = block.thread(); s < model.particles; s += block.size())
-            counts[block.number()[s]] = (s < model.fluid ? block.neighbour_count()[s] : 0) +
-                                        (model.plan.contacts ? block.contact_count()[s] : 0);
+        for (int s = team.thread(); s < model.particles; s += team.size())
+            counts[team.number()[s]] = (s < model.fluid ? team.neighbour_count()[s] : 0) +
+                                        (model.plan.contacts ? team.contact_count()[s] : 0);
     }
     if (!batch.density || !model.plan.fluid) return;
-    compute_density(model, block, Real(-1));
-    for (int s = block.thread(); s < model.fluid; s += block.size())
-        batch.density[static_cast<std::size_t>(state) * model.fluid + block.number()[s]] = block.next()[s].w + 1;
+    compute_density(model, team, Real(-1));
+    for (int s = team.thread(); s < model.fluid; s += team.size())
+        batch.density[static_cast<std::size_t>(state) * model.fluid + team.number()[s]] = team.next()[s].w + 1;
 }
 
 /// Measures the frame that has ended and decides whether the State stops early. Ends with a barrier.
-template <class Real, class Block>
-__device__ void end_frame(const BatchView<Real>& batch, int state, int update, Block& block) {
+template <class Real, class Team>
+__device__ void end_frame(const BatchView<Real>& batch, int state, int update, Team& team) {
     Progress& progress = batch.progress[state];
     double* const path = batch.path + static_cast<std::size_t>(state) * (batch.updates + 1);
-    measure_path(batch.model, block, path + update + 1);
-    const bool touches = batch.stop_at_planes && touches_plane(batch.model, block);
-    if (block.thread() == 0) {
+    measure_path(batch.model, team, path + update + 1);
+    const bool touches = batch.stop_at_planes && touches_plane(batch.model, team);
+    if (team.thread() == 0) {
         progress.frames = update + 1;
         if (touches)
             progress.stopped = static_cast<int>(StopReason::touched_plane);
         else if (physics::without_progress(path, update + 1, batch.no_progress_frames))
             progress.stopped = static_cast<int>(StopReason::no_progress);
     }
-    block.barrier();
+    team.barrier();
 }
 
 /// Update `number` of a State.
-template <bool effects, class Real, class Block>
-__device__ void update(const BatchView<Real>& batch, int state, int number, Block& block) {
+template <bool effects, class Real, class Team>
+__device__ void update(const BatchView<Real>& batch, int state, int number, Team& team) {
     const ModelView<Real>& model = batch.model;
     Quad<Real>* const position = batch.position + static_cast<std::size_t>(state) * model.particles;
     Quad<Real>* const velocity = batch.velocity + static_cast<std::size_t>(state) * model.particles;
     ClusterFit<Real>* const fit = batch.fit + state * model.clusters;
     Progress& progress = batch.progress[state];
-    block.shared().watch.start(block.thread());
-    block.velocity = velocity;
-    for (int s = block.thread(); s < model.particles; s += block.size()) {
+    team.shared().watch.start(team.thread());
+    team.velocity = velocity;
+    for (int s = team.thread(); s < model.particles; s += team.size()) {
         const Quad<Real> x = position[s];
         const int i = number_in(x.w);
-        block.position()[s] = quad(xyz(x), model.inverse_mass[i]);
-        block.number()[s] = static_cast<std::uint16_t>(i);
-        if (s >= model.fluid) block.slot_of_solid()[i - model.fluid] = static_cast<std::uint16_t>(s);
+        team.position()[s] = quad(xyz(x), model.inverse_mass[i]);
+        team.number()[s] = static_cast<std::uint16_t>(i);
+        if (s >= model.fluid) team.slot_of_solid()[i - model.fluid] = static_cast<std::uint16_t>(s);
     }
-    if (block.thread() == 0) block.position()[model.particles] = block.start()[model.particles] = far_away<Real>();
-    for (int k = block.thread(); k < model.clusters; k += block.size()) block.fit()[k] = fit[k];
-    block.h = static_cast<Real>(batch.time_step) / static_cast<Real>(batch.substeps);
+    if (team.thread() == 0) team.position()[model.particles] = team.start()[model.particles] = far_away<Real>();
+    for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit()[k] = fit[k];
+    team.h = static_cast<Real>(batch.time_step) / static_cast<Real>(batch.substeps);
     const bool last = number + 1 == batch.updates;
     const Trace<Real> trace = last ? batch.trace : Trace<Real>{};
     const double time = batch.start_time + (batch.settling ? 0 : number * batch.time_step);
-    rest(batch, state, block);
-    actuate(model, batch.gait, state, time, block);
+    rest(batch, state, team);
+    actuate(model, batch.gait, state, time, team);
     if (!batch.settling && number == 0)
-        measure_path(model, block, batch.path + static_cast<std::size_t>(state) * (batch.updates + 1));
-    block.book(Stage::load);
+        measure_path(model, team, batch.path + static_cast<std::size_t>(state) * (batch.updates + 1));
+    team.book(Stage::load);
 
     for (int k = 0; k < batch.substeps; ++k) {
-        using Stages = BlockStages<effects, Real, Block>;
-        Stages stages{model, trace, block, k};
-        natator::substep(stages, model.plan, {model.iterations}, AfterBlockStage<Stages>{stages});
+        using Stages = TeamStages<effects, Real, Team>;
+        Stages stages{model, trace, team, k};
+        natator::substep(stages, model.plan, {model.iterations}, AfterTeamStage<Stages>{stages});
         if (!stages.all_finite()) {
-            note_instability(model, block, time + k * batch.time_step / batch.substeps, progress);
+            note_instability(model, team, time + k * batch.time_step / batch.substeps, progress);
             break;
         }
-        commit(model, trace, block, k);
-        block.book(Stage::commit);
+        commit(model, trace, team, k);
+        team.book(Stage::commit);
     }
-    for (int s = block.thread(); s < model.particles; s += block.size()) {
-        position[s] = quad(xyz(block.position()[s]), as_number<Real>(block.number()[s]));
+    for (int s = team.thread(); s < model.particles; s += team.size()) {
+        position[s] = quad(xyz(team.position()[s]), as_number<Real>(team.number()[s]));
         if (batch.settling) velocity[s] = {0, 0, 0, 0};
     }
-    for (int k = block.thread(); k < model.clusters; k += block.size()) fit[k] = block.fit()[k];
+    for (int k = team.thread(); k < model.clusters; k += team.size()) fit[k] = team.fit()[k];
     if (progress.stopped >= 0) return;
-    if (!batch.settling) end_frame(batch, state, number, block);
-    if (progress.stopped >= 0 || last) report(batch, state, block);
-    block.book(Stage::measure);
+    if (!batch.settling) end_frame(batch, state, number, team);
+    if (progress.stopped >= 0 || last) report(batch, state, team);
+    team.book(Stage::measure);
 }
 
 }  // namespace natator::cuda

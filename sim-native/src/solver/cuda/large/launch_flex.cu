@@ -15,7 +15,8 @@ struct FlexLaunches : LaunchEffects<Scheme::flex, Real> {
         launch.template each_thread<compute_density<Real, const Slots<Real>>>(model.particles + 32 * model.clusters, Real(0));
     }
     void apply_corrections() {
-        launch.template each_thread<cuda::apply_corrections<Real, const Slots<Real>>, large_threads, 6>(pair_lanes * model.solids + 32 + model.fluid + 32);
+        const int units = solid_units(model, Slots<Real>::shares_solids()) + fluid_units(model);
+        launch.template each_thread<cuda::apply_corrections<Real, const Slots<Real>>, large_threads, 6>(32 * units);
     }
     void update_velocities() {
         if (model.plan.viscosity) launch.template each_slot<movements_large<Real>>(model.fluid);

@@ -99,12 +99,17 @@ struct ContactRoom {
 /// Large States as the kernels see them, and one of them: what Block is to the kernel of a batch, for a grid of blocks.
 /// The functions of both take either. The y of the grid is the State's number.
 template <class R>
-class Slots : public BlockTeam {
+class Slots {
 public:
     using Real = R;
     using Index = typename StateArrays<Real>::Index;
     using Word = typename StateArrays<Real>::Word;
-    __device__ static constexpr bool shares_solids() { return true; }
+    /// As of a team; these are the threads of a block, of which some functions want one alone.
+    __device__ static int thread() { return static_cast<int>(threadIdx.x); }
+    __device__ static int size() { return static_cast<int>(blockDim.x); }
+    __device__ static void barrier() { __syncthreads(); }
+    __device__ static bool any(bool value) { return __syncthreads_or(value); }
+    __host__ __device__ static constexpr bool shares_solids() { return true; }
 
 #define NATATOR_ACCESSOR(type, name, ...) \
     __device__ type* name() const { return at.name; }

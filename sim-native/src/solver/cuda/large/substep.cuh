@@ -116,10 +116,10 @@ void launch_find_neighbours(const LargeLaunch<Real>& launch);
 template <class Real>
 void record_positions(const LargeLaunch<Real>& launch, Quad<Real>* to, int row);
 
-/// Densities of the fluid and numbers of neighbours, by State and number, as the last substep left them.
 /// Places of the body's particles as the State has them, in the order of Body::particles, by State.
 template <class Real>
 void launch_body_places(const LargeLaunch<Real>& launch, Quad<Real>* places);
+/// Densities of the fluid and numbers of neighbours, by State and number, as the last substep left them.
 template <class Real>
 void launch_densities(const LargeLaunch<Real>& launch, Real* density);
 template <class Real>
