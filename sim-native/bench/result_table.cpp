@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
@@ -38,6 +39,12 @@ ResultTable::ResultTable(const std::string& path, Row columns, std::size_t key_c
     if (!file_) throw std::runtime_error(path + ": can't be written");
 }
 
+ResultTable::~ResultTable() {
+    if (!found_.empty())
+        std::cerr << path_ << ": holds " << found_.size()
+                  << " of these rows already, which are kept; with another file they are measured again\n";
+}
+
 std::uintmax_t ResultTable::take_over(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string line;
@@ -64,6 +71,7 @@ void ResultTable::keep(const Row& row) {
 void ResultTable::add(const Row& row) {
     if (row.size() != columns_.size()) throw std::logic_error("a row of " + std::to_string(row.size()) + " fields");
     keep(row);
+    written_.insert(Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(key_columns_)));
     if (path_.empty()) return;
     file_ << line_of(row) << std::flush;
     if (!file_) throw std::runtime_error(path_ + ": can't be written");

@@ -17,8 +17,15 @@ public:
     /// With a path: takes over the rows that the file holds; a last line that was cut off is dropped. Throws InputError
     /// when the file has other columns, std::runtime_error when it can't be written. Without: keeps rows in memory.
     ResultTable(const std::string& path, Row columns, std::size_t key_columns);
+    /// Says on standard error how many rows a study found done: none of its work is to be seen then.
+    ~ResultTable();
+    ResultTable(ResultTable&&) = default;
 
-    bool has(const Row& key) const { return keys_.contains(key); }
+    bool has(const Row& key) const {
+        const bool there = keys_.contains(key);
+        if (there && !written_.contains(key)) found_.insert(key);
+        return there;
+    }
     /// Adds a row and writes it at once. Fields must hold no comma and no line break.
     void add(const Row& row);
 
@@ -37,7 +44,8 @@ private:
     Row columns_;
     std::size_t key_columns_;
     std::vector<Row> rows_;
-    std::set<Row> keys_;
+    std::set<Row> keys_, written_;  ///< of all rows; of those that were added
+    mutable std::set<Row> found_;   ///< rows of the file that were asked for
     std::ofstream file_;
 };
 

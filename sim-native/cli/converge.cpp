@@ -262,8 +262,8 @@ std::string convergence_table(const std::vector<LevelRuns>& levels, const std::o
                          const std::string& change) {
         std::ostringstream line;
         line << std::left << std::setw(11) << level << std::right << std::setw(8) << substeps << std::setw(11)
-             << particles << std::setw(6) << runs << "   " << std::left << std::setw(20) << distance << std::setw(22)
-             << speed << change;
+             << particles << std::setw(6) << runs << "   " << std::left << std::setw(24) << distance << "  " << std::setw(24)
+             << speed << "  " << change;
         std::string all = line.str();
         all.erase(all.find_last_not_of(' ') + 1);
         text << all << "\n";

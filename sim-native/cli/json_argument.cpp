@@ -4,10 +4,21 @@
 
 namespace natator::cli {
 
-nlohmann::json read_json_argument(const std::string& argument, const std::string& name) {
+namespace {
+
+bool is_text(const std::string& argument) {
     const auto first = argument.find_first_not_of(" \t\r\n");
-    const bool text = first != std::string::npos && argument[first] == '{';
-    return text ? parse_json(argument, name) : read_json_file(argument);
+    return first != std::string::npos && argument[first] == '{';
+}
+
+}  // namespace
+
+std::string json_argument_name(const std::string& argument, const std::string& option) {
+    return is_text(argument) ? option : option + " " + argument;
+}
+
+nlohmann::json read_json_argument(const std::string& argument, const std::string& name) {
+    return is_text(argument) ? parse_json(argument, name) : read_json_file(argument);
 }
 
 }  // namespace natator::cli

@@ -9,4 +9,7 @@ namespace natator::cli {
 /// Throws InputError.
 nlohmann::json read_json_argument(const std::string& argument, const std::string& name);
 
+/// The option with its file if it has one, as messages about the content name it.
+std::string json_argument_name(const std::string& argument, const std::string& option);
+
 }  // namespace natator::cli

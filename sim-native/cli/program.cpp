@@ -1,13 +1,17 @@
 #include "program.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "natator/error.h"
 #include "options.h"
+#include "scene/field.h"
 
 namespace natator::cli {
 namespace {
@@ -19,6 +23,33 @@ int complain(int status, const std::string& program, std::string message) {
     }
     std::cerr << program << ": " << message << '\n';
     return status;
+}
+
+std::string with_advice(const std::string& unknown, const std::vector<std::string>& known) {
+    const std::string best = fields::nearest(unknown, std::vector<std::string_view>(known.begin(), known.end()));
+    return unknown + (best.empty() ? "" : "; did you mean " + best + "?");
+}
+
+/// What is wrong with a command line. The parser alone does not name a command that it does not know, and names options
+/// together with their values.
+std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> left_over = app.remaining(true);
+    if (left_over.empty()) return error.what();
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    if (command->get_require_subcommand_min() > 0) {
+        std::vector<std::string> names;
+        for (const CLI::App* one : command->get_subcommands([](const CLI::App*) { return true; }))
+            names.push_back(one->get_name());
+        return "unknown command " + with_advice(left_over.front(), names);
+    }
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+    const auto option = std::find_if(left_over.begin(), left_over.end(), [](const auto& word) { return word.starts_with('-'); });
+    if (option == left_over.end()) return "unexpected argument " + left_over.front();
+    std::vector<std::string> names;
+    for (const CLI::Option* one : command->get_options())
+        for (const std::string& name : one->get_lnames()) names.push_back("--" + name);
+    return "unknown option " + with_advice(*option, names);
 }
 
 }  // namespace
@@ -36,7 +67,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
             app.exit(help_or_version, text, text);
             print(text.str());
         } catch (const CLI::ParseError& error) {
-            return complain(bad_input, program, std::string(error.what()) + "; see " + program + " --help");
+            return complain(bad_input, program, fault_of(app, error) + "; see " + program + " --help");
         }
         return status;
     });

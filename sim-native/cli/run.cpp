@@ -54,7 +54,7 @@ Scene load(const RunOptions& options) {
 
 /// The gait asked for; without one the muscles rest.
 Gait load_gait(const RunOptions& options, int actuators) {
-    if (!options.gait.empty()) return parse_gait(read_json_argument(options.gait, "--gait"), "--gait");
+    if (!options.gait.empty()) return parse_gait(read_json_argument(options.gait, "--gait"), json_argument_name(options.gait, "--gait"));
     return resting_gait(actuators);
 }
 

@@ -35,7 +35,7 @@ LiveSetup read_setup(const StreamOptions& options) {
     if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
     setup.overrides = overrides.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     setup.start = options.start;
-    if (!options.gait.empty()) setup.gait = parse_gait(read_json_argument(options.gait, "--gait"), "--gait");
+    if (!options.gait.empty()) setup.gait = parse_gait(read_json_argument(options.gait, "--gait"), json_argument_name(options.gait, "--gait"));
     return setup;
 }
 

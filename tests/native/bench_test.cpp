@@ -81,6 +81,7 @@ TEST(ResultTableTest, GoesOnWhereAKilledStudyStopped) {
     EXPECT_TRUE(table.has({"1"}));
     EXPECT_FALSE(table.has({"2"}));
     table.add({"2", "y"});
+    EXPECT_TRUE(table.has({"2"}));
     EXPECT_EQ(content(file.path), "a,b\n1,x\n2,y\n");
     EXPECT_EQ(table.text(), content(file.path));
     EXPECT_THROW(ResultTable(file.path, {"a", "c"}, 1), InputError);
@@ -91,6 +92,20 @@ TEST(ResultTableTest, GoesOnWhereAKilledStudyStopped) {
     std::ofstream(file.path, std::ios::trunc) << "somebody's notes, without a line break";
     EXPECT_THROW(ResultTable(file.path, {"a", "b"}, 1), InputError);
     EXPECT_EQ(content(file.path), "somebody's notes, without a line break");
+}
+
+TEST(ResultTableTest, SaysHowManyRowsItFoundDone) {
+    const TemporaryPath file("-table.csv");
+    ResultTable(file.path, {"a"}, 1).add({"1"});
+    testing::internal::CaptureStderr();
+    {
+        ResultTable table(file.path, {"a"}, 1);
+        for (const char* key : {"1", "1", "2"})
+            if (!table.has({key})) table.add({key});
+        EXPECT_TRUE(table.has({"2"})) << "its own";
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              file.path + ": holds 1 of these rows already, which are kept; with another file they are measured again\n");
 }
 
 TEST(ResultTableTest, NumbersReadBack) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "child_process.h"
@@ -117,6 +118,8 @@ TEST_F(ConvergeTest, PlainWritesTheTable) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("level ", 0), 0u) << outcome.out;
     EXPECT_EQ(lines(outcome.out), 4);
+    const std::regex columns(R"(\ntime/2 .*\d \+- [0-9.e-]+ {2,}-?[0-9.e-]+ \+- [0-9.e-]+ {2,}\S)");
+    EXPECT_TRUE(std::regex_search(outcome.out, columns)) << outcome.out;
 }
 
 TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {

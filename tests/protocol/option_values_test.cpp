@@ -21,6 +21,10 @@ void PrintTo(const BadValue& bad, std::ostream* out) {
 const char* const is_empty = ": the value is empty; must be left out or have one";
 
 const BadValue bad_values[] = {
+    {{"rnu", vacuum_scene}, "unknown command rnu; did you mean run?"},
+    {{"bench", "qqqqq"}, "unknown command qqqqq; see "},
+    {{"run", vacuum_scene, "--duraton", "1"}, "unknown option --duraton; did you mean --duration?"},
+    {{"run", vacuum_scene, "1"}, "unexpected argument 1"},
     {{"run", vacuum_scene, "--gait", ""}, is_empty},
     {{"run", vacuum_scene, "--overrides", ""}, is_empty},
     {{"run", vacuum_scene, "--scheme", ""}, is_empty},

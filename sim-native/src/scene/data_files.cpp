@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "field.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
 
@@ -19,11 +20,15 @@ fs::path folder_of(const std::string& kind, const fs::path& data) {
     return (data.empty() ? data_directory() : data) / kind;
 }
 
-/// What a name may be, for messages.
-std::string choices(const std::string& kind, const fs::path& data) {
-    std::string text;
-    for (const std::string& name : data_file_names(kind, data)) text += (text.empty() ? "" : ", ") + name;
-    return text.empty() ? "none found in " + quoted(folder_of(kind, data).string()) + "; set NATATOR_DATA" : text;
+/// What a name may be, for messages: the one that it resembles, or else all.
+std::string advice(const std::string& kind, const std::string& unknown, const fs::path& data) {
+    const std::vector<std::string> names = data_file_names(kind, data);
+    if (names.empty()) return ": none found in " + quoted(folder_of(kind, data).string()) + "; set NATATOR_DATA";
+    const std::string best = fields::nearest(unknown, std::vector<std::string_view>(names.begin(), names.end()));
+    if (!best.empty()) return "; did you mean " + best + "?";
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return ": must be one of " + list + ", or a path ending in .json";
 }
 
 /// Whether a name stays inside the data directory: words of letters, digits, '-' and '_' between single slashes.
@@ -61,8 +66,7 @@ nlohmann::json read_data_file(const std::string& kind, const std::string& name, 
         if (fs::is_regular_file(path, failed)) return read_json_file(path.string());
     }
     const std::string one = kind.substr(0, kind.size() - 1);  // "scenes" -> "scene"
-    throw InputError("unknown " + one + " " + quoted(name) + ": must be one of " + choices(kind, data) +
-                     ", or a path ending in .json");
+    throw InputError("unknown " + one + " " + quoted(name) + advice(kind, name, data));
 }
 
 fs::path mesh_path(const std::string& file, const fs::path& data) {

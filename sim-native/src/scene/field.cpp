@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/strict_json.h"
 #include "natator/error.h"
@@ -9,17 +10,18 @@
 namespace natator::fields {
 namespace {
 
-/// Least number of single-character edits that turn `a` into `b` (Levenshtein).
+/// Least number of single-character edits that turn `a` into `b`, an exchange of two neighbours being one (Levenshtein's
+/// distance with transpositions: optimal string alignment).
 std::size_t edits(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
+    std::vector<std::size_t> last(b.size() + 1), row(b.size() + 1), before_last;
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
+        before_last = std::exchange(last, row);
         row[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (exchanged) row[j] = std::min(row[j], before_last[j - 2] + 1);
         }
     }
     return row[b.size()];
@@ -41,19 +43,7 @@ std::size_t most_edits(std::string_view a, std::string_view b) {
 
 /// Names the allowed key that an unknown one most resembles, or else all of them.
 std::string advice(std::string_view unknown, const std::vector<std::string_view>& allowed) {
-    constexpr std::size_t longest_compared = 64;
-    std::string_view best;
-    std::size_t least = unknown.size();
-    if (unknown.size() <= longest_compared) {
-        for (const std::string_view key : allowed) {
-            const std::size_t distance = edits(lower(unknown), lower(key));
-            if (distance < least && distance <= most_edits(unknown, key)) {
-                least = distance;
-                best = key;
-            }
-        }
-    }
-    if (!best.empty()) return "did you mean " + std::string(best) + "?";
+    if (const std::string best = nearest(unknown, allowed); !best.empty()) return "did you mean " + best + "?";
     std::string list;
     for (const std::string_view key : allowed) list += (list.empty() ? "" : ", ") + std::string(key);
     return "allowed: " + list;
@@ -67,6 +57,21 @@ void read_vector(const json& value, const Place& place, const Range& range, Vect
 }
 
 }  // namespace
+
+std::string nearest(std::string_view unknown, const std::vector<std::string_view>& allowed) {
+    constexpr std::size_t longest_compared = 64;
+    if (unknown.size() > longest_compared) return {};
+    std::string_view best;
+    std::size_t least = unknown.size();
+    for (const std::string_view word : allowed) {
+        const std::size_t distance = edits(lower(unknown), lower(word));
+        if (distance < least && distance <= most_edits(unknown, word)) {
+            least = distance;
+            best = word;
+        }
+    }
+    return std::string(best);
+}
 
 Place Place::key(std::string_view name) const {
     return {document, path + (path.empty() ? "" : ".") + std::string(name)};

@@ -59,6 +59,9 @@ void read(const json& value, const Place& place, const Range& range, Eigen::Vect
 /// Refuses a value other than 0 (false, a vector of zeros).
 void require_zero(const json& value, const Place& place, const std::string& reason);
 
+/// The word of `allowed` that an unknown one most resembles; empty if it resembles none.
+std::string nearest(std::string_view unknown, const std::vector<std::string_view>& allowed);
+
 /// Refuses what is not an object, and keys that are not among `allowed`.
 void check_keys(const json& object, const Place& place, const std::vector<std::string_view>& allowed);
 

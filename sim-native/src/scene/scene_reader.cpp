@@ -112,9 +112,11 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     Scene scene;
     scene.name = name;
     fields::read_object(document, place, scene_fields(),
-                        {"scheme", "solver", "planes", "periodic", "fluid", "creature", "settling", "stopping", "movingTank", "goals",
-                         "companions", "obstacles"},
+                        {"base", "scheme", "solver", "planes", "periodic", "fluid", "creature", "settling",
+                         "stopping", "movingTank", "goals", "companions", "obstacles"},
                         scene);
+    if (document.contains("base"))
+        fields::refuse(place.key("base"), document.at("base"), "left out: a scene that builds on another is read by load_scene");
     if (document.contains("scheme")) {
         scene.scheme = fields::read_choice<Scheme>(document.at("scheme"), place.key("scheme"),
                                                    {{"flex", Scheme::flex}, {"conserving", Scheme::conserving}});
