@@ -123,9 +123,23 @@ def page_speeds(page):
                     yield (water, fields[0], fields[1], column), fields[column]
 
 
+def count(text):
+    """A whole number from 0."""
+    if not re.fullmatch("[0-9]+", text):
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 0")
+    return int(text)
+
+
+class Options(argparse.ArgumentParser):
+    """Says in one line what is wrong."""
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
 def main():
-    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    options.add_argument("--entries", type=int, default=50)
+    options = Options(description=__doc__.splitlines()[0])
+    options.add_argument("--entries", type=count, default=50)
     options.add_argument("--seed", type=int, default=None)
     asked = options.parse_args()
     printed = dict(page_speeds((HERE / "README.md").read_text(encoding="utf-8")))
