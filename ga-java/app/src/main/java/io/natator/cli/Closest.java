@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import java.util.Collection;
 import java.util.Comparator;
+import java.util.List;
 import java.util.Locale;
 
 /** Which of the known names somebody probably meant. */
@@ -16,6 +17,20 @@ final class Closest {
         return known.stream().filter(name -> isNear(small, name))
                 .min(Comparator.comparingInt(name -> distance(small, name)))
                 .map(name -> "; did you mean " + name + "?").orElse("");
+    }
+
+    /** Likewise of scenes, by the last part of their names; of several that are equally near, three. */
+    static String scenes(String given, Collection<String> known) {
+        String small = given.toLowerCase(Locale.ROOT);
+        List<String> near = known.stream().filter(name -> isNear(last(small), last(name)) || isNear(small, name))
+                .sorted(Comparator.comparingInt((String name) -> distance(last(small), last(name)))
+                        .thenComparingInt(name -> distance(small, name))).toList();
+        return near.isEmpty() ? "" : "; did you mean " + EnumNames.choice(near.stream()
+                .filter(name -> distance(last(small), last(name)) == distance(last(small), last(near.get(0)))).limit(3).toList()) + "?";
+    }
+
+    private static String last(String scene) {
+        return scene.substring(scene.lastIndexOf('/') + 1);
     }
 
     private static boolean isNear(String given, String name) {

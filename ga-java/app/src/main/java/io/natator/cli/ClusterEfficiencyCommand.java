@@ -132,7 +132,7 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
     }
 
     private void measure(Path file) throws InterruptedException {
-        String name = SceneOptions.scene(scene);
+        String name = SceneOptions.scene("--scene", scene);
         SceneInfo info = SceneInfo.toEvolve(name, EncodingKind.DENSE, null, simulator.path());
         ExecutionSettings alone = ExecutionSettings.of(simulator.path()).withWorkers(1).withTimeout(TimeLimit.of(info, null));
         try (Evaluator evaluator = Evaluator.open(alone)) {

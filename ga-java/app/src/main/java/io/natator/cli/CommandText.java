@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.file.ShellWord;
 import java.util.List;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Model.OptionSpec;
@@ -16,11 +17,21 @@ final class CommandText {
      * @param without options that do not change the outcome, left out
      */
     static String of(CommandSpec spec, List<String> without) {
-        StringBuilder command = new StringBuilder("java -jar ga-java/target/natator.jar ").append(spec.name());
+        return of(spec, "") + options(spec, without);
+    }
+
+    /** A command line with these options, each with a space before it. */
+    static String of(CommandSpec spec, String options) {
+        return "java -jar ga-java/target/natator.jar " + spec.name() + options;
+    }
+
+    /** The options that were given, each with a space before it. */
+    static String options(CommandSpec spec, List<String> without) {
+        StringBuilder command = new StringBuilder();
         for (OptionSpec option : spec.commandLine().getParseResult().matchedOptions()) {
             if (!without.contains(option.longestName())) {
                 command.append(' ').append(option.longestName()).append(' ')
-                        .append(String.join(",", option.originalStringValues()));
+                        .append(ShellWord.of(String.join(",", option.originalStringValues())));
             }
         }
         return command.toString();

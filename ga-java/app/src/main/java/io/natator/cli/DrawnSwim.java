@@ -64,7 +64,7 @@ record DrawnSwim(BufferedImage picture, double time) {
 
     /** What a request simulates, as a report shows it. */
     static FirstScreen.Portrait portrait(SimulationRequest request, Path simulator) {
-        SwimSource swim = new SwimSource(null, null, SceneOptions.scene(request.scene()), request.overrides(), request.gait(), request.scheme(),
+        SwimSource swim = new SwimSource(null, null, SceneOptions.scene("scene", request.scene()), request.overrides(), request.gait(), request.scheme(),
                 request.duration(), null);
         return png -> Files.write(png, of(swim, null, null, null, PORTRAIT, simulator).png());
     }

@@ -46,7 +46,7 @@ final class EnumNames {
     }
 
     /** {@code a}, {@code a or b}, {@code a, b or c}. */
-    private static String choice(List<String> names) {
+    static String choice(List<String> names) {
         int last = names.size() - 1;
         return last < 1 ? String.join("", names)
                 : String.join(", ", names.subList(0, last)) + " or " + names.get(last);

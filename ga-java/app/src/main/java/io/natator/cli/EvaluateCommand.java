@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.StoredRun;
@@ -14,6 +15,7 @@ import io.natator.config.MergePatch;
 import io.natator.encoding.DenseEncoding;
 import io.natator.encoding.Gait;
 import io.natator.simulator.Evaluator;
+import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
@@ -36,7 +38,7 @@ import picocli.CommandLine.Spec;
         mixinStandardHelpOptions = true,
         customSynopsis = "natator evaluate --scene NAME|FILE --gait FILE|GENE... [OPTIONS]",
         footer = {"", "Examples:",
-            "  natator evaluate --scene thesis/creature-1 --gait runs/one/best.json",
+            "  natator evaluate --scene pool/creature-1 --gait runs/one/best.json --duration 2",
             "  natator evaluate --scene thesis/creature-1 --gait 1.861 0.973 0.69 0.648"})
 final class EvaluateCommand implements Callable<Integer> {
 
@@ -62,11 +64,11 @@ final class EvaluateCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         ExecutionSettings execution = executionOptions.execution(Backend.CPU);
-        String sceneName = SceneOptions.scene(scene);
+        String sceneName = SceneOptions.scene("--scene", scene);
         Swimmer swimmer = swimmer(sceneName, execution.simulator());
         SimulationRequest request = new SimulationRequest(0, sceneName, swimmer.gait(), sceneOptions.duration(),
                 sceneOptions.scheme(), MergePatch.both(swimmer.body(), sceneOptions.overrides()));
-        SceneInfo info = SceneInfo.of(sceneName, request.overrides(), execution.simulator());
+        SceneInfo info = info(sceneName, request.overrides(), execution.simulator());
         if (execution.timeout() == null) {
             execution = execution.withTimeout(TimeLimit.of(info, sceneOptions.duration()));
         }
@@ -102,7 +104,15 @@ final class EvaluateCommand implements Callable<Integer> {
         if (gait.size() == 1 && (gait.get(0).endsWith(".json") || Files.exists(Path.of(gait.get(0))))) {
             return GaitFile.read(Path.of(gait.get(0)));
         }
-        return new Swimmer(gait(SceneInfo.of(sceneName, sceneOptions.overrides(), simulator).actuators()), null);
+        return new Swimmer(gait(info(sceneName, sceneOptions.overrides(), simulator).actuators()), null);
+    }
+
+    private static SceneInfo info(String sceneName, JsonNode overrides, Path simulator) throws InterruptedException {
+        try {
+            return SceneInfo.of(sceneName, overrides, simulator);
+        } catch (RefusedSceneException e) {
+            throw UnknownScene.scene("--scene", sceneName, e, simulator);
+        }
     }
 
     private Gait gait(int actuators) {

@@ -18,6 +18,7 @@ import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
 import io.natator.config.WeightedObjective;
+import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;
 import java.io.IOException;
 import java.nio.file.FileAlreadyExistsException;
@@ -226,7 +227,7 @@ final class EvolveCommand implements Callable<Integer> {
     private EvolutionSettings settings(ExecutionSettings execution) throws InterruptedException {
         String sceneName = choice.scene(spec, preset);
         EncodingKind kind = encoding != null ? encoding : EncodingKind.usualFor(sceneName);
-        int actuators = SceneInfo.toEvolve(sceneName, kind, sceneOptions.overrides(), execution.simulator()).actuators();
+        int actuators = actuators(sceneName, kind, execution.simulator());
         return EvolutionSettings.of(sceneName, kind, actuators)
                 .withSize(population != null ? population : preset.population(), generations())
                 .withEvaluations(evaluations).withSeed(seed)
@@ -238,6 +239,14 @@ final class EvolveCommand implements Callable<Integer> {
                         sceneOptions.duration() != null ? sceneOptions.duration() : preset.duration(),
                         sceneOptions.overrides())
                 .withEvolve(bodies(sceneName, execution.simulator()));
+    }
+
+    private int actuators(String sceneName, EncodingKind kind, Path simulator) throws InterruptedException {
+        try {
+            return SceneInfo.toEvolve(sceneName, kind, sceneOptions.overrides(), simulator).actuators();
+        } catch (RefusedSceneException e) {
+            throw choice.refused(sceneName, e, simulator);
+        }
     }
 
     /** What to change of the body; null for nothing. */

@@ -5,6 +5,7 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvolutionListener;
+import io.natator.file.ShellWord;
 import io.natator.run.EvolutionRun;
 import io.natator.run.IslandsRun;
 import io.natator.simulator.Evaluator;
@@ -33,7 +34,7 @@ final class IslandsLauncher {
         ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, plan.settings());
         List<Path> begun = archipelago.folders();
         long recorded = begun.stream().mapToLong(folder -> StoredRun.evaluations(folder).size()).sum();
-        String how = "continue by: " + ProgramName.asCalled() + " resume " + archipelago.directory();
+        String how = "continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(archipelago.directory());
         boolean finished;
         try (Evaluator evaluator = EvolutionRun.open(limited);
                 ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter, () -> say("interrupted; " + how))) {

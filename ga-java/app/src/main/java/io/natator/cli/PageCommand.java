@@ -11,10 +11,12 @@ import io.natator.config.Numbers;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
+import io.natator.simulator.RefusedSceneException;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
 import io.natator.verdict.Reproduction;
 import io.natator.verdict.WinnerFacts;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -66,6 +68,10 @@ final class PageCommand implements Callable<Integer> {
     private Path output;
 
     @Section(Topic.OUTPUT)
+    @Option(names = "--force", description = "Replace the file if it is already there.")
+    private boolean force;
+
+    @Section(Topic.OUTPUT)
     @Option(names = "--title", paramLabel = "TEXT", description = "Of the page. Default: what swims.")
     private String title;
 
@@ -90,11 +96,14 @@ final class PageCommand implements Callable<Integer> {
             throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes above 0");
         }
         ReplayHtml.check(output);
+        if (!force && Files.exists(output)) {
+            throw new InvalidInputException("output file " + output + " is already there; choose another by --output, or replace it by --force");
+        }
         Path simulator = simulatorOption.path();
         List<Replay> swims = new ArrayList<>();
         for (String source : sources) {
             for (SwimSource swimmer : swimmers(source)) {
-                swims.add(recorded(swimmer, simulator));
+                swims.add(recorded(source, swimmer, simulator));
             }
         }
         String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
@@ -121,6 +130,14 @@ final class PageCommand implements Callable<Integer> {
         }
         return gaits.stream().map(one -> SwimSource.of(run, null, one, one.equals(run.best().swimmer()) ? run.best() : null))
                 .toList();
+    }
+
+    private Replay recorded(String source, SwimSource swimmer, Path simulator) throws InterruptedException {
+        try {
+            return recorded(swimmer, simulator);
+        } catch (RefusedSceneException e) {
+            throw swimmer.refused(source, e, simulator);
+        }
     }
 
     private Replay recorded(SwimSource swimmer, Path simulator) throws InterruptedException {

@@ -5,6 +5,7 @@ import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.config.Limits;
+import io.natator.file.ShellWord;
 import io.natator.run.EvolutionRun;
 import io.natator.study.thesis.EvolutionPlan;
 import io.natator.study.thesis.Repeated;
@@ -13,7 +14,11 @@ import io.natator.study.thesis.Water;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
+import java.util.Set;
 import java.util.concurrent.Callable;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
@@ -35,7 +40,10 @@ final class ReproduceCommand implements Callable<Integer> {
 
     private static final double NANOSECONDS = 1e9;
     private static final List<String> WITHOUT_OUTCOME = List.of("--stop-after", "--simulator-path",
-            "--simulator-command", "--master", "--workers", "--timeout", "--phase", "--runs-at-once", "--compact", "--device");
+            "--simulator-command", "--master", "--workers", "--timeout", "--phase", "--runs-at-once", "--compact", "--device",
+            "--sample", "--sample-seed");
+    /** Options that a page has as they came to be, not as they were given. */
+    private static final List<String> FOUND = List.of("--water", "--seeds", "--generations", "--output-dir");
 
     @Spec
     private CommandSpec spec;
@@ -58,9 +66,10 @@ final class ReproduceCommand implements Callable<Integer> {
     private List<Water> waters;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--seeds", paramLabel = "N", defaultValue = "3",
-            description = "Evolutions of each creature in each water, from 1. Default: ${DEFAULT-VALUE}.")
-    private int seeds;
+    @Option(names = "--seeds", paramLabel = "N",
+            description = "Evolutions of each creature in each water, from 1. Default: " + EvolutionPlan.USUAL_SEEDS
+                    + ", or in each water as many as DIR holds finished, if more.")
+    private Integer seeds;
 
     @Section(Topic.EXTENT)
     @Option(names = "--generations", paramLabel = "N",
@@ -161,11 +170,31 @@ final class ReproduceCommand implements Callable<Integer> {
             }
             if (phase == Phase.REPORT || phase == Phase.ALL) {
                 Path simulator = execution.simulator();
-                out.println(study.report(plan, CommandText.of(spec, WITHOUT_OUTCOME),
+                out.println(study.report(plan, commands(plan),
                         study.portrayed().map(swim -> DrawnSwim.portrait(swim, simulator)).orElse(null)));
             }
         }
         return ExitCode.OK;
+    }
+
+    /** What makes all that the page is of: where waters have not as many evolutions, one line for each and one for the page. */
+    private String commands(EvolutionPlan plan) {
+        String rest = CommandText.options(spec, Stream.concat(WITHOUT_OUTCOME.stream(), FOUND.stream()).toList())
+                + " --output-dir " + ShellWord.of(directory);
+        Map<Water, EvolutionPlan.Extent> extents = plan.extents();
+        if (Set.copyOf(extents.values()).size() == 1) {
+            return command(extents.size() == Water.values().length ? "" : water(waters.get(0)), extents.get(waters.get(0)), rest);
+        }
+        return extents.entrySet().stream().map(one -> command(water(one.getKey()), one.getValue(), rest))
+                .collect(Collectors.joining("\n")) + "\n" + CommandText.of(spec, " --phase report" + rest);
+    }
+
+    private static String water(Water water) {
+        return " --water " + water.label();
+    }
+
+    private String command(String water, EvolutionPlan.Extent extent, String rest) {
+        return CommandText.of(spec, water + " --seeds " + extent.seeds() + " --generations " + extent.generations() + rest);
     }
 
     /** Whether the present program still makes what is stored. */

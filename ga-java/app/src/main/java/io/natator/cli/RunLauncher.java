@@ -4,6 +4,7 @@ import io.natator.checkpoint.RunFolder;
 import io.natator.config.ExecutionSettings;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionStoppedException;
+import io.natator.file.ShellWord;
 import io.natator.report.FitnessPlot;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
@@ -31,7 +32,7 @@ final class RunLauncher {
     void run(RunFolder folder, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
         try (folder) {
             ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, folder.settings());
-            String how = "continue by: " + ProgramName.asCalled() + " resume " + folder.directory();
+            String how = "continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(folder.directory());
             try (Evaluator evaluator = EvolutionRun.open(limited);
                     ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
                             () -> say("interrupted; " + how))) {

@@ -7,6 +7,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
+import io.natator.file.ShellWord;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Verdict;
@@ -74,8 +75,8 @@ final class RunReport {
             line("", verdict.advice());
         }
         printFailures(state, folder);
-        line("watch it", ProgramName.asCalled() + " view --run " + folder);
-        line("share it", ProgramName.asCalled() + " page " + folder);
+        line("watch it", ProgramName.asCalled() + " view --run " + ShellWord.of(folder));
+        line("share it", ProgramName.asCalled() + " page " + ShellWord.of(folder));
     }
 
     private void printVacuum(SimulationResult vacuum) {
@@ -93,7 +94,7 @@ final class RunReport {
         int failed = state.history().stream().mapToInt(GenerationSummary::failed).sum();
         if (failed > 0) {
             line("failed", failed + " of " + state.evaluations() + " evaluations gave no answer, so the same seed may find another gait elsewhere; "
-                    + "why: " + ProgramName.asCalled() + " show " + folder);
+                    + "why: " + ProgramName.asCalled() + " show " + ShellWord.of(folder));
         }
     }
 

@@ -3,6 +3,8 @@ package io.natator.cli;
 import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Preset;
+import io.natator.simulator.RefusedSceneException;
+import java.nio.file.Path;
 import java.util.Arrays;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
@@ -26,7 +28,7 @@ final class SceneChoice {
 
     /** Whether a scene is the one that was named, or the chosen creature's as any preset has it; any if none was given. */
     boolean admits(String other) {
-        return scene != null ? SceneOptions.scene(scene).equals(other)
+        return scene != null ? SceneOptions.scene("--scene", scene).equals(other)
                 : creature == null || Arrays.stream(Preset.values()).anyMatch(one -> one.sceneOf(creature).equals(other));
     }
 
@@ -44,6 +46,12 @@ final class SceneChoice {
             throw new InvalidInputException("--creature is " + creature
                     + "; expected 1, 2, 3 or 4, or the name of a bundled body such as eel");
         }
-        return scene != null ? SceneOptions.scene(scene) : preset.sceneOf(creature != null ? creature : "1");
+        return scene != null ? SceneOptions.scene("--scene", scene) : preset.sceneOf(creature != null ? creature : "1");
+    }
+
+    /** What to say where the simulator refuses the chosen scene: which there are, if it has none of that name. */
+    InvalidInputException refused(String chosen, RefusedSceneException refusal, Path simulator) throws InterruptedException {
+        return creature != null ? UnknownScene.creature(creature, chosen, refusal, simulator)
+                : UnknownScene.scene("--scene", chosen, refusal, simulator);
     }
 }

@@ -18,14 +18,19 @@ final class SceneOptions extends SceneChanges {
         return duration;
     }
 
-    /** The scene as the simulator is to find it from any working directory: files by their absolute path. */
-    static String scene(String given) {
+    /**
+     * The scene as the simulator is to find it from any working directory: files by their absolute path.
+     *
+     * @param option by which it was given, for the message
+     * @throws InvalidInputException if it is a file that is not there
+     */
+    static String scene(String option, String given) {
         if (!given.endsWith(".json")) {
             return given;
         }
         Path file = Path.of(given);
         if (!Files.isRegularFile(file)) {
-            throw new InvalidInputException("--scene is " + given + "; expected a named scene or an existing file");
+            throw new InvalidInputException(option + " is " + given + "; expected a named scene or an existing file");
         }
         return file.toAbsolutePath().normalize().toString();
     }

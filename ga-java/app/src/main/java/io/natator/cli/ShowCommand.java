@@ -12,6 +12,7 @@ import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
+import io.natator.file.ShellWord;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.ControlVerdict;
 import java.io.PrintWriter;
@@ -56,7 +57,7 @@ final class ShowCommand implements Callable<Integer> {
             printFront(run, out);
             if (run.elites() != null) {
                 out.printf("map of gaits: the best of %d kinds; natator view --run %s swims them, natator report draws them%n",
-                        run.elites().moving().size(), run.directory());
+                        run.elites().moving().size(), ShellWord.of(run.directory()));
             }
             printSavings(run, out);
         }
@@ -108,7 +109,7 @@ final class ShowCommand implements Callable<Integer> {
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
-                                + " resume " + folder);
+                                + " resume " + ShellWord.of(folder));
     }
 
     /** What no other gait is better than in all objectives. */

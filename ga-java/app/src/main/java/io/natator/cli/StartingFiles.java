@@ -7,6 +7,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.file.ShellWord;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.SceneInfo;
 import java.nio.file.Files;
@@ -19,6 +20,7 @@ import java.util.stream.Stream;
 /** Makes files to begin with that the simulator takes as they are. */
 final class StartingFiles {
 
+    private static final String LIKE = "--like";
     private static final String POOL = "pool/water";
     private static final List<String> ORDER = List.of("mesh", "profile", "slices", "file", "length", "height", "width", "fin",
             "joints", "muscleSlices", "bend", "spacing", "particleMass");
@@ -65,7 +67,7 @@ final class StartingFiles {
                     + "of height and width, muscles run from joint to joint.").put("base", POOL).put("duration", 4);
             scene.set("creature", parsed(BODY));
         } else {
-            scene.put("description", name + ": " + like + " with changes.").put("base", SceneOptions.scene(like));
+            scene.put("description", name + ": " + like + " with changes.").put("base", SceneOptions.scene(LIKE, like));
             JsonNode there = definition(like);
             copy(there, scene, "duration");
             copy(there.path("solver"), scene.putObject("solver"), "gravity",
@@ -74,17 +76,17 @@ final class StartingFiles {
                 copy(there.get("creature"), scene.putObject("creature"), "rearCentre", "clusterStiffness",
                         "springStiffness");
             } else {
-                scene.set("creature", bodyIn(SceneOptions.scene(like), there.path("fluid")));
+                scene.set("creature", bodyIn(SceneOptions.scene(LIKE, like), there.path("fluid")));
             }
         }
         String gait = file.resolveSibling(name + "-gait") + ".json";
-        String view = ProgramName.asCalled() + " view --scene " + word(file);
+        String view = ProgramName.asCalled() + " view --scene " + ShellWord.of(file);
         ObjectNode creature = JsonNodeFactory.instance.objectNode().set("creature", scene.get("creature"));
         return new StartingFile(scene,
                 SceneInfo.of(scene.get("base").asText(), creature, simulator).actuators() == 0
-                ? List.of("natator-sim info " + word(file), view)
-                : List.of(ProgramName.asCalled() + " new gait " + name + "-gait --like " + word(file) + output(name, gait),
-                        view + " --gait " + word(gait)));
+                ? List.of("natator-sim info " + ShellWord.of(file), view)
+                : List.of(ProgramName.asCalled() + " new gait " + name + "-gait --like " + ShellWord.of(file) + output(name, gait),
+                        view + " --gait " + ShellWord.of(gait)));
     }
 
     /**
@@ -103,11 +105,11 @@ final class StartingFiles {
         creature.setAll((ObjectNode) ordered(body));
         Place place = placeOf(body, like);
         creature.set("rearCentre", place.rearCentre());
-        String put = place.water() + " --overrides " + word("{\"creature\":{\"name\":\"" + file + "\"}}");
+        String put = place.water() + " --overrides " + ShellWord.of("{\"creature\":{\"name\":\"" + file + "\"}}");
         String gait = file.resolveSibling(name + "-gait") + ".json";
         return new StartingFile(creature, List.of(
-                "natator-sim info " + put + " --gait-template > " + word(gait),
-                ProgramName.asCalled() + " view --scene " + put + " --gait " + word(gait)));
+                "natator-sim info " + put + " --gait-template > " + ShellWord.of(gait),
+                ProgramName.asCalled() + " view --scene " + put + " --gait " + ShellWord.of(gait)));
     }
 
     /**
@@ -120,10 +122,10 @@ final class StartingFiles {
     StartingFile gait(String like, Path file) throws InterruptedException {
         ObjectNode gait = document("gait");
         String scene = like == null ? SWIMMER : like;
-        gait.setAll(parsed(SceneInfo.gaitTemplate(SceneOptions.scene(scene), simulator)));
+        gait.setAll(parsed(SceneInfo.gaitTemplate(SceneOptions.scene(LIKE, scene), simulator)));
         return new StartingFile(gait, List.of(
-                "natator-sim run " + word(scene) + " --gait " + word(file) + " --duration 2",
-                ProgramName.asCalled() + " view --scene " + word(scene) + " --gait " + word(file)));
+                "natator-sim run " + ShellWord.of(scene) + " --gait " + ShellWord.of(file) + " --duration 2",
+                ProgramName.asCalled() + " view --scene " + ShellWord.of(scene) + " --gait " + ShellWord.of(file)));
     }
 
     /** With what an editor finds its schema by. */
@@ -134,12 +136,12 @@ final class StartingFiles {
     }
 
     private ObjectNode definition(String scene) throws InterruptedException {
-        return parsed(SceneInfo.definition(SceneOptions.scene(scene), null, simulator));
+        return parsed(SceneInfo.definition(SceneOptions.scene(LIKE, scene), null, simulator));
     }
 
     private ObjectNode bodyOf(String scene) throws InterruptedException {
         if (!(definition(scene).get("creature") instanceof ObjectNode creature)) {
-            throw new InvalidInputException("--like is " + scene + ", which has no creature; expected a scene with one");
+            throw new InvalidInputException(LIKE + " is " + scene + ", which has no creature; expected a scene with one");
         }
         if (creature.get("mesh") instanceof ObjectNode mesh) {
             mesh.remove("digest");
@@ -241,12 +243,6 @@ final class StartingFiles {
 
     /** Where a file is not where its name alone would put it. */
     private static String output(String name, String file) {
-        return file.equals(name + "-gait.json") ? "" : " --output " + word(file);
-    }
-
-    /** As one word of a shell. */
-    private static String word(Object text) {
-        String plain = text.toString();
-        return plain.matches("[\\w./-]+") ? plain : "'" + plain.replace("'", "'\\''") + "'";
+        return file.equals(name + "-gait.json") ? "" : " --output " + ShellWord.of(file);
     }
 }

@@ -16,8 +16,10 @@ import io.natator.config.Json;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
+import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;
 import io.natator.verdict.Reproduction;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.Objects;
@@ -43,7 +45,7 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
      * @param source     a run folder, else a scene
      * @param generation of a run, or null
      * @param gait       a file, or null for a run's best
-     * @throws InvalidInputException if the run has no such gait
+     * @throws InvalidInputException if the run has no such gait, or a scene's file is not there
      */
     static SwimSource of(String source, Integer generation, Path gait) {
         Swimmer given = gait == null ? null : GaitFile.read(gait);
@@ -59,7 +61,10 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
         if (generation != null) {
             throw new InvalidInputException("--generation: " + source + " is not a run folder");
         }
-        return new SwimSource(null, null, SceneOptions.scene(source), given == null ? null : given.body(),
+        if (source.endsWith(".json") && !Files.isRegularFile(Path.of(source))) {
+            throw new InvalidInputException(source + " is neither a run folder nor a scene: there is no such file");
+        }
+        return new SwimSource(null, null, SceneOptions.scene("scene", source), given == null ? null : given.body(),
                 given == null ? null : given.gait(), null, null, null);
     }
 
@@ -70,7 +75,7 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
      */
     static SwimSource of(StoredRun run, Integer generation, Swimmer swimmer, BestGait best) {
         EvolutionSettings settings = run.settings();
-        return new SwimSource(run.directory(), generation, SceneOptions.scene(settings.scene()),
+        return new SwimSource(run.directory(), generation, SceneOptions.scene("scene of " + run.directory(), settings.scene()),
                 MergePatch.both(settings.overrides(), swimmer.body()), swimmer.gait(), settings.scheme(), settings.duration(), best);
     }
 
@@ -120,6 +125,15 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
     Reproduction reproduction(Path simulator, Object... changes) {
         boolean same = best != null && Arrays.stream(changes).allMatch(Objects::isNull);
         return same ? new Reproduction(run, best, simulator, Backend.CPU, 0) : null;
+    }
+
+    /**
+     * What to say where the simulator refuses it.
+     *
+     * @param source that the user named
+     */
+    InvalidInputException refused(String source, RefusedSceneException refusal, Path simulator) throws InterruptedException {
+        return run == null ? UnknownScene.source(source, refusal, simulator) : refusal;
     }
 
     /** Its gait as JSON, or null. */

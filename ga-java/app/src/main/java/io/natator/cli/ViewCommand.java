@@ -10,6 +10,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
+import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;
 import io.natator.study.thesis.ThesisData;
 import io.natator.view.InitialScene;
@@ -116,7 +117,7 @@ final class ViewCommand implements Callable<Integer> {
     /** The first run of the scene or creature that was chosen, or the first one if none was; null without any. */
     private Path shownRun() {
         for (Path folder : runs) {
-            if (choice.admits(SceneOptions.scene(StoredRun.settings(folder).scene()))) {
+            if (choice.admits(SceneOptions.scene("scene of " + folder, StoredRun.settings(folder).scene()))) {
                 return folder;
             }
         }
@@ -137,7 +138,11 @@ final class ViewCommand implements Callable<Integer> {
         Swimmer swimmer = given != null ? given : new Swimmer(ThesisData.load().gaitIn(scene), null);
         ObjectNode overrides =
                 InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()), sceneOptions.scheme());
-        SceneInfo.of(scene, overrides, program);
+        try {
+            SceneInfo.of(scene, overrides, program);
+        } catch (RefusedSceneException e) {
+            throw choice.refused(scene, e, program);
+        }
         return new InitialScene(scene, overrides, swimmer.gait());
     }
 

@@ -5,6 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
 import java.io.IOException;
+import java.nio.file.Files;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -40,6 +41,24 @@ class EvolveCommandTest extends FakeSimulatorTest {
         assertThat(environment.get("instructionSet").asText()).isEqualTo("any");
         assertThat(best.get("bodyLength").asDouble()).isEqualTo(1.2);
         assertThat(folder.resolve("run/plots/fitness.png")).isNotEmptyFile();
+    }
+
+    /** What is printed to be copied is read by a shell. */
+    @Test
+    void aFolderWithASpaceIsQuotedInCommands() throws IOException {
+        String run = "'" + folder.resolve("minnow one") + "'";
+        assertThat(evolve("minnow one", "--optimizer", "map-elites")).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("natator view --run " + run + "\n", "natator page " + run + "\n", "run folder  " + folder.resolve("minnow one"));
+        assertThat(natator("show", folder.resolve("minnow one").toString())).isZero();
+        assertThat(out.toString()).contains("natator view --run " + run + " swims them");
+
+        Files.writeString(folder.resolve("slow"), "0.2");
+        assertThat(evolve("one cut", "--workers", "1", "--stop-after", "4")).as(err.toString()).isZero();
+        assertThat(err.toString()).endsWith("time is up; continue by: natator resume '" + folder.resolve("one cut") + "'\n");
+        assertThat(natator("show", folder.resolve("one cut").toString())).isZero();
+        assertThat(out.toString()).contains("continue by: natator resume '" + folder.resolve("one cut") + "'\n");
+        assertThat(evolve("two cut", "--workers", "1", "--stop-after", "1", "--islands", "2")).as(err.toString()).isZero();
+        assertThat(err.toString()).endsWith("time is up; continue by: natator resume '" + folder.resolve("two cut") + "'\n");
     }
 
     @ParameterizedTest

@@ -101,9 +101,12 @@ class ExportCommandTest {
         assertThat(export(simulator(whole(3), "exit 0"), "test/pool", "--format", format.text(), "--duration", "1"))
                 .as(err.toString()).isZero();
 
+        boolean bodies = format == ExportFormat.GLB;
         assertThat(out.toString()).isEqualTo(folder.resolve("out")
-                + ": 3 frames of 4 particles of water and 4 others" + System.lineSeparator());
+                + ": 3 frames of " + (bodies ? "bodies alone" : "4 particles of water and 4 others") + System.lineSeparator());
         JsonNode metadata = Json.parse(Files.readString(folder.resolve("out/metadata.json")), JsonNode.class);
+        assertThat(metadata.get("water").asBoolean()).isEqualTo(!bodies);
+        assertThat(metadata.get("duration").asDouble()).as("what was exported, not the scene's own").isEqualTo(1);
         assertThat(metadata.get("format").asText()).isEqualTo(format.text());
         assertThat(metadata.get("frames").asInt()).isEqualTo(3);
         assertThat(metadata.get("definition")).isEqualTo(StreamBytes.scene().get("definition"));
@@ -151,7 +154,7 @@ class ExportCommandTest {
         "run --generation 2|--generation is 2; expected one that",
         "run --generation 0 --gait gait.json|--generation and --gait: expected one of them",
         "test/pool --generation 0|--generation: test/pool is not a run folder",
-        "none.json|--scene is none.json; expected a named scene or an existing file",
+        "none.json|none.json is neither a run folder nor a scene: there is no such file",
         "test/pool --gait none.json|--gait none.json does not exist",
         "test/pool --duration 1 --water-surface|--water-surface and --format csv: expected a format that holds meshes of many shapes",
         "test/pool --fields velocity,velocity|--fields has velocity twice; expected each once",

@@ -69,7 +69,7 @@ class PageCommandTest {
         err.getBuffer().setLength(0);
         double swum = Json.read(run.resolve("best.json"), JsonNode.class, "best").get("distance").asDouble();
         String[][] again = {
-            {"page", run.toString(), "--no-water", "--output", folder.resolve("page.html").toString()},
+            {"page", run.toString(), "--no-water", "--force", "--output", folder.resolve("page.html").toString()},
             {"export", run.toString(), "--format", "csv", "--no-water", "--force"}, {"report", run.toString()}};
         for (String[] command : again) {
             assertThat(natator(command)).as(err.toString()).isZero();
@@ -84,6 +84,20 @@ class PageCommandTest {
         assertThat(err.toString().lines()).hasSize(3).allSatisfy(line -> assertThat(line).startsWith(
                 run + ": stored 0.5521, today's program " + Numbers.fixed(swum, 4) + " (the same program: no reason is known)"));
         assertThat(run.resolve("report/README.md")).content().contains("fresh starts", "stored 0.5521");
+    }
+
+    @Test
+    void aPageIsReplacedOnlyIfWanted() throws IOException {
+        Path page = Files.writeString(folder.resolve("page.html"), "mine");
+        List<String> arguments = new ArrayList<>(List.of("page", "pool/creature-1", "--duration", "0.05", "--no-water", "--output", page.toString()));
+
+        assertThat(natator(arguments.toArray(String[]::new))).isEqualTo(2);
+        assertThat(err).hasToString("natator page: output file " + page + " is already there; choose another by --output, or replace it by --force\n");
+        assertThat(page).hasContent("mine");
+
+        arguments.add("--force");
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(page).content().contains("class=\"swim\"");
     }
 
     @Test

@@ -71,8 +71,8 @@ class PictureCommandTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "no/such|scene no/such: ",
-        "none.json|--scene is none.json; expected a named scene or an existing file",
+        "no/such|no/such is neither a run folder nor a scene",
+        "none.json|none.json is neither a run folder nor a scene: there is no such file",
         "bench/small-tank --size 10x10|--size is 10x10; expected pixels as 1200x800, each from 64 to 4096",
         "bench/small-tank --size 5000x800|--size is 5000x800; expected pixels",
         "bench/small-tank --size big|--size is big; expected pixels",

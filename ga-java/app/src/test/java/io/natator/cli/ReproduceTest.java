@@ -107,6 +107,39 @@ class ReproduceTest {
         assertThat(out.toString()).contains("differs: {", "0 of 3 runs end with the same bits");
     }
 
+    /** A page tells how to make what it is of, and more seeds than are usual are kept. */
+    @Test
+    void thePageHasTheCommandsThatMakeIt() throws IOException {
+        Path study = folder.resolve("my study");
+        Path run = Files.createDirectories(study.resolve("runs/creature-1/flex/seed-4"));
+        for (String name : List.of("config.json", "checkpoint.json", "best.json", "finalists.json")) {
+            Files.copy(Path.of("../../results/thesis/runs/creature-1/flex/seed-1").resolve(name), run.resolve(name));
+        }
+        String same = "java -jar ga-java/target/natator.jar reproduce ";
+        String rest = " --creature 1 --output-dir '" + study + "'\n";
+
+        String page = page(study, "--creature", "1");
+        assertThat(page).contains("- 1 of 7 evolutions are finished", "```\n" + same + "--water flex --seeds 4 --generations 25" + rest
+                + same + "--water open-water --seeds 3 --generations 25" + rest + same + "--phase report" + rest + "```\n",
+                "`--phase report` builds page and pictures anew from the rows, in seconds", "a row's `request`, given to `natator-sim evaluate`,")
+                .doesNotContain("recompute.py");
+        assertThat(page(study, "--creature", "1", "--water", "flex")).contains("- 1 of 4 evolutions are finished",
+                "```\n" + same + "--water flex --seeds 4 --generations 25" + rest + "```\n");
+
+        Files.writeString(study.resolve("recompute.py"), "");
+        assertThat(page(study, "--creature", "1", "--generations", "9", "--seeds", "3")).contains("- 0 of 6 evolutions are finished",
+                "```\n" + same + "--seeds 3 --generations 9" + rest + "```\n", "`python3 '" + study.resolve("recompute.py") + "' --entries 0` works ");
+    }
+
+    private String page(Path study, String... options) throws IOException {
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
+        List<String> all = new ArrayList<>(List.of("reproduce", "--simulator-path", SIMULATOR.toString(), "--phase", "report", "--output-dir",
+                study.toString()));
+        all.addAll(List.of(options));
+        assertThat(command.execute(all.toArray(String[]::new))).as(err.toString()).isZero();
+        return Files.readString(study.resolve("README.md"));
+    }
+
     private int repeat(List<String> options) {
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of("reproduce", "--simulator-path", SIMULATOR.toString(), "--output-dir", folder.toString()));

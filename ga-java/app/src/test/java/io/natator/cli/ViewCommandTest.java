@@ -230,7 +230,7 @@ class ViewCommandTest {
     @CsvSource(delimiter = '|', value = {
         "--port 70000|2|natator view: --port is 70000; expected a whole number from 0 to 65535",
         "--creature 5|2|natator view: --creature is 5; expected 1, 2, 3 or 4",
-        "--scene no/such|2|natator view: scene no/such: ",
+        "--scene no/such|2|natator view: --scene is no/such; expected a named scene ",
         "--scene no/such.json|2|natator view: --scene is no/such.json; expected a named scene or an existing file",
         "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
         "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",

@@ -62,7 +62,7 @@ final class EvaluationCounter implements EvolutionListener {
         if (result.status() == SimulationResult.Status.REFUSED) {
             refused++;
         }
-        if (result.isStoppedEarly()) {
+        if (result.isStoppedEarly(duration)) {
             stoppedEarly++;
             saved += duration - result.simulatedOf(duration);
         }

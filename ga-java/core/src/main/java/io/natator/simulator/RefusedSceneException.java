@@ -3,11 +3,12 @@ package io.natator.simulator;
 import io.natator.config.InvalidInputException;
 
 /** The simulator works, but does not take a scene; the message says why. */
-final class RefusedSceneException extends InvalidInputException {
+public final class RefusedSceneException extends InvalidInputException {
 
     private static final long serialVersionUID = 1L;
 
-    RefusedSceneException(String message) {
+    /** A refusal in these words. */
+    public RefusedSceneException(String message) {
         super(message);
     }
 }

@@ -1,6 +1,5 @@
 package io.natator.simulator;
 
-import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
@@ -138,10 +137,18 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         return Math.max(score(), 0.0);
     }
 
-    /** Whether it ended before its time though nothing was wrong. */
-    @JsonIgnore
-    public boolean isStoppedEarly() {
-        return status == Status.OK && !"completed".equals(stopped);
+    /**
+     * Whether it ended before its time though nothing was wrong. What would have been ended with the last frame was simulated whole,
+     * whatever {@code stopped} says.
+     *
+     * @param duration of an evaluation that nothing ends early, rounded to frames by the simulator
+     */
+    public boolean isStoppedEarly(double duration) {
+        return status == Status.OK && !"completed".equals(stopped) && duration - simulated > halfFrame();
+    }
+
+    private double halfFrame() {
+        return frames == null || frames == 0 ? 0 : simulated / frames / 2;
     }
 
     /**
@@ -153,7 +160,7 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         if (status == Status.REFUSED) {
             return 0;
         }
-        return isStoppedEarly() ? simulated : duration;
+        return isStoppedEarly(duration) ? simulated : duration;
     }
 
     /** Mean speed over the simulated time in scene units per second, or 0 where there is no distance. */

@@ -1,6 +1,7 @@
 package io.natator.run;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
 
 import io.natator.cache.CachedEvaluator;
 import io.natator.cache.EvaluationCache;
@@ -25,7 +26,9 @@ import io.natator.evolution.Individual;
 import io.natator.evolution.ToySimulator;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.FakeSimulator;
+import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
+import io.natator.simulator.Simulator;
 import io.natator.simulator.WorkerPool;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -179,6 +182,32 @@ class EvolutionRunTest {
         assertThat(statistics.shareOfEarlyStops()).isEqualTo(0.0);
         assertThat(new EvaluationStatistics(30, 0, 0, 0, 3.0000000000000004, 3, null).shareOfEarlyStops())
                 .as("of an earlier version").isEqualTo(0.0);
+    }
+
+    /** A stop with the last frame saves nothing; frames are what a duration is rounded to. */
+    @ParameterizedTest
+    @CsvSource({"4.0, 4.0, 240, false", "4.0, 3.9833, 239, true", "0.11, 0.1166667, 7, false", "0.11, 0.1, 6, true", "0.108, 0.1, 6, false"})
+    void onlyWhatWasNotSimulatedWholeEndedEarly(double duration, double simulated, int frames, boolean early) throws InterruptedException {
+        ToySimulator toy = new ToySimulator();
+        Simulator stopped = new Simulator() {
+            @Override
+            public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
+                return toy.evaluate(request).with(to -> to.stopped("no-progress").simulated(simulated).frames(frames));
+            }
+
+            @Override
+            public void close() {
+                toy.close();
+            }
+        };
+        try (RunFolder run = RunFolder.create(folder.resolve("run"), SETTINGS.with(to -> to.duration(duration)));
+                Evaluator evaluator = new WorkerPool(stopped, 2)) {
+            new EvolutionRun(run).run(execution, evaluator);
+        }
+
+        EvaluationStatistics statistics = StoredRun.statistics(folder.resolve("run"));
+        assertThat(statistics.stoppedEarly()).isEqualTo(early ? statistics.simulations() : 0);
+        assertThat(statistics.shareOfEarlyStops()).isCloseTo(early ? 1 - simulated / duration : 0, within(1e-9));
     }
 
     private List<EvaluationRecord> evaluations(String name) {

@@ -36,7 +36,7 @@ public final class Export {
      * What was written.
      *
      * @param frames their number
-     * @param water  number of water particles in each
+     * @param water  number of water particles in each, 0 of a format without them
      * @param solids number of other particles in each
      */
     public record Written(int frames, int water, int solids) {
@@ -75,7 +75,7 @@ public final class Export {
         requirePackages();
         try (ExportFolder target = ExportFolder.begin(folder, replace);
                 StreamProcess process = new StreamProcess(simulator, options)) {
-            Written written = write(process, target.path(), source.deepCopy().put("every", options.every()),
+            Written written = write(process, target.path(), source.deepCopy().put("every", options.every()), options.until(),
                     onFrame);
             target.commit();
             return written;
@@ -97,7 +97,7 @@ public final class Export {
         }
     }
 
-    private Written write(StreamProcess process, Path path, ObjectNode source, BiConsumer<Long, Double> onFrame)
+    private Written write(StreamProcess process, Path path, ObjectNode source, double duration, BiConsumer<Long, Double> onFrame)
             throws IOException {
         process.grant(CREDIT);
         StreamMessage.Scene scene = null;
@@ -134,12 +134,12 @@ public final class Export {
                 swim.waterSurface().close();
             }
         }
-        ObjectNode metadata = metadata(scene, source, frames);
+        ObjectNode metadata = metadata(scene, source, duration, frames);
         ArrayNode files = metadata.putArray(ExportFolder.FILES);
         ExportFolder.files(path).forEach(files::add);
         files.add(ExportFolder.METADATA);
         Files.writeString(path.resolve(ExportFolder.METADATA), Json.document(metadata));
-        return new Written(frames, swim.hasWater() ? swim.water().size() : 0, swim.solids().size());
+        return new Written(frames, format.holdsParticles() && swim.hasWater() ? swim.water().size() : 0, swim.solids().size());
     }
 
     private static void failUnlessGranted(StreamMessage message) throws IOException {
@@ -153,10 +153,10 @@ public final class Export {
     }
 
     /** Where the swim comes from, what the numbers mean, and all that the simulator says of the scene. */
-    private ObjectNode metadata(StreamMessage.Scene message, ObjectNode source, int frames) throws IOException {
+    private ObjectNode metadata(StreamMessage.Scene message, ObjectNode source, double duration, int frames) throws IOException {
         ObjectNode all = JsonNodeFactory.instance.objectNode();
         all.put("format", format.text()).setAll(source);
-        all.put("frames", frames).put("water", content.water())
+        all.put("frames", frames).put("water", content.water() && format.holdsParticles())
                 .put("waterSurface", content.waterSurface());
         ObjectNode kinds = all.putObject("kinds");
         for (ParticleKind kind : ParticleKind.values()) {
@@ -165,6 +165,7 @@ public final class Export {
         JsonNode scene = Json.parse(message.json(), JsonNode.class);
         scene.properties().stream().filter(entry -> !NOT_METADATA.contains(entry.getKey()))
                 .forEach(entry -> all.set(entry.getKey(), entry.getValue()));
+        all.put("duration", duration);
         return all;
     }
 }

@@ -41,6 +41,11 @@ public enum ExportFormat {
         return this == VTP || this == PLY || this == USD || this == USDC;
     }
 
+    /** Whether files of it hold particles, of water too, instead of bodies alone. */
+    public boolean holdsParticles() {
+        return this != GLB;
+    }
+
     /** Its name on the command line and in metadata. */
     public String text() {
         return name().toLowerCase(Locale.ROOT);

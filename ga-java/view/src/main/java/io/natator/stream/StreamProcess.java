@@ -4,6 +4,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.InvalidInputException;
 import io.natator.simulator.ErrorTail;
 import io.natator.simulator.ProcessGroup;
+import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SimulatorFailure;
 import java.io.BufferedInputStream;
 import java.io.IOException;
@@ -122,7 +123,7 @@ public final class StreamProcess implements AutoCloseable {
         }
         int status = process.exitValue();
         if (status == EXIT_BAD_INPUT && !begun && !said().isEmpty()) {
-            throw new InvalidInputException(said());
+            throw new RefusedSceneException(said());
         }
         if (status != 0 && !closed) {
             throw new StreamException("simulator ended" + how);

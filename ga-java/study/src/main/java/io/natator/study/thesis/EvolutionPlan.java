@@ -1,22 +1,36 @@
 package io.natator.study.thesis;
 
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Judge;
 import io.natator.config.Limits;
 import io.natator.run.PlannedRun;
 import io.natator.simulator.SceneInfo;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.EnumMap;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
+import java.util.stream.Stream;
 
 /**
  * The evolutions of the study: each creature in each water with each seed, with the thesis' operators. Each
  * has a run folder {@code runs/creature-N/WATER/seed-S} of its own.
  */
 public final class EvolutionPlan {
+
+    /** Evolutions of each creature in each water where the folder does not hold more. */
+    public static final int USUAL_SEEDS = 3;
+
+    private static final String SEED = "seed-";
 
     private final List<EvolvedRun> runs = new ArrayList<>();
 
@@ -40,29 +54,66 @@ public final class EvolutionPlan {
     }
 
     /**
+     * What is evolved in a water.
+     *
+     * @param seeds       evolutions of each creature
+     * @param generations of each
+     */
+    public record Extent(long seeds, int generations) {
+    }
+
+    /**
      * What is to be evolved, seed by seed, so that what is finished early is of all creatures.
      *
      * @param creatures of the thesis, 1 to 4
      * @param waters    at least one
-     * @param seeds     evolutions of each with seeds 1, 2, …; at least 1
+     * @param seeds     evolutions of each with seeds 1, 2, …; at least 1, or null for {@link #USUAL_SEEDS},
+     *                  or in a water the largest seed that the folder holds finished of any of the creatures, if that is more
      * @param backend   what the simulator computes on
      * @param simulator the native program, which knows the scenes
      * @param directory of the study
      * @throws InvalidInputException if one of them is out of range
      * @throws InterruptedException  if the calling thread is interrupted
      */
-    public EvolutionPlan(List<Integer> creatures, List<Water> waters, int seeds, Size size, Backend backend,
+    public EvolutionPlan(List<Integer> creatures, List<Water> waters, Integer seeds, Size size, Backend backend,
             Path simulator, Path directory) throws InterruptedException {
-        Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
-        for (int seed = 1; seed <= seeds; seed++) {
+        if (seeds != null) {
+            Limits.checkCount("--seeds", seeds, Limits.REPETITIONS);
+        }
+        Map<Water, Integer> counts = new EnumMap<>(Water.class);
+        for (Water water : waters) {
+            counts.put(water, seeds != null ? seeds : Math.max(USUAL_SEEDS, held(creatures, water, directory)));
+        }
+        int most = counts.values().stream().mapToInt(Integer::intValue).max().orElse(0);
+        for (int seed = 1; seed <= most; seed++) {
             for (Water water : waters) {
-                for (int creature : creatures) {
+                for (int creature : seed <= counts.get(water) ? creatures : List.<Integer>of()) {
                     EvolutionSettings settings = size.of(settings(creature, water, simulator), water).withBackend(backend);
-                    Path folder = directory.resolve("runs").resolve("creature-" + creature).resolve(water.label())
-                            .resolve("seed-" + seed);
+                    Path folder = seeds(creature, water, directory).resolve(SEED + seed);
                     runs.add(new EvolvedRun(creature, water, seed, new PlannedRun(settings.withSeed(seed), folder)));
                 }
             }
+        }
+    }
+
+    private static Path seeds(int creature, Water water, Path directory) {
+        return directory.resolve("runs").resolve("creature-" + creature).resolve(water.label());
+    }
+
+    /** The largest seed of a finished evolution, of any of the creatures; 0 without one. */
+    private static int held(List<Integer> creatures, Water water, Path directory) {
+        return creatures.stream().mapToInt(creature -> held(seeds(creature, water, directory))).max().orElse(0);
+    }
+
+    private static int held(Path seeds) {
+        if (!Files.isDirectory(seeds)) {
+            return 0;
+        }
+        try (Stream<Path> all = Files.list(seeds)) {
+            return all.filter(folder -> folder.getFileName().toString().matches(SEED + "[1-9]\\d{0,3}")).filter(StoredRun::isFinished)
+                    .mapToInt(folder -> Integer.parseInt(folder.getFileName().toString().substring(SEED.length()))).max().orElse(0);
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot read " + seeds + ": " + FileErrors.reason(seeds, e), e);
         }
     }
 
@@ -80,5 +131,29 @@ public final class EvolutionPlan {
     /** Those that have come to their end. */
     public List<EvolvedRun> finished() {
         return runs.stream().filter(run -> run.plan().isFinished()).toList();
+    }
+
+    /** Those of the seeds that are there: up to the largest that is finished in a water, or all where none is. */
+    public List<EvolvedRun> begun() {
+        Map<Water, Extent> extents = extents();
+        return runs.stream().filter(run -> run.seed() <= extents.get(run.water()).seeds()).toList();
+    }
+
+    /** What each water has of what is finished; what is planned where nothing is. In the order in which they were asked for. */
+    public Map<Water, Extent> extents() {
+        Map<Water, Extent> extents = new LinkedHashMap<>();
+        List<EvolvedRun> finished = finished();
+        for (EvolvedRun run : runs) {
+            extents.computeIfAbsent(run.water(), water -> extent(
+                    finished.stream().anyMatch(one -> one.water() == water) ? finished : runs, water));
+        }
+        return extents;
+    }
+
+    private static Extent extent(List<EvolvedRun> all, Water water) {
+        List<EvolvedRun> there = all.stream().filter(run -> run.water() == water).toList();
+        PlannedRun first = there.get(0).plan();
+        return new Extent(there.stream().mapToLong(EvolvedRun::seed).max().orElseThrow(),
+                (first.isFinished() ? StoredRun.settings(first.directory()) : first.settings()).generations());
     }
 }

@@ -4,6 +4,7 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.file.GeneratedPage;
+import io.natator.file.ShellWord;
 import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
 import io.natator.report.ReportDocument;
@@ -24,6 +25,8 @@ final class ThesisReport {
 
     private static final Logger LOG = LoggerFactory.getLogger(ThesisReport.class);
     private static final String COMMENTARY = "commentary.md";
+    /** Works the page's numbers out anew, without this program. */
+    private static final String RECOMPUTE = "recompute.py";
     /** What a person wants said first. */
     private static final String NOTE = "note.md";
 
@@ -37,8 +40,8 @@ final class ThesisReport {
     /**
      * A report.
      *
-     * @param asked     how many evolutions were asked for
-     * @param command   what the study was made by
+     * @param asked     how many evolutions there are to be with these seeds
+     * @param command   what the study is made by, line by line
      * @param portrait  draws the swimmer of {@link StudyResults#portrayed}; null for none
      */
     ThesisReport(StudyResults results, int asked, Map<String, Recording> recordings, String command,
@@ -150,11 +153,17 @@ final class ThesisReport {
 
     private void addCommands(ReportDocument page) {
         page.code(command);
-        page.text("which continues where it was stopped; `--phase evolve`, `measure` and `report` do a part of it, `--dry-run` says how long the rest "
-                + "takes, and `--phase repeat` runs some of `processor.jsonl` again and compares the bits. Every "
-                + "number above is computed from rows that hold the whole request and result. Evolved gaits are in `finalists.json` of the run "
-                + "folders, with settings and every generation's figures. Pictures are drawn from `recordings/`. Sources "
-                + "of the published and of Flex' numbers:");
+        page.text("which continues where it was stopped; `--phase evolve` and `measure` do a part of it, `--dry-run` says how long the rest "
+                + "takes, and `--phase repeat` runs some of `processor.jsonl` again and compares the bits. `--phase report` builds page and pictures "
+                + "anew from the rows, in seconds. " + recomputed() + "Every number above is computed from rows that hold the whole request and "
+                + "result: a row's `request`, given to `natator-sim evaluate`, gives its result with the same hash on the same backend and "
+                + "instruction set. Evolved gaits are in `finalists.json` of the run folders, with settings and every generation's figures. "
+                + "Pictures are drawn from `recordings/`. Sources of the published and of Flex' numbers:");
         page.list(results.data().about());
+    }
+
+    private String recomputed() {
+        Path file = directory.resolve(RECOMPUTE);
+        return Files.exists(file) ? "`python3 " + ShellWord.of(file) + " --entries 0` works the page's numbers out anew without our code. " : "";
     }
 }

@@ -158,13 +158,13 @@ public final class ThesisStudy implements AutoCloseable {
      * Writes the report on what is there.
      *
      * @param plan     the evolutions that were asked for
-     * @param command  what the study was made by
+     * @param command  what the study is made by, line by line
      * @param portrait draws the swimmer of {@link #portrayed}; null for none
      * @return the page
      * @throws InterruptedException if the calling thread is interrupted
      */
     public Path report(EvolutionPlan plan, String command, FirstScreen.Portrait portrait) throws InterruptedException {
-        return new ThesisReport(results, plan.runs().size(), recordings(), command, portrait).write();
+        return new ThesisReport(results, plan.begun().size(), recordings(), command, portrait).write();
     }
 
     /** What the report shows: the fastest that evolved in open water, in flex where nothing did; empty if nothing was measured. */

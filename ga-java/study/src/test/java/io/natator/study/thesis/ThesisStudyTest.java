@@ -16,12 +16,15 @@ import io.natator.simulator.FakeSimulator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.WorkerPool;
+import io.natator.study.Sample;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicInteger;
+import java.util.regex.MatchResult;
+import java.util.regex.Pattern;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -160,5 +163,23 @@ class ThesisStudyTest {
         }
         assertThat(data.gait("2").published().errors().get(FishMode.ANGUILLIFORM.ordinal())).isEqualTo(0.0402);
         assertThat(data.gait("1").flex().get(0).mean()).isCloseTo(0.007, within(1e-3));
+    }
+
+    /** What is said to be from a file is in it, and there are no other files to look for. */
+    @Test
+    void theNumbersOfFlexAreThoseOfTheFileThatIsNamed() throws IOException {
+        String about = String.join(" ", data.about());
+        List<String> files = Pattern.compile("[\\w.-]+/[\\w./-]+").matcher(about).results().map(MatchResult::group).toList();
+        assertThat(files).containsExactly("tests/conformance/variants/variants.csv");
+        List<List<String>> rows = Files.readAllLines(Path.of("../..").resolve(files.get(0))).stream().map(line -> List.of(line.split(",", -1))).toList();
+        int speed = rows.get(0).indexOf("v_0_4");
+
+        for (ThesisData.FlexSpeed flex : data.gaits().stream().flatMap(gait -> gait.flex().stream()).toList()) {
+            Sample runs = Sample.of(rows.stream().filter(row -> row.get(0).matches(flex.runs())).map(row -> Double.valueOf(row.get(speed))).toList());
+            assertThat(runs.mean()).as(flex.runs()).isCloseTo(flex.mean(), within(5e-7));
+            if (flex.deviation() != null) {
+                assertThat(runs.standardDeviation()).as(flex.runs()).isCloseTo(flex.deviation(), within(1e-6));
+            }
+        }
     }
 }

@@ -1,0 +1,68 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import picocli.CommandLine;
+
+/** What is said of scenes and run folders that are not there, with the real simulator. */
+class UnknownSceneTest {
+
+    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+
+    @TempDir
+    private Path folder;
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "export --format csv runs/nothing|runs/nothing is neither a run folder nor a scene",
+        "export --format csv --duration 0.1 runs/nothing|runs/nothing is neither a run folder nor a scene",
+        "page --duration 0.1 thesis/creature-1 open-watr/ray|open-watr/ray is neither a run folder nor a scene; did you mean open-water/ray or pool/ray?",
+        "picture tuna|tuna is neither a run folder nor a scene; did you mean pool/tuna or open-water/tuna?",
+        "picture gone.json|gone.json is neither a run folder nor a scene: there is no such file",
+        "evolve --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
+        "evolve --creature tadpol --preset thesis|--creature is tadpol; expected 1, 2, 3, 4, eel, ray, tadpole or tuna; did you mean tadpole?",
+        "view --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
+        "evaluate --scene pool/tunaa --gait 1|--scene is pool/tunaa; expected a named scene (natator-sim info lists them) or a file; did you mean pool/tuna "
+            + "or open-water/tuna?",
+        "evolve --scene pool/eal|--scene is pool/eal; expected a named scene (natator-sim info lists them) or a file; did you mean pool/eel, "
+            + "endless/eel or open-water/eel?"})
+    void onlyWhatIsNearIsNamed(String arguments, String message) {
+        StringWriter err = new StringWriter();
+        CommandLine command = Main.commandLine().setOut(new PrintWriter(new StringWriter())).setErr(new PrintWriter(err, true));
+        List<String> all = new ArrayList<>(List.of(arguments.split(" ")));
+        all.addAll(1, List.of("--simulator-path", SIMULATOR.toString()));
+        switch (all.get(0)) {
+            case "picture", "page" -> all.addAll(1, List.of("--output", folder.resolve("new." + (all.get(0).equals("page") ? "html" : "png")).toString()));
+            case "view" -> all.addAll(1, List.of("--port", "0", "--no-browser"));
+            case "evaluate" -> { }
+            default -> all.addAll(1, List.of("--output-dir", folder.resolve("new").toString()));
+        }
+
+        assertThat(command.execute(all.toArray(String[]::new))).isEqualTo(2);
+        assertThat(err).hasToString("natator " + all.get(0) + ": " + message + "\n");
+        assertThat(folder).isEmptyDirectory();
+    }
+
+    @Test
+    void aSceneThatIsThereIsRefusedInTheSimulatorsWords() throws Exception {
+        Path file = Files.writeString(folder.resolve("scene.json"), "{\"base\": \"no/such\"}");
+        StringWriter err = new StringWriter();
+        CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute("export", "--simulator-path", SIMULATOR.toString(), "--format", "csv", file.toString())).isEqualTo(2);
+        assertThat(command.execute("export", "--simulator-path", SIMULATOR.toString(), "--format", "csv", "--output-dir",
+                folder.resolve("new").toString(), "--overrides", "{\"solver\":{\"substeps\":0}}", "pool/eel")).isEqualTo(2);
+        assertThat(err.toString().lines()).hasSize(2).allSatisfy(line -> assertThat(line).doesNotContain("neither"));
+        assertThat(err.toString()).contains("no/such", "substeps");
+    }
+}

@@ -1,0 +1,76 @@
+package io.natator.study.thesis;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.natator.config.Backend;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+class EvolutionPlanTest {
+
+    private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
+    private static final Path FINISHED = Path.of("../../results/thesis/runs/creature-1/flex/seed-1");
+    private static final EvolutionPlan.Size SIZE = new EvolutionPlan.Size(null, 7, null, null);
+
+    @TempDir
+    private Path folder;
+
+    private EvolutionPlan plan(Integer seeds) throws InterruptedException {
+        return new EvolutionPlan(List.of(1, 2), List.of(Water.values()), seeds, SIZE, Backend.CPU, SIMULATOR, folder);
+    }
+
+    private void hold(String run, String... names) throws IOException {
+        Path copy = Files.createDirectories(folder.resolve("runs").resolve(run));
+        for (String name : names) {
+            Files.copy(FINISHED.resolve(name), copy.resolve(name));
+        }
+    }
+
+    private static String seeds(EvolutionPlan plan, Water water) {
+        return plan.runs().stream().filter(run -> run.water() == water).map(run -> run.creature() + "/" + run.seed()).toList().toString();
+    }
+
+    @Test
+    void thereAreThreeWhereNothingIs() throws InterruptedException {
+        for (Water water : Water.values()) {
+            assertThat(seeds(plan(null), water)).isEqualTo("[1/1, 2/1, 1/2, 2/2, 1/3, 2/3]");
+            assertThat(plan(null).extents()).containsEntry(water, new EvolutionPlan.Extent(3, 7));
+        }
+        assertThat(plan(null).begun()).hasSize(12);
+    }
+
+    /** The largest of any creature, in each water; what is not finished counts as little as a creature that was not asked for. */
+    @Test
+    void whatAFolderHoldsIsKept() throws InterruptedException, IOException {
+        hold("creature-1/flex/seed-1", "config.json", "checkpoint.json", "best.json");
+        hold("creature-1/flex/seed-4", "config.json", "checkpoint.json", "best.json");
+        hold("creature-2/flex/seed-5", "config.json", "checkpoint.json", "best.json");
+        hold("creature-1/flex/seed-6", "config.json");
+        hold("creature-1/flex/seed-07", "config.json", "checkpoint.json", "best.json");
+        hold("creature-3/flex/seed-8", "config.json", "checkpoint.json", "best.json");
+        hold("creature-1/open-water/seed-2", "config.json", "checkpoint.json", "best.json");
+
+        EvolutionPlan plan = plan(null);
+        assertThat(seeds(plan, Water.FLEX)).isEqualTo("[1/1, 2/1, 1/2, 2/2, 1/3, 2/3, 1/4, 2/4, 1/5, 2/5]");
+        assertThat(seeds(plan, Water.OPEN_WATER)).as("the same command goes on until there are three")
+                .isEqualTo("[1/1, 2/1, 1/2, 2/2, 1/3, 2/3]");
+        assertThat(plan.finished()).hasSize(4);
+        assertThat(plan.extents()).containsEntry(Water.FLEX, new EvolutionPlan.Extent(5, 25))
+                .containsEntry(Water.OPEN_WATER, new EvolutionPlan.Extent(2, 25));
+        assertThat(plan.begun()).as("5 and 2 of 2 creatures").hasSize(14);
+    }
+
+    @Test
+    void whatIsAskedForCounts() throws InterruptedException, IOException {
+        hold("creature-1/flex/seed-4", "config.json", "checkpoint.json", "best.json");
+
+        assertThat(seeds(plan(2), Water.FLEX)).isEqualTo("[1/1, 2/1, 1/2, 2/2]");
+        assertThat(plan(6).runs()).hasSize(24);
+        assertThat(plan(6).extents()).containsEntry(Water.FLEX, new EvolutionPlan.Extent(4, 25))
+                .containsEntry(Water.OPEN_WATER, new EvolutionPlan.Extent(6, 7));
+    }
+}
