@@ -89,6 +89,7 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"water", "--support", "nan"}, "--support: expected a number in [2, 4], not nan"},
         {{"water", "--device", "1"}, "--device 1: the backend is cpu; must be left out, or beside --backend cuda or auto"},
         {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
+        {{"wtaer"}, "unknown command wtaer; did you mean water?; see "},
         {{"validation", "--part", "tank", "--setting", "4x4", "4x4"}, "--setting: 4x4 is given twice"},
     };
     for (const auto& [options, message] : bad) {
