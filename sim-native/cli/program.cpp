@@ -30,13 +30,25 @@ std::string with_advice(const std::string& unknown, const std::vector<std::strin
     return unknown + (best.empty() ? "" : "; did you mean " + best + "?");
 }
 
-/// What is wrong with a command line. The parser alone does not name a command that it does not know, and names options
-/// together with their values.
+/// The parser's words end with "--option = value"; what the value must be is in the option's type.
+std::string fault_of_value(const CLI::App& command, const CLI::ConversionError& error) {
+    const std::string text = error.what(), before = "Could not convert: ";
+    if (!text.starts_with(before)) return text;
+    const std::string given = text.substr(before.size());
+    const CLI::Option* const option = command.get_option_no_throw(given.substr(0, given.find(' ')));
+    const bool number = option && option->get_type_name().starts_with("FLOAT");  // of whole ones a range is given
+    return given + (number ? ": must be a number" : ": cannot be read");
+}
+
+/// What is wrong with a command line. The parser alone does not name a command that it does not know, names options
+/// together with their values, and does not say what a value must be.
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
-    const std::vector<std::string> left_over = app.remaining(true);
-    if (left_over.empty()) return error.what();
     const CLI::App* command = &app;
     while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    if (const auto* const conversion = dynamic_cast<const CLI::ConversionError*>(&error))
+        return fault_of_value(*command, *conversion);
+    const std::vector<std::string> left_over = app.remaining(true);
+    if (left_over.empty()) return error.what();
     if (command->get_require_subcommand_min() > 0) {
         std::vector<std::string> names;
         for (const CLI::App* one : command->get_subcommands([](const CLI::App*) { return true; }))

@@ -23,6 +23,8 @@ const char* const is_empty = ": the value is empty; must be left out or have one
 const BadValue bad_values[] = {
     {{"rnu", vacuum_scene}, "unknown command rnu; did you mean run?"},
     {{"qqqqq"}, "unknown command qqqqq; see "},
+    {{"run", vacuum_scene, "--duration", "abc"}, "--duration = abc: must be a number; see "},
+    {{"run", vacuum_scene, "--threads", "two"}, "--threads: Value two not in range 1 to 1024; see "},
     {{"run", vacuum_scene, "--duraton", "1"}, "unknown option --duraton; did you mean --duration?"},
     {{"run", vacuum_scene, "1"}, "unexpected argument 1"},
     {{"run", vacuum_scene, "--gait", ""}, is_empty},
