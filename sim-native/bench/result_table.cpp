@@ -60,6 +60,7 @@ std::uintmax_t ResultTable::take_over(const std::string& path) {
         keep(row);
         whole_lines += line.size() + 1;
     }
+    unasked_ = keys_;
     return whole_lines;
 }
 
@@ -71,7 +72,6 @@ void ResultTable::keep(const Row& row) {
 void ResultTable::add(const Row& row) {
     if (row.size() != columns_.size()) throw std::logic_error("a row of " + std::to_string(row.size()) + " fields");
     keep(row);
-    written_.insert(Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(key_columns_)));
     if (path_.empty()) return;
     file_ << line_of(row) << std::flush;
     if (!file_) throw std::runtime_error(path_ + ": can't be written");

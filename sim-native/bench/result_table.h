@@ -22,9 +22,8 @@ public:
     ResultTable(ResultTable&&) = default;
 
     bool has(const Row& key) const {
-        const bool there = keys_.contains(key);
-        if (there && !written_.contains(key)) found_.insert(key);
-        return there;
+        found_.insert(unasked_.extract(key));
+        return keys_.contains(key);
     }
     /// Adds a row and writes it at once. Fields must hold no comma and no line break.
     void add(const Row& row);
@@ -44,8 +43,8 @@ private:
     Row columns_;
     std::size_t key_columns_;
     std::vector<Row> rows_;
-    std::set<Row> keys_, written_;  ///< of all rows; of those that were added
-    mutable std::set<Row> found_;   ///< rows of the file that were asked for
+    std::set<Row> keys_;
+    mutable std::set<Row> unasked_, found_;  ///< keys of rows that were taken over: not asked for yet, and asked for
     std::ofstream file_;
 };
 

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <new>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
 #include "natator/error.h"
@@ -23,11 +22,6 @@ int complain(int status, const std::string& program, std::string message) {
     }
     std::cerr << program << ": " << message << '\n';
     return status;
-}
-
-std::string with_advice(const std::string& unknown, const std::vector<std::string>& known) {
-    const std::string best = fields::nearest(unknown, std::vector<std::string_view>(known.begin(), known.end()));
-    return unknown + (best.empty() ? "" : "; did you mean " + best + "?");
 }
 
 /// The parser's words end with "--option = value"; what the value must be is in the option's type.
@@ -53,7 +47,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
         std::vector<std::string> names;
         for (const CLI::App* one : command->get_subcommands([](const CLI::App*) { return true; }))
             names.push_back(one->get_name());
-        return "unknown command " + with_advice(left_over.front(), names);
+        return "unknown command " + left_over.front() + fields::did_you_mean(left_over.front(), {names.begin(), names.end()});
     }
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
     const auto option = std::find_if(left_over.begin(), left_over.end(), [](const auto& word) { return word.starts_with('-'); });
@@ -61,7 +55,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     std::vector<std::string> names;
     for (const CLI::Option* one : command->get_options())
         for (const std::string& name : one->get_lnames()) names.push_back("--" + name);
-    return "unknown option " + with_advice(*option, names);
+    return "unknown option " + *option + fields::did_you_mean(*option, {names.begin(), names.end()});
 }
 
 }  // namespace

@@ -24,11 +24,8 @@ fs::path folder_of(const std::string& kind, const fs::path& data) {
 std::string advice(const std::string& kind, const std::string& unknown, const fs::path& data) {
     const std::vector<std::string> names = data_file_names(kind, data);
     if (names.empty()) return ": none found in " + quoted(folder_of(kind, data).string()) + "; set NATATOR_DATA";
-    const std::string best = fields::nearest(unknown, std::vector<std::string_view>(names.begin(), names.end()));
-    if (!best.empty()) return "; did you mean " + best + "?";
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-    return ": must be one of " + list + ", or a path ending in .json";
+    const std::string hint = fields::did_you_mean(unknown, {names.begin(), names.end()});
+    return hint.empty() ? ": must be one of " + fields::listed(names) + ", or a path ending in .json" : hint;
 }
 
 /// Whether a name stays inside the data directory: words of letters, digits, '-' and '_' between single slashes.

@@ -41,14 +41,6 @@ std::size_t most_edits(std::string_view a, std::string_view b) {
     return letters >= 5 ? 2 : letters >= 3 ? 1 : 0;
 }
 
-/// Names the allowed key that an unknown one most resembles, or else all of them.
-std::string advice(std::string_view unknown, const std::vector<std::string_view>& allowed) {
-    if (const std::string best = nearest(unknown, allowed); !best.empty()) return "did you mean " + best + "?";
-    std::string list;
-    for (const std::string_view key : allowed) list += (list.empty() ? "" : ", ") + std::string(key);
-    return "allowed: " + list;
-}
-
 template <class Vector>
 void read_vector(const json& value, const Place& place, const Range& range, Vector& out) {
     if (!value.is_array() || value.size() != 3) refuse(place, value, "an array of 3 numbers, each " + range.text());
@@ -58,7 +50,7 @@ void read_vector(const json& value, const Place& place, const Range& range, Vect
 
 }  // namespace
 
-std::string nearest(std::string_view unknown, const std::vector<std::string_view>& allowed) {
+std::string did_you_mean(std::string_view unknown, const std::vector<std::string_view>& allowed) {
     constexpr std::size_t longest_compared = 64;
     if (unknown.size() > longest_compared) return {};
     std::string_view best;
@@ -70,7 +62,7 @@ std::string nearest(std::string_view unknown, const std::vector<std::string_view
             best = word;
         }
     }
-    return std::string(best);
+    return best.empty() ? std::string() : "; did you mean " + std::string(best) + "?";
 }
 
 Place Place::key(std::string_view name) const {
@@ -134,9 +126,9 @@ void check_keys(const json& object, const Place& place, const std::vector<std::s
     if (!object.is_object()) refuse(place, object, "an object");
     for (const auto& [key, value] : object.items()) {
         if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
-        const std::string name = quoted(key);
+        const std::string name = quoted(key), hint = did_you_mean(key, allowed);
         refuse(place.key(name.substr(1, name.size() - 2)),
-               "unknown key (= " + shown(value) + "); " + advice(key, allowed));
+               "unknown key (= " + shown(value) + ")" + (hint.empty() ? "; allowed: " + listed(allowed) : hint));
     }
 }
 

@@ -59,8 +59,16 @@ void read(const json& value, const Place& place, const Range& range, Eigen::Vect
 /// Refuses a value other than 0 (false, a vector of zeros).
 void require_zero(const json& value, const Place& place, const std::string& reason);
 
-/// The word of `allowed` that an unknown one most resembles; empty if it resembles none.
-std::string nearest(std::string_view unknown, const std::vector<std::string_view>& allowed);
+/// "; did you mean X?" with the word of `allowed` that an unknown one most resembles; empty if it resembles none.
+std::string did_you_mean(std::string_view unknown, const std::vector<std::string_view>& allowed);
+
+/// The words with commas between them.
+template <class Word>
+std::string listed(const std::vector<Word>& words) {
+    std::string list;
+    for (const Word& word : words) list += (list.empty() ? "" : ", ") + std::string(word);
+    return list;
+}
 
 /// Refuses what is not an object, and keys that are not among `allowed`.
 void check_keys(const json& object, const Place& place, const std::vector<std::string_view>& allowed);

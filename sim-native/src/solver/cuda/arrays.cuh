@@ -47,8 +47,8 @@
     X(SharedByTeam<Real>, shared_by_team, 1, team)     \
     X(Quad<Real>, next_velocity, all, scratch)         \
     X(ClusterFit<Real>, fit_before, size.clusters, scratch)
-#define NATATOR_STAGING_ARRAYS(X) X(Index, own_staging, room.staging, block_chip)
 
 // Their order is that of the offsets which the kernel keeps in registers: in another it is 1.6 % slower on an H100.
 #define NATATOR_TEAM_ARRAYS(X) \
-    NATATOR_CHIP_ARRAYS(X) NATATOR_TEAM_ONLY_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_STAGING_ARRAYS(X)
+    NATATOR_CHIP_ARRAYS(X) NATATOR_TEAM_ONLY_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) \
+    X(Index, own_staging, room.staging, block_chip)

@@ -180,15 +180,11 @@ __device__ void correct_solids(const ModelView<Real>& model, const Team& team, i
     if (there && threadIdx.x % lanes == 0) apply(model, team, s, xyz(here), inverse_mass, correction);
 }
 
-/// Units of apply_corrections: of solids, with one thread or several for each, and of fluid.
+/// Units of apply_corrections that the solids make, with one thread or several for each.
 template <class Real>
 __host__ __device__ int solid_units(const ModelView<Real>& model, bool shared) {
     const int in_unit = shared ? slots_of_warp : 32;
     return (model.solids + in_unit - 1) / in_unit;
-}
-template <class Real>
-__host__ __device__ int fluid_units(const ModelView<Real>& model) {
-    return (model.fluid + 31) / 32;
 }
 
 /// Every correction from the same positions: first of the solids, which take longest.
@@ -198,7 +194,7 @@ __device__ void apply_corrections(const ModelView<Real>& model, Team& team) {
     for_each_unit(team, of_solids, of_fluid, [&](int unit) {
         if (unit < of_solids)
             return team.shares_solids() ? correct_solids<pair_lanes>(model, team, unit)
-                                         : correct_solids<1>(model, team, unit);
+                                        : correct_solids<1>(model, team, unit);
         const int s = fluid_slot(unit - of_solids, of_fluid);
         if (s >= model.fluid) return;
         const Quad<Real> here = team.next()[s];

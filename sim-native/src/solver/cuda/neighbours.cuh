@@ -332,7 +332,7 @@ __device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Te
 template <class Real, class Team>
 __device__ void find_neighbours(const ModelView<Real>& model, Team& team) {
     const int of_solids = team.shares_solids() ? model.solids : (model.solids + 31) / 32;
-    const int of_fluid = (model.fluid + 31) / 32;
+    const int of_fluid = fluid_units(model);
     for_each_unit(team, of_solids, of_fluid, [&](int unit) {
         if (unit < of_solids) return find_neighbours_of_solids(model, team, unit);
         const int s = fluid_slot(unit - of_solids, of_fluid);

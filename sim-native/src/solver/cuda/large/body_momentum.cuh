@@ -15,7 +15,7 @@ template <class Real>
 __device__ void keep_body_momentum(const ModelView<Real>& model, const Slots<Real>& slots) {
     const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
     const auto at = [](const Quad<Real>& x) { return physics::cast<double>(xyz(x)); };
-    for (int k = warp; k < model.free_bodies; k += block_threads() / 32) {
+    for (int k = warp; k < model.free_bodies; k += slots.size() / 32) {
         // Calls work(slot, solid, mass) for this lane's share of the body.
         const auto for_own = [&](const auto& work) {
             for (int e = model.free_body_begin[k] + lane; e < model.free_body_begin[k + 1]; e += 32) {

@@ -28,12 +28,12 @@ __device__ void solids_large(const ModelView<Real>& model, const Slots<Real>& sl
         if (model.plan.contacts) solve_contacts(model, slots);
         if (model.plan.springs) solve_springs(model, slots);
         if (model.plan.clusters) solve_clusters(model, slots);
-        for (int solid = threadIdx.x; solid < model.solids; solid += block_threads())
+        for (int solid = threadIdx.x; solid < model.solids; solid += slots.size())
             solve_planes_of(model, slots, slots.slot_of_solid()[solid]);
         __syncthreads();
     }
     if (!model.plan.water) return;
-    for (int solid = threadIdx.x; solid < model.solids; solid += block_threads())
+    for (int solid = threadIdx.x; solid < model.solids; solid += slots.size())
         slots.water.velocity[slots.water.slot_of_solid[solid]] =
             constrained_velocity<Real>(slots, slots.slot_of_solid()[solid]);
 }

@@ -170,10 +170,6 @@ public:
     int substep = 0;
 };
 
-__device__ inline int block_threads() {
-    return static_cast<int>(blockDim.x);
-}
-
 /// Units of work by the warps of the whole grid.
 template <class Real, class Work>
 __device__ void for_each_unit(const Slots<Real>&, int few, int many, const Work& work) {

@@ -60,7 +60,7 @@ __device__ void solve_contacts(const ModelView<Real>& model, const Slots<Real>& 
         });
     });
     __syncthreads();
-    for (int t = threadIdx.x; t < slots.shared().touched; t += block_threads()) {
+    for (int t = threadIdx.x; t < slots.shared().touched; t += slots.size()) {
         const int s = slots.touched()[t];
         if (slots.constraint_count()[s] > 0 && slots.position()[s].w > 0)
             move(slots, s, model.relaxation_factor * xyz(slots.contact_push()[s]));
@@ -82,7 +82,7 @@ __device__ void solve_springs(const ModelView<Real>& model, const Slots<Real>& s
     const auto count = [&](int solid) {
         return static_cast<Real>(model.spring_shares_begin[solid + 1] - model.spring_shares_begin[solid]);
     };
-    for (int k = threadIdx.x; k < model.springs; k += block_threads()) {
+    for (int k = threadIdx.x; k < model.springs; k += slots.size()) {
         const SpringView<Real> spring = model.spring[k];
         const Real wa = model.inverse_mass[model.fluid + spring.a], wb = model.inverse_mass[model.fluid + spring.b];
         const Vec3<Real> difference = xyz(slots.position()[slots.slot_of_solid()[spring.a]]) -
@@ -93,7 +93,7 @@ __device__ void solve_springs(const ModelView<Real>& model, const Slots<Real>& s
         slots.spring_push()[k] = quad(push, Real(0));
     }
     __syncthreads();
-    for (int solid = threadIdx.x; solid < model.solids; solid += block_threads()) {
+    for (int solid = threadIdx.x; solid < model.solids; solid += slots.size()) {
         const int begin = model.spring_shares_begin[solid], end = model.spring_shares_begin[solid + 1];
         const Real inverse_mass = model.inverse_mass[model.fluid + solid];
         if (begin == end || !(inverse_mass > 0)) continue;
@@ -115,7 +115,7 @@ __device__ void solve_clusters(const ModelView<Real>& model, const Slots<Real>& 
     const auto place = [&](int m) {
         return physics::cast<double>(xyz(slots.position()[slots.slot_of_solid()[model.member[m]]]));
     };
-    for (int k = warp; k < model.clusters; k += block_threads() / 32) {
+    for (int k = warp; k < model.clusters; k += slots.size() / 32) {
         const ClusterView<Real> cluster = model.cluster[k];
         const Real alpha = static_cast<Real>(
             physics::relative_compliance(cluster.softness, static_cast<double>(slots.h)));
@@ -159,7 +159,7 @@ __device__ void solve_clusters(const ModelView<Real>& model, const Slots<Real>& 
         }
     }
     __syncthreads();
-    for (int solid = threadIdx.x; solid < model.solids; solid += block_threads()) {
+    for (int solid = threadIdx.x; solid < model.solids; solid += slots.size()) {
         const int begin = model.cluster_shares_begin[solid], end = model.cluster_shares_begin[solid + 1];
         if (begin == end || !(model.inverse_mass[model.fluid + solid] > 0)) continue;
         Vec3<Real> sum{0, 0, 0};
