@@ -240,11 +240,17 @@ __device__ auto contact_lister(const ModelView<Real>& model, const StateTeam<R, 
     return [=](int k, int other) { list[k * stride] = static_cast<std::uint16_t>(other); };
 }
 
+/// Its place among the slots that have contacts.
+template <class Team>
+__device__ int note_touched(const Team& team, int s) {
+    const int place = atomicAdd(&team.shared().touched, 1);
+    team.touched()[place] = static_cast<typename Team::Index>(s);
+    return place;
+}
 template <class Team>
 __device__ void note_contacts(const Team& team, int s, int contacts) {
-    using Index = typename Team::Index;
-    team.contact_count()[s] = static_cast<Index>(contacts);
-    if (contacts > 0) team.touched()[atomicAdd(&team.shared().touched, 1)] = static_cast<Index>(s);
+    team.contact_count()[s] = static_cast<typename Team::Index>(contacts);
+    if (contacts > 0) note_touched(team, s);
 }
 
 /// Planes that slot s may touch in this substep.

@@ -28,6 +28,9 @@ int most_cells(const Model& model) {
     return 4096 + 16 * model.particles();
 }
 
+constexpr int usual_neighbours = 32;      // of fluid in scheme flex: a lattice has 18, and it packs closer by half
+constexpr int fluid_around_a_solid = 32;  // that has room for lists of contacts
+
 template <class Real>
 Real as_quad_number(int i) {
     if constexpr (sizeof(Real) == 4)
@@ -72,12 +75,11 @@ void LargeRunner<Real>::allocate() {
     Slots<Real>& slots = base_.slots;
     const bool turns = size.scheme != Scheme::flex, keeps_forces = base_.keeps_forces;
     const std::size_t all = size.particles + 1, water = plan.water ? size.particles : 0;
-    slots.chunks = (size.most_neighbours + 3) / 4;
+    if (plan.contacts && plan.fluid) slots.room.fluid_rows = std::min(size.fluid, fluid_around_a_solid * size.solids);
     const struct {
         std::size_t next, cells, neighbours, fluid_contacts, solid_contacts;
-    } room{all, std::size_t(2) * size.grid.cells,
-           plan.fluid ? std::size_t(size.fluid + 31) / 32 * 32 * slots.chunks : 0,
-           plan.contacts && plan.fluid ? std::size_t(size.fluid) * slots.room.fluid : 0,
+    } room{all, std::size_t(2) * size.grid.cells, 0,
+           std::size_t(slots.room.fluid_rows) * slots.room.fluid,
            plan.contacts ? std::size_t(size.solids) * slots.room.solid : 0};
     std::vector<std::pair<void**, std::size_t>> places;
     std::size_t bytes = 0;
@@ -102,12 +104,13 @@ void LargeRunner<Real>::allocate() {
     scan_room_ = DeviceBuffer<char>(scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells), base_.states));
     base_.scan_room = scan_room_.data();
     // A lattice has 4/3 pi (R/s)^3; solids and crowds have more, and then there is made more room.
-    if (plan.water) make_room(static_cast<int>(5 * std::pow(host_model_.parameters.kernelSupport, 3)));
+    if (plan.water) make_room_in_water(static_cast<int>(5 * std::pow(host_model_.parameters.kernelSupport, 3)));
+    if (plan.fluid) make_room_in_fluid(std::min(size.most_neighbours, usual_neighbours));
 }
 
 /// For at least so many neighbours in the water's lists.
 template <class Real>
-void LargeRunner<Real>::make_room(int neighbours) {
+void LargeRunner<Real>::make_room_in_water(int neighbours) {
     neighbours = (neighbours + pair_lanes - 1) / pair_lanes * pair_lanes;
     WaterArrays<Real>& water = base_.slots.water;
     const std::size_t slots = static_cast<std::size_t>(blocks_for(base_.model.particles, slots_of_warp)) * slots_of_warp;
@@ -122,6 +125,32 @@ void LargeRunner<Real>::make_room(int neighbours) {
     pair_room_ = {};
     pair_room_ = DeviceBuffer<PairGradient<Real>>(entries);
     water.pair = pair_room_.data();
+}
+
+/// Likewise in the lists of scheme flex.
+template <class Real>
+void LargeRunner<Real>::make_room_in_fluid(int neighbours) {
+    Slots<Real>& slots = base_.slots;
+    graphs_.clear();
+    chunk_room_ = {};
+    slots.chunks = (neighbours + 3) / 4;
+    slots.list_chunks = static_cast<std::size_t>(blocks_for(base_.model.fluid, 32)) * 32 * slots.chunks;
+    chunk_room_ = DeviceBuffer<uint4>(slots.list_chunks * base_.states);
+    slots.at.neighbour = chunk_room_.data();
+}
+
+/// Is there room for the neighbours that the last update found? If not, makes it.
+template <class Real>
+bool LargeRunner<Real>::had_room() {
+    int most = 0;
+    for (int k = 0; k < base_.states; ++k) most = std::max(most, end_[k].most_neighbours);
+    const bool water = base_.model.plan.water;
+    if (most <= (water ? base_.slots.water_neighbours : 4 * base_.slots.chunks)) return true;
+    if (water)
+        make_room_in_water(most + most / 4);
+    else
+        make_room_in_fluid(std::min(most + most / 4, base_.model.most_neighbours));
+    return false;
 }
 
 namespace {
@@ -341,11 +370,8 @@ std::vector<typename LargeRunner<Real>::End> LargeRunner<Real>::run(const Update
         else
             check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
         wait();
-        int most = 0;
-        for (int k = 0; k < base_.states; ++k) most = std::max(most, end_[k].most_neighbours);
-        if (most <= base_.slots.water_neighbours) break;
+        if (had_room()) break;
         for (int k = 0; k < base_.states; ++k) restore_before(k);  // and once more, with room for all neighbours
-        make_room(most + most / 4);
     }
     if (clock) clock->add_to(*profile);
     std::vector<End> ends;

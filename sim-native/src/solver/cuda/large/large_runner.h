@@ -83,7 +83,9 @@ public:
 
 private:
     void allocate();
-    void make_room(int neighbours);
+    void make_room_in_water(int neighbours);
+    void make_room_in_fluid(int neighbours);
+    bool had_room();
     void keep_before() const;
     void restore_before(int k) const;
     LargeLaunch<Real> launch_of(const Update& update, int substep) const;
@@ -100,6 +102,7 @@ private:
     LargeLaunch<Real> base_{};
     DeviceBuffer<char> memory_, scan_room_;
     DeviceBuffer<LargeShared<Real>> shared_;
+    DeviceBuffer<uint4> chunk_room_;
     DeviceBuffer<unsigned> neighbour_room_;
     DeviceBuffer<PairGradient<Real>> pair_room_;
     struct {

@@ -8,18 +8,19 @@ inline constexpr int search_threads = 128;
 inline constexpr int staged_neighbours = 32;  ///< that a thread has room for on the chip while it searches
 
 /// Lists the fluid neighbours of a fluid slot, without a branch on what is near: entries are written one behind the
-/// other, and the next one over what was not near. What ends the last chunk is the far slot.
+/// other, and the next one over what was not near. What ends the last chunk is the far slot. Where lists have no room for
+/// all, it notes how much they need.
 template <class Real>
 __device__ int list_fluid_neighbours(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Vec3<Real>& x,
                                      int* staging) {
     uint4* const list = slots.at.neighbour + (static_cast<std::size_t>(s / 32) * slots.chunks * 32 + s % 32);
     const auto entry = [&](int k) -> unsigned& { return slots.neighbour_entry(s, k); };
-    const int most = model.most_neighbours;
+    const int most = model.most_neighbours, room = 4 * slots.chunks;
     int n = 0;
     const auto take = [&](int other, bool near) {
         near = near && n < most;
         staging[min(n, staged_neighbours) * search_threads] = other;
-        if (near && n >= staged_neighbours) entry(n) = static_cast<unsigned>(other);
+        if (near && n >= staged_neighbours && n < room) entry(n) = static_cast<unsigned>(other);
         n += near;
     };
     if (model.plan.uniform_fluid) {
@@ -29,6 +30,10 @@ __device__ int list_fluid_neighbours(const ModelView<Real>& model, const Slots<R
         for_each_candidate(model, slots, false, x, [&](int other, bool near) {
             take(other, near && collides(model, i, slots.number()[other]));
         });
+    }
+    if (n > room) {
+        atomicMax(&slots.shared().most_neighbours, n);
+        n = room;
     }
     for (int k = n; k % 4 != 0; ++k) {
         if (k < staged_neighbours)
@@ -44,16 +49,25 @@ __device__ int list_fluid_neighbours(const ModelView<Real>& model, const Slots<R
     return n;
 }
 
-/// What lists the contacts of a slot as far as there is room.
+/// What lists the contacts of a solid as far as there is room.
 template <class Real>
 __device__ auto contact_lister(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    const bool fluid = s < model.fluid;
-    int* const list = fluid ? slots.at.fluid_contact + s : slots.at.solid_contact + (s - model.fluid);
-    const std::size_t stride = fluid ? model.fluid : model.solids;
-    const int room = fluid ? slots.room.fluid : slots.room.solid;
-    return [=](int k, int other) {
+    int* const list = slots.at.solid_contact + (s - model.fluid);
+    return [list, room = slots.room.solid, stride = static_cast<std::size_t>(model.solids)](int k, int other) {
         if (k < room) list[k * stride] = other;
     };
+}
+
+/// Lists the contacts of a fluid slot as far as there is room, in the row of its place among the touched.
+template <class Real>
+__device__ void list_contacts_of_fluid(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
+    int row = 0;
+    const int count = search_contacts(model, slots, s, [&](int k, int other) {
+        if (k == 0) slots.at.contact_row[s] = row = note_touched(slots, s);
+        if (slots.room.holds(k + 1, row))
+            slots.at.fluid_contact[static_cast<std::size_t>(k) * slots.room.fluid_rows + row] = other;
+    });
+    slots.contact_count()[s] = count;
 }
 
 /// Lists fluid neighbours, contacts and planes of a fluid slot. Walls of water are mirrors.
@@ -63,8 +77,10 @@ __device__ void find_neighbours_of_fluid(const ModelView<Real>& model, const Slo
     const Vec3<Real> x = xyz(here);
     if (model.plan.fluid) slots.neighbour_count()[s] = list_fluid_neighbours(model, slots, s, x, staging);
     if (model.plan.contacts) {
-        const bool searched = !model.plan.water && near_solids(slots, x);
-        note_contacts(slots, s, searched ? search_contacts(model, slots, s, contact_lister(model, slots, s)) : 0);
+        if (!model.plan.water && near_solids(slots, x))
+            list_contacts_of_fluid(model, slots, s);
+        else
+            slots.contact_count()[s] = 0;
     }
     if (model.plan.water)
         slots.plane_contact()[s] = 0;

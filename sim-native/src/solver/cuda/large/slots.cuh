@@ -13,7 +13,7 @@ struct LargeShared : Shared<Real> {
     unsigned long long bad;  ///< substep << 32 | particle of the first that is not finite; `none_bad` if all are
     int high;                ///< scheme conserving: some density is far above rest in this substep
     int touches;             ///< the body touches a plane
-    int most_neighbours;     ///< scheme conserving: of any particle, also where lists have no room for them
+    int most_neighbours;     ///< of any particle whose list has no room for all of them
     double mean_x;           ///< of the body
     double tail_z;           ///< of its last slice
     double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
@@ -31,6 +31,7 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(int, cell, all)                                                                                                 \
     X(std::uint64_t, keys, all) /* particle << 32 | slot before, cell by cell */                                      \
     X(Quad<Real>, base, all)    /* predicted positions by slot */                                                     \
+    X(int, contact_row, plan.contacts && plan.fluid ? size.fluid : 0) /* of a touched slot's list, see ContactRoom */   \
     X(Quad<Real>, change, plan.dissipation ? all : 0)                                                                 \
     /* Of solids, in scheme conserving. */                                                                            \
     X(int, constraint_count, turns ? all : 0)                                                                                   \
@@ -91,9 +92,14 @@ struct WaterArrays {
 };
 #undef NATATOR_MEMBER
 
-/// Contacts that lists have room for; those of slots that have more are searched anew each time.
+/// Contacts that lists have room for; those of slots that have more are searched anew each time. Fluid far from solids has
+/// none, so that its lists are in rows that slots take as they turn out to have contacts: entry k of row r at
+/// [k * fluid_rows + r]. Slots that find no row left are searched anew, too.
 struct ContactRoom {
     int fluid, solid;
+    int fluid_rows = 0;
+
+    __host__ __device__ bool holds(int contacts, int row) const { return contacts <= fluid && row < fluid_rows; }
 };
 
 /// Large States as the kernels see them, and one of them: what Block is to the kernel of a batch, for a grid of blocks.
@@ -134,6 +140,7 @@ public:
 #undef NATATOR_SHIFT
         own.at.shared += k;
         own.at.idle += k;
+        own.at.neighbour = at.neighbour + k * list_chunks;
         const std::size_t entries = k * water_entries;
         own.water.neighbour += entries;
         own.water.pair += entries;
@@ -162,10 +169,11 @@ public:
     WaterArrays<Real> water{};
     Real* rest_lengths = nullptr;  ///< by spring
     std::size_t stride = 0;        ///< bytes from a State's arrays to the next one's
-    std::size_t rest_length_stride = 0, water_entries = 0;
+    std::size_t rest_length_stride = 0;
+    std::size_t list_chunks = 0, water_entries = 0;  ///< of a State's lists, in schemes flex and conserving
     ContactRoom room{};
-    int chunks = 0;           ///< of a neighbour list
-    int water_neighbours = 0; ///< that a slot has room for in the water's lists
+    int chunks = 0;            ///< of a list of fluid neighbours
+    int water_neighbours = 0;  ///< that a slot has room for in the water's lists
     Real h = 0;               ///< substep, s
     int substep = 0;
 };
@@ -206,16 +214,18 @@ __device__ SlotRun slots_in(const ModelView<Real>& model, const Slots<Real>& slo
 template <class Real, class Visit>
 __device__ void for_each_contact_of(const ModelView<Real>& model, const Slots<Real>& slots, int s, int first, int step,
                                     const Visit& visit) {
-    const bool fluid = s < model.fluid;
     const int count = slots.contact_count()[s];
-    if (count > (fluid ? slots.room.fluid : slots.room.solid)) {
+    if (count == 0) return;
+    const bool fluid = s < model.fluid;
+    const int row = fluid ? slots.at.contact_row[s] : s - model.fluid;
+    if (!(fluid ? slots.room.holds(count, row) : count <= slots.room.solid)) {
         search_contacts(model, slots, s, [&](int k, int other) {
             if (k % step == first) visit(other);
         });
         return;
     }
-    const int* const list = fluid ? slots.at.fluid_contact + s : slots.at.solid_contact + (s - model.fluid);
-    const std::size_t stride = fluid ? model.fluid : model.solids;
+    const int* const list = (fluid ? slots.at.fluid_contact : slots.at.solid_contact) + row;
+    const std::size_t stride = fluid ? slots.room.fluid_rows : model.solids;
     for (int k = first; k < count; k += step) visit(list[k * stride]);
 }
 
