@@ -33,8 +33,11 @@ public:
         return batch;
     }
 
-    /// Runs the updates to their end; States whose progress has stopped already stay as they are.
-    void run(BatchView<Real>& batch, const std::vector<Progress>& progress, StageProfile* profile = nullptr) {
+    /// Runs the updates to their end; States whose progress has stopped already stay as they are. Calls meanwhile() while they
+    /// run.
+    template <class Meanwhile>
+    void run(BatchView<Real>& batch, const std::vector<Progress>& progress, StageProfile* profile,
+             const Meanwhile& meanwhile) {
         if (!teams_ || states_of_teams_ != batch.states) {
             teams_ = best_teams(model_.view(), batch.states);
             states_of_teams_ = batch.states;
@@ -60,9 +63,13 @@ public:
         start.record();
         launch_batch(batch, *teams_);
         end.record();
+        meanwhile();
         check(cudaStreamSynchronize(nullptr), "run");
         seconds_ = end.seconds_since(start);
         if (profile) add_to(*profile, cycles.download());
+    }
+    void run(BatchView<Real>& batch, const std::vector<Progress>& progress) {
+        run(batch, progress, nullptr, [] {});
     }
 
     /// Of the last run.

@@ -1,5 +1,6 @@
 #include "device_states.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace natator::cuda {
@@ -68,36 +69,66 @@ void DeviceStates<Real>::upload(const std::vector<State<Real>>& states) {
     rest_length_.upload(rest_lengths);
 }
 
+namespace {
+
+template <class T>
+void copy_rows_on_device(T* to, const T* from, std::size_t size, std::size_t rows) {
+    check(cudaMemcpyAsync(to, from, rows * size * sizeof(T), cudaMemcpyDeviceToDevice), "copy");
+}
+
+/// Copies row start[k] of `from` to row k of `to`, rows that lie side by side at once, and of equal ones as many as are there
+/// already: a copy takes longer to ask for than to make.
+template <class T>
+void gather_rows(T* to, const T* from, std::size_t size, const std::vector<int>& start) {
+    const std::size_t rows = size > 0 ? start.size() : 0;
+    for (std::size_t k = 0, end = 0; k < rows; k = end) {
+        const auto ends_with_step = [&](int step) {
+            std::size_t at = k + 1;
+            while (at < rows && start[at] == start[at - 1] + step) ++at;
+            return at;
+        };
+        const std::size_t side_by_side = ends_with_step(1);
+        copy_rows_on_device(to + k * size, from + start[k] * size, size, side_by_side - k);
+        end = std::max(side_by_side, ends_with_step(0));
+        for (std::size_t made = 1; side_by_side == k + 1 && k + made < end; made *= 2)
+            copy_rows_on_device(to + (k + made) * size, to + k * size, size, std::min(made, end - k - made));
+    }
+}
+
+}  // namespace
+
 template <class Real>
 void DeviceStates<Real>::copy_from(const DeviceStates& starts, const std::vector<int>& start) {
-    const auto copy = [&start](const auto& to, const auto& from, std::size_t size) {
-        for (std::size_t k = 0; k < start.size() && size > 0; ++k)
-            check(cudaMemcpyAsync(to.data() + k * size, from.data() + start[k] * size, size * sizeof(*to.data()),
-                                  cudaMemcpyDeviceToDevice),
-                  "copy");
-    };
     const ModelView<Real>& view = model_.view();
-    copy(position_, starts.position_, view.particles);
-    copy(velocity_, starts.velocity_, view.particles);
-    copy(fit_, starts.fit_, view.clusters);
-    copy(rest_length_, starts.rest_length_, view.springs);
+    gather_rows(position(), starts.position(), view.particles, start);
+    gather_rows(velocity(), starts.velocity(), view.particles, start);
+    gather_rows(fit(), starts.fit(), view.clusters, start);
+    gather_rows(rest_length_.data(), starts.rest_length(), view.springs, start);
 }
 
 template <class Real>
 DeviceStates<Real>::Copy::Copy(const DeviceStates& states)
-    : model_(states.model_),
-      position_(states.position_.download()),
-      velocity_(states.velocity_.download()),
-      fits_(states.fit_.download()) {}
+    : states_(states),
+      position_(states.position_.size()),
+      velocity_(states.velocity_.size()),
+      fits_(states.fit_.size()) {}
+
+template <class Real>
+void DeviceStates<Real>::Copy::fetch() {
+    position_.fetch(states_.position_);
+    velocity_.fetch(states_.velocity_);
+    fits_.fetch(states_.fit_);
+}
 
 template <class Real>
 State<Real> DeviceStates<Real>::Copy::state(int k, State<Real> like) const {
-    const ModelView<Real>& view = model_.view();
-    const std::size_t first = static_cast<std::size_t>(k) * view.particles;
-    like.position = by_particle(model_, &position_[first], &position_[first]);
-    like.velocity = by_particle(model_, &velocity_[first], &position_[first]);
-    for (int c = 0; c < view.clusters; ++c) {
-        const ClusterFit<Real>& fit = fits_[static_cast<std::size_t>(k) * view.clusters + c];
+    const DeviceModel<Real>& model = states_.model_;
+    const std::size_t number = k, particles = model.view().particles, clusters = model.view().clusters;
+    const Quad<Real>* const position = position_.data() + number * particles;
+    like.position = by_particle(model, position, position);
+    like.velocity = by_particle(model, velocity_.data() + number * particles, position);
+    for (std::size_t c = 0; c < clusters; ++c) {
+        const ClusterFit<Real>& fit = fits_[number * clusters + c];
         like.cluster_centre[c] = {fit.centre.x, fit.centre.y, fit.centre.z};
         for (int e = 0; e < 4; ++e) like.cluster_rotation[c].coeffs()[e] = fit.rotation[e];
     }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "device_model.h"
+#include "host_buffer.h"
 #include "natator/state.h"
 #include "state_team.cuh"
 
@@ -24,17 +25,19 @@ public:
     void upload(const std::vector<State<Real>>& states);
     /// `start` holds the index of the State that each is to be a copy of.
     void copy_from(const DeviceStates& starts, const std::vector<int>& start);
-    /// A copy of all of them on the host, to take States out of.
+    /// Room on the host for a copy of all of them, to take States out of. It takes as long to get as a copy does.
     class Copy {
     public:
         explicit Copy(const DeviceStates& states);
+        /// Copies them as they are now.
+        void fetch();
         /// State k; spring rest lengths and time are those of `like`.
         State<Real> state(int k, State<Real> like) const;
 
     private:
-        const DeviceModel<Real>& model_;
-        std::vector<Quad<Real>> position_, velocity_;
-        std::vector<ClusterFit<Real>> fits_;
+        const DeviceStates& states_;
+        HostBuffer<Quad<Real>> position_, velocity_;
+        HostBuffer<ClusterFit<Real>> fits_;
     };
 
 private:

@@ -54,6 +54,7 @@ public:
     }
 
 private:
+    using Copy = typename DeviceStates<Real>::Copy;
     struct Starts {
         DeviceStates<Real> states;
         std::vector<Progress> progress;
@@ -95,8 +96,11 @@ private:
         runner_.run(batch, starts.progress);
         if (times_) times_->settling += runner_.seconds();
         starts.progress = runner_.progress();
-        if (shared && starts.progress.front().stopped < 0)
-            kept.keep(key, typename DeviceStates<Real>::Copy(starts.states).state(0, states.front()));
+        if (shared && starts.progress.front().stopped < 0) {
+            Copy settled(starts.states);
+            settled.fetch();
+            kept.keep(key, settled.state(0, states.front()));
+        }
         return starts;
     }
 
@@ -130,7 +134,12 @@ private:
         batch.stop_at_planes = scene_.stopping.plane_contact;
         batch.no_progress_frames =
             swims ? static_cast<int>(std::lround(scene_.stopping.no_progress_after / scene_.time_step)) : 0;
-        runner_.run(batch, settled, times_ ? times_->profile : nullptr);
+        std::optional<Copy> ends;
+        HostBuffer<Real> densities;
+        runner_.run(batch, settled, times_ ? times_->profile : nullptr, [&] {
+            ends.emplace(states);
+            densities = HostBuffer<Real>(density.size());
+        });
         if (times_) {
             times_->kernel += runner_.seconds();
             times_->at_a_time = std::max(times_->at_a_time, states.count());
@@ -138,16 +147,16 @@ private:
 
         const std::vector<Progress> progress = runner_.progress();
         const std::vector<double> path = runner_.path();
-        const std::vector<Real> densities = density.download();
-        const typename DeviceStates<Real>::Copy ends(states);
+        ends->fetch();
+        densities.fetch(density);
         const State<Real> like = initial_state<Real>(model_);
         std::vector<Evaluation> evaluations(members.size());
         side_by_side(members.size(), [&](std::size_t number) {
             const auto k = static_cast<int>(number);
             const Gait* const gait = settled[k].stopped >= 0 ? nullptr : &members[k].gait;
-            const auto first = densities.begin() + static_cast<std::ptrdiff_t>(k) * view.fluid;
+            const Real* const first = densities.data() + number * view.fluid;
             evaluations[k] = evaluation_of(scene_, model_, runner_.model().particle_of(), progress[k], gait,
-                                           &path[static_cast<std::size_t>(k) * (frames + 1)], {}, ends.state(k, like),
+                                           &path[number * (frames + 1)], {}, ends->state(k, like),
                                            std::vector<Real>(first, first + view.fluid));
         });
         return evaluations;

@@ -104,7 +104,8 @@ protected:
 template <class Real>
 class GpuSolver<Real>::ByBlock : public Implementation {
 public:
-    explicit ByBlock(const Model& model) : Implementation(model), runner_(model), states_(runner_.model(), 1) {}
+    explicit ByBlock(const Model& model)
+        : Implementation(model), runner_(model), states_(runner_.model(), 1), end_(states_) {}
 
 private:
     const cuda::DeviceModel<Real>& device_model() const override { return runner_.model(); }
@@ -129,7 +130,8 @@ private:
         batch.neighbours = neighbours.data();
         batch.trace = trace;
         runner_.run(batch, {cuda::Progress{}});
-        state = typename cuda::DeviceStates<Real>::Copy(states_).state(0, state);
+        end_.fetch();
+        state = end_.state(0, state);
         this->densities_ = density.download();
         this->neighbours_ = neighbours.download();
         return runner_.progress().front();
@@ -137,6 +139,7 @@ private:
 
     cuda::BatchRunner<Real> runner_;
     cuda::DeviceStates<Real> states_;
+    typename cuda::DeviceStates<Real>::Copy end_;
 };
 
 template <class Real>

@@ -43,14 +43,13 @@ Real as_quad_number(int i) {
 
 template <class Real>
 LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room, bool keeps_forces)
-    : host_model_(model), device_model_(model, most_cells(model)), muscles_(states), idle_(states, 0) {
+    : host_model_(model), device_model_(model, most_cells(model)), muscles_(states), idle_(states, 0), end_(states) {
     base_.model = device_model_.view();
     base_.states = states;
     base_.slots.room = room;
     base_.keeps_forces = keeps_forces && base_.model.plan.water;
     check(cudaStreamCreateWithFlags(&base_.stream, cudaStreamNonBlocking), "stream");
     allocate();
-    check(cudaMallocHost(&end_, states * sizeof *end_), "host memory");
     const std::size_t particles = base_.model.particles;
     before_.position = DeviceBuffer<Quad<Real>>(states * particles);
     before_.velocity = DeviceBuffer<Quad<Real>>(states * particles);
@@ -62,8 +61,6 @@ LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room,
 template <class Real>
 LargeRunner<Real>::~LargeRunner() {
     graphs_.clear();
-    cudaFreeHost(rest_lengths_);
-    cudaFreeHost(end_);
     cudaStreamDestroy(base_.stream);
 }
 
@@ -252,25 +249,22 @@ template <class Real>
 void LargeRunner<Real>::set_muscles(const Update& update) {
     const std::size_t springs = base_.model.springs, of_state = springs * (update.substeps + 1);
     const std::size_t size = of_state * base_.states;
-    if (size > rest_lengths_size_) {
+    if (size > rest_lengths_.size()) {
         graphs_.clear();  // they know the old place
-        cudaFreeHost(rest_lengths_);
-        rest_lengths_ = nullptr;
-        check(cudaMallocHost(&rest_lengths_, size * sizeof(Real)), "host memory");
+        rest_lengths_ = HostBuffer<Real>(size);
         device_rest_lengths_ = DeviceBuffer<Real>(size);
-        rest_lengths_size_ = size;
     }
     const bool by_substep = base_.model.scheme != Scheme::flex;
     for (int state = 0; state < base_.states; ++state) {
         const Gait* const gait = update.gaits.empty() ? nullptr : update.gaits[state];
         const std::vector<Real>& before = muscles_[state].spring_rest_length;
-        std::copy(before.begin(), before.end(), rest_lengths_ + state * of_state);
+        std::copy(before.begin(), before.end(), rest_lengths_.data() + state * of_state);
         for (int k = 0; k < update.substeps; ++k) {
             const double end = update.start_time + update.time_step * (k + 1) / update.substeps;
             if (gait && (by_substep || k == 0))
                 actuate(host_model_, *gait, by_substep ? end : update.start_time, muscles_[state]);
             const std::vector<Real>& lengths = muscles_[state].spring_rest_length;
-            std::copy(lengths.begin(), lengths.end(), rest_lengths_ + state * of_state + (k + 1) * springs);
+            std::copy(lengths.begin(), lengths.end(), rest_lengths_.data() + state * of_state + (k + 1) * springs);
         }
     }
 }
@@ -305,12 +299,12 @@ void LargeRunner<Real>::launch_substeps(const Update& update, int substeps, Stag
 template <class Real>
 void LargeRunner<Real>::launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const {
     const std::size_t of_state = std::size_t(update.substeps + 1) * base_.model.springs;
-    copy(device_rest_lengths_.data(), rest_lengths_, of_state * base_.states, base_.stream);
+    copy(device_rest_lengths_.data(), rest_lengths_.data(), of_state * base_.states, base_.stream);
     keep_before();
     launch_substeps(update, update.substeps, clock, trace);
     if (update.settling) launch_rest(base_);
     launch_measure(base_);
-    copy(end_, base_.slots.at.shared, base_.states, base_.stream);
+    copy(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
     if (clock) clock->mark(Stage::measure);
 }
 
@@ -399,7 +393,7 @@ void LargeRunner<Real>::go_to(int k, int substep, const Update& update) {
 template <class Real>
 std::vector<typename LargeRunner<Real>::Place> LargeRunner<Real>::places() {
     launch_measure(base_);
-    copy(end_, base_.slots.at.shared, base_.states, base_.stream);
+    copy(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
     wait();
     std::vector<Place> places;
     for (int k = 0; k < base_.states; ++k) places.push_back({end_[k].mean_x, end_[k].tail_z});

@@ -9,6 +9,7 @@
 #include "natator/gait.h"
 #include "natator/state.h"
 #include "solver/cuda/device_model.h"
+#include "solver/cuda/host_buffer.h"
 #include "substep.cuh"
 
 namespace natator::cuda {
@@ -115,9 +116,8 @@ private:
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;
     // Of the host, where the device reads and writes them.
-    Real* rest_lengths_ = nullptr;  ///< [(state * (substeps + 1) + 1 + substep) * springs + spring]; 0 is before the update
-    std::size_t rest_lengths_size_ = 0;
-    LargeShared<Real>* end_ = nullptr;  ///< by State
+    HostBuffer<Real> rest_lengths_;  ///< [(state * (substeps + 1) + 1 + substep) * springs + spring]; 0 is before the update
+    HostBuffer<LargeShared<Real>> end_;  ///< by State
     DeviceBuffer<Real> device_rest_lengths_;
 };
 

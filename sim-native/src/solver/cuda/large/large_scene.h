@@ -10,6 +10,7 @@
 #include "company.h"
 #include "evaluate/companions.h"
 #include "evaluate/perturb.h"
+#include "evaluate/side_by_side.h"
 #include "evaluate/swim_record.h"
 #include "large_runner.h"
 #include "solver/cuda/evaluation.h"
@@ -65,26 +66,37 @@ public:
             times_->at_a_time = std::max(times_->at_a_time, count);
         }
         const std::vector<Real> densities = runner_.densities();
-        const std::size_t fluid = runner_.model().view().fluid;
-        for (int k = 0; k < count; ++k) {
-            const auto own = densities.begin() + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : k * fluid);
-            const SwimRecord& record = records_[k];
-            State<Real> end = runner_.download(k, initial_state<Real>(company_.model));
-            end.origin = record.origin();
-            evaluations.push_back(evaluation_of(
-                scene_, company_.model, runner_.model().particle_of(), progress_[k],
-                settled[k].stopped >= 0 ? nullptr : &members[k].gait, record.path().data(), record.tail(), end,
-                std::vector<Real>(own, own + static_cast<std::ptrdiff_t>(densities.empty() ? 0 : fluid))));
-            if (evaluations.back().instability) continue;
-            evaluations.back().companions =
-                companion_results(scene_, company_.model, settled_.at(start_of(members[k], scene_)).first, end);
-            record.tell(evaluations.back());
-        }
+        std::vector<State<Real>> ends;
+        for (int k = 0; k < count; ++k) ends.push_back(runner_.download(k, initial_state<Real>(company_.model)));
+        const std::size_t before = evaluations.size();
+        evaluations.resize(before + count);
+        side_by_side(count, [&](std::size_t number) {
+            const int k = static_cast<int>(number);
+            const Gait* const gait = settled[k].stopped >= 0 ? nullptr : &members[k].gait;
+            evaluations[before + k] = evaluation_of_member(k, members[k], gait, ends[k], densities);
+        });
         forget_starts(first + count);
     }
 
 private:
     using Runner = LargeRunner<Real>;
+
+    /// `gait` as for evaluation_of; `densities` of all States.
+    Evaluation evaluation_of_member(int k, const BatchMember& member, const Gait* gait, State<Real>& end,
+                                    const std::vector<Real>& densities) const {
+        const SwimRecord& record = records_[k];
+        end.origin = record.origin();
+        const std::size_t fluid = densities.size() / runner_.states();
+        const Real* const own = densities.data() + k * fluid;
+        Evaluation evaluation =
+            evaluation_of(scene_, company_.model, runner_.model().particle_of(), progress_[k], gait, record.path().data(),
+                          record.tail(), end, std::vector<Real>(own, own + fluid));
+        if (evaluation.instability) return evaluation;
+        evaluation.companions =
+            companion_results(scene_, company_.model, settled_.at(start_of(member, scene_)).first, end);
+        record.tell(evaluation);
+        return evaluation;
+    }
 
     /// Takes the members to their settled starts; those that begin alike share one.
     void start(const BatchMember* members, int count) {
