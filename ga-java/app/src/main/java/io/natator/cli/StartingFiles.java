@@ -28,16 +28,16 @@ final class StartingFiles {
     private static final String BODY = """
             {
               "profile": {
-                "length": 1.2,
+                "length": 1.4,
                 "height": [[0, 0.18], [0.25, 0.34], [0.75, 0.22], [1, 0.3]],
-                "width": [[0, 0.16], [0.2, 0.26], [0.5, 0.18], [1, 0.14]],
-                "joints": [0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85]
+                "width": [[0, 0.16], [0.2, 0.2], [0.5, 0.18], [1, 0.14]],
+                "joints": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
               },
               "spacing": 0.075,
               "particleMass": 0.421875,
               "clusterStiffness": 0.6,
               "springStiffness": 0.4,
-              "rearCentre": [0.6, 0.5, 0.5]
+              "rearCentre": [0.35, 0.5, 0.5]
             }
             """;
 
