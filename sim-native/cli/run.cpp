@@ -94,6 +94,9 @@ std::string swimming_line(const SwimmingNumbers& numbers) {
     if (numbers.strouhal) text << ", Strouhal number " << *numbers.strouhal;
     if (numbers.reynolds) text << ", Reynolds number " << *numbers.reynolds;
     if (numbers.swimming_number) text << ", swimming number " << *numbers.swimming_number;
+    constexpr double worth_telling = 0.01;
+    if (numbers.cavities.value_or(0) >= worth_telling)
+        text << ", cavities in the water " << *numbers.cavities << " body volumes";
     text << "\n";
     return text.str();
 }

@@ -2,9 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "bare_particles.h"
+#include "model/water_volumes.h"
+#include "natator/evaluate.h"
 #include "natator/swimming.h"
+#include "scene/scene_json.h"
 
 namespace natator {
 namespace {
@@ -92,6 +98,68 @@ TEST(Swimming, TheTailIsTheLastSlice) {
     state.position = {{0, 0, 1}, {0, 0, 2}};
     EXPECT_EQ(tail_z(model.body, state), 1.5);
     EXPECT_EQ(tail_z(Body{}, state), 0);
+}
+
+/// A block of water 2 deep, and a body of two particles in its middle.
+Model tank_with_a_body() {
+    Model model = test::bare_model(Scheme::conserving, test::lattice(6, 20, 6, 0.1), test::fluid_phase);
+    model.parameters.gravity = {0, -3, 0};
+    for (const double x : {-0.04, 0.04}) {
+        model.body.particles.push_back(model.particles());
+        model.position.emplace_back(x, 0, 0);
+        model.velocity.emplace_back(Eigen::Vector3d::Zero());
+        model.inverse_mass.push_back(1);
+        model.phase.push_back(test::solid_phase);
+    }
+    return model;
+}
+
+TEST(Swimming, CavitiesAreWhatLacksDensityDeepInTheWater) {
+    const Model model = tank_with_a_body();
+    const State<double> state = initial_state<double>(model);
+    std::vector<double> densities(model.particles(), 1);
+    EXPECT_EQ(cavities(model, state, densities), 0);
+    int deep = 0, expected = 0;
+    for (int i = 0; i < model.particles(); ++i) {
+        const double depth = 0.95 - model.position[i].y();
+        if (!model.is_fluid(i) || i % 3 != 0) continue;
+        densities[i] = 0.8;  // near the surface, too
+        expected += depth > 0.1 + support(model);
+        deep += depth > 0.1 + support(model) && i % 2 == 0;
+    }
+    const std::vector<double> volumes = particle_volumes(model);
+    const double body = volumes[model.body.particles[0]] + volumes[model.body.particles[1]];
+    ASSERT_GT(expected, 10);
+    EXPECT_NEAR(cavities(model, state, densities).value_or(-1), expected * volumes[0] / body, 1e-12);
+    for (int i = 0; i < model.particles(); i += 2) densities[i] = 0.95;  // compressed enough to have pressure
+    EXPECT_NEAR(cavities(model, state, densities).value_or(-1), (expected - deep) * volumes[0] / body, 1e-12);
+}
+
+TEST(Swimming, CavitiesNeedABodyAndADepth) {
+    Model model = tank_with_a_body();
+    const std::vector<double> densities(model.particles(), 0.5);
+    EXPECT_TRUE(cavities(model, initial_state<double>(model), densities));
+    model.parameters.gravity.setZero();
+    EXPECT_FALSE(cavities(model, initial_state<double>(model), densities));
+    model = tank_with_a_body();
+    model.body = {};
+    EXPECT_FALSE(cavities(model, initial_state<double>(model), densities));
+}
+
+/// The water that a fast body leaves behind closes under pressure only.
+TEST(Swimming, WaterUnderPressureHasNoCavities) {
+    const auto cavities_at = [](double gravity) {
+        Scene scene = load_scene("pool/eel", {{"solver", {{"gravity", {0, -gravity, 0}}}}, {"stopping", {{"planeContact", false}}}});
+        scene.duration = 1.1;
+        const Gait gait{2, {0.09, 0.14, 0.19, 0.24, 0.29, 0.34, 0.39, 0.44}, {0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65}};
+        const Evaluation swim = evaluate(scene, gait);
+        return swim.swimming ? swim.swimming->cavities.value_or(-1) : -1;
+    };
+    const double weak = cavities_at(0.5), strong = cavities_at(40);
+    std::cout << "measured: " << weak << " and " << strong << " body volumes\n";
+    EXPECT_GT(weak, 1);
+    EXPECT_GE(strong, 0);
+    EXPECT_LT(strong, 0.3);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct SwimmingNumbers {
     std::optional<double> strouhal;         ///< f A / U; none at rest
     std::optional<double> reynolds;         ///< U L / nu; none where nu is 0
     std::optional<double> swimming_number;  ///< 2 pi f A L / nu (Gazzola, Argentina, Mahadevan 2014); likewise
+    std::optional<double> cavities;         ///< at the end, in volumes of the body, see cavities(); none without gravity
 };
 
 /// Mean z of the body's last slice, length: across the swimmer's heading at the start. 0 without a body.
@@ -26,6 +27,14 @@ double tail_z(const Body& body, const State<Real>& state);
 /// many, the range of what is left once the line from its first to its last value is taken off; their mean. `path` has a
 /// value every `time_step` (s). None if it is shorter than a period, or a period than eight steps.
 std::optional<double> peak_to_peak(const std::vector<double>& path, double time_step, double period);
+
+/// Volume of the water, in volumes of the body, that is held together no longer although it lies deep: with less than 0.9 of
+/// rest density, below which the scheme gives water no pressure, and deeper below the surface than the kernel's support.
+/// Water follows a body that moves at u only where its pressure exceeds some rho u^2 / 2; elsewhere it tears off, as there are
+/// no negative pressures, and the swim is one for this depth and gravity alone. The surface is where 95 % of the water lie
+/// below, as in a tank. `densities`: by particle, in units of rest density. None without a body or gravity.
+template <class Real>
+std::optional<double> cavities(const Model& model, const State<Real>& state, const std::vector<Real>& densities);
 
 /// Of a run whose tail went along `tail` (tail_z for each frame, the start first). None unless a body with muscles swims
 /// in water that has a kinematicViscosity (scheme `conserving`), or if it did not beat once; see peak_to_peak.

@@ -82,9 +82,11 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
     if (result.instability) {
         result.stopped = StopReason::unstable;
     } else {
-        result.errors = conservation_errors(model, state, solver.densities());
+        const std::vector<Real> densities = solver.densities();
+        result.errors = conservation_errors(model, state, densities);
         result.swimming = swimming_numbers(
             model, gait, scene.through_water(result.distance, result.simulated), result.simulated, record.tail());
+        if (result.swimming) result.swimming->cavities = cavities(model, state, densities);
         if (has_muscle_work(model)) result.work = solver.muscle_work();
         if (!model.body.particles.empty()) result.course = course_of(model, model.body, state, result.distance);
         result.companions = companion_results(scene, model, begin, state);

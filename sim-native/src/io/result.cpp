@@ -12,6 +12,7 @@ ordered_json swimming_json(const SwimmingNumbers& numbers) {
     if (numbers.strouhal) result["strouhal"] = *numbers.strouhal;
     if (numbers.reynolds) result["reynolds"] = *numbers.reynolds;
     if (numbers.swimming_number) result["swimmingNumber"] = *numbers.swimming_number;
+    if (numbers.cavities) result["cavities"] = *numbers.cavities;
     return result;
 }
 

@@ -36,6 +36,7 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
     if (gait && !tail.empty())
         evaluation.swimming = swimming_numbers(model, *gait, scene.through_water(evaluation.distance, evaluation.simulated),
                                                 evaluation.simulated, tail);
+    if (evaluation.swimming) evaluation.swimming->cavities = cavities(model, end, density);
     if (has_muscle_work(model)) evaluation.work = progress.muscle_work;
     if (!model.body.particles.empty()) evaluation.course = course_of(model, model.body, end, evaluation.distance);
     return evaluation;

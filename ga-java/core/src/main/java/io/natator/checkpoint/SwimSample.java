@@ -24,6 +24,7 @@ import java.util.function.Function;
  * @param perBeat   body lengths in a period of the gait; null likewise
  * @param reynolds  mean; null where no run has it
  * @param strouhal  mean; null where no run has it
+ * @param cavities  at the end, in volumes of the body, mean; null where no run has it
  * @param work      of the muscles, mean, in mass times length squared by seconds squared; null where no run has it
  * @param costOfTransport mean work by mean distance, in mass times length by seconds squared; null without work, and for
  *                  what does not come forwards
@@ -31,7 +32,7 @@ import java.util.function.Function;
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record SwimSample(int substeps, int runs, double completed, Map<String, Integer> stopped, Spread distance,
-        Spread speed, Spread bodyLengths, Spread perBeat, Double reynolds, Double strouhal, Double work,
+        Spread speed, Spread bodyLengths, Spread perBeat, Double reynolds, Double strouhal, Double cavities, Double work,
         Double costOfTransport, Spread goals) {
 
     /**
@@ -50,8 +51,8 @@ public record SwimSample(int substeps, int runs, double completed, Map<String, I
         Double work = mean(results, SimulationResult::work);
         return new SwimSample(substeps, results.size(), stopped.getOrDefault("completed", 0) / (double) results.size(),
                 stopped, distance, speed, lengths, lengths == null ? null : lengths.times(1 / gait.frequency()),
-                meanNumber(results, SwimmingNumbers::reynolds), meanNumber(results, SwimmingNumbers::strouhal), work,
-                work == null || distance.mean() <= 0 ? null : work / distance.mean(),
+                meanNumber(results, SwimmingNumbers::reynolds), meanNumber(results, SwimmingNumbers::strouhal),
+                meanNumber(results, SwimmingNumbers::cavities), work, work == null || distance.mean() <= 0 ? null : work / distance.mean(),
                 results.stream().allMatch(one -> one.goals() == null) ? null
                         : Spread.of(results.stream().map(SimulationResult::goalScore).toList()));
     }

@@ -10,8 +10,9 @@ import com.fasterxml.jackson.annotation.JsonInclude;
  * @param strouhal       frequency times tail amplitude by speed; null at rest
  * @param reynolds       speed times body length by kinematic viscosity; null where that is 0
  * @param swimmingNumber angular frequency times tail amplitude times body length by kinematic viscosity; null likewise
+ * @param cavities       water that does not follow the body, in volumes of the body; null without gravity
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 @JsonInclude(JsonInclude.Include.NON_NULL)
-public record SwimmingNumbers(Double tailAmplitude, Double strouhal, Double reynolds, Double swimmingNumber) {
+public record SwimmingNumbers(Double tailAmplitude, Double strouhal, Double reynolds, Double swimmingNumber, Double cavities) {
 }

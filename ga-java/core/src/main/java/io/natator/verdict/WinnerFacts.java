@@ -19,6 +19,7 @@ import java.util.Map;
 public final class WinnerFacts {
 
     private static final int DIGITS = 3;
+    private static final double WORTH_TELLING = 0.01; // body volumes of cavities
 
     private WinnerFacts() {
     }
@@ -51,12 +52,13 @@ public final class WinnerFacts {
         if (best.fresh() != null) {
             SwimSample base = best.fresh().base();
             put(facts, "cost", cost(base.work(), base.costOfTransport()));
-            put(facts, "flow", numbers(base.reynolds(), base.strouhal()));
+            put(facts, "flow", numbers(base.reynolds(), base.strouhal(), base.cavities()));
         } else {
             SimulationResult one = best.result();
             SwimmingNumbers numbers = one.swimming();
             put(facts, "cost", cost(one.work(), one.work() == null || one.distanceOrZero() <= 0 ? null : one.work() / one.distance()));
-            put(facts, "flow", numbers == null ? List.of() : numbers(numbers.reynolds(), numbers.strouhal()));
+            put(facts, "flow", numbers == null ? List.of()
+                    : numbers(numbers.reynolds(), numbers.strouhal(), numbers.cavities()));
         }
         return facts;
     }
@@ -72,13 +74,16 @@ public final class WinnerFacts {
         return parts;
     }
 
-    private static List<String> numbers(Double reynolds, Double strouhal) {
+    private static List<String> numbers(Double reynolds, Double strouhal, Double cavities) {
         List<String> parts = new ArrayList<>();
         if (reynolds != null) {
             parts.add("Reynolds number " + Numbers.significant(reynolds, DIGITS));
         }
         if (strouhal != null) {
             parts.add("Strouhal number " + Numbers.significant(strouhal, DIGITS));
+        }
+        if (cavities != null && cavities >= WORTH_TELLING) {
+            parts.add("cavities in the water " + Numbers.significant(cavities, DIGITS) + " body volumes");
         }
         return parts;
     }

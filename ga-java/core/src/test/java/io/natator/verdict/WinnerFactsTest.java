@@ -23,7 +23,7 @@ class WinnerFactsTest {
 
     private static SimulationResult result(double distance) {
         return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "conserving", "float", null, null,
-                null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0), 3.0, null);
+                null, new SwimmingNumbers(0.2, 0.31, 131.4, 410.0, distance / 10), 3.0, null);
     }
 
     private static BestGait best(FreshRuns fresh) {
@@ -44,7 +44,7 @@ class WinnerFactsTest {
                         + "0.360 ± 0.000 body lengths/s"),
                 Map.entry("selected", "2.5000 by one run, 2.0000 again: selection loss 20.0 %"),
                 Map.entry("cost", "cost of transport 1.5 mass · length/s², work of the muscles 3 mass · length²/s²"),
-                Map.entry("flow", "Reynolds number 131, Strouhal number 0.31"));
+                Map.entry("flow", "Reynolds number 131, Strouhal number 0.31, cavities in the water 0.2 body volumes"));
     }
 
     @Test
