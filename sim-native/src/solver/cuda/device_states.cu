@@ -76,7 +76,7 @@ void copy_rows_on_device(T* to, const T* from, std::size_t size, std::size_t row
     check(cudaMemcpyAsync(to, from, rows * size * sizeof(T), cudaMemcpyDeviceToDevice), "copy");
 }
 
-/// Copies row start[k] of `from` to row k of `to`, rows that lie side by side at once, and of equal ones as many as are there
+/// Copies row start[k] of `from` to row k of `to`, consecutive rows at once, and of equal ones as many as are there
 /// already: a copy takes longer to ask for than to make.
 template <class T>
 void gather_rows(T* to, const T* from, std::size_t size, const std::vector<int>& start) {
@@ -87,10 +87,10 @@ void gather_rows(T* to, const T* from, std::size_t size, const std::vector<int>&
             while (at < rows && start[at] == start[at - 1] + step) ++at;
             return at;
         };
-        const std::size_t side_by_side = ends_with_step(1);
-        copy_rows_on_device(to + k * size, from + start[k] * size, size, side_by_side - k);
-        end = std::max(side_by_side, ends_with_step(0));
-        for (std::size_t made = 1; side_by_side == k + 1 && k + made < end; made *= 2)
+        const std::size_t consecutive = ends_with_step(1);
+        copy_rows_on_device(to + k * size, from + start[k] * size, size, consecutive - k);
+        end = std::max(consecutive, ends_with_step(0));
+        for (std::size_t made = 1; consecutive == k + 1 && k + made < end; made *= 2)
             copy_rows_on_device(to + (k + made) * size, to + k * size, size, std::min(made, end - k - made));
     }
 }

@@ -92,7 +92,7 @@ export class Stage {
 
   /** How many samples a picture that rests has been refined by so far. */
   get samples() {
-    return this.#samples;
+    return this.#isNew || this.rig.hasMoved ? 0 : this.#samples;
   }
 
   /** What draws: WebGPU, WebGL or processor. */
