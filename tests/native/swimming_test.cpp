@@ -10,6 +10,7 @@
 #include "model/water_volumes.h"
 #include "natator/evaluate.h"
 #include "natator/swimming.h"
+#include "natator/wave_gait.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -151,8 +152,7 @@ TEST(Swimming, WaterUnderPressureHasNoCavities) {
     const auto cavities_at = [](double gravity) {
         Scene scene = load_scene("pool/eel", {{"solver", {{"gravity", {0, -gravity, 0}}}}, {"stopping", {{"planeContact", false}}}});
         scene.duration = 1.1;
-        const Gait gait{2, {0.09, 0.14, 0.19, 0.24, 0.29, 0.34, 0.39, 0.44}, {0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65}};
-        const Evaluation swim = evaluate(scene, gait);
+        const Evaluation swim = evaluate(scene, wave_gait(*scene.creature));
         return swim.swimming ? swim.swimming->cavities.value_or(-1) : -1;
     };
     const double weak = cavities_at(0.5), strong = cavities_at(40);
