@@ -9,7 +9,6 @@ import io.natator.export.Export;
 import io.natator.export.ExportContent;
 import io.natator.export.ExportFormat;
 import io.natator.export.Python;
-import io.natator.simulator.RefusedSceneException;
 import io.natator.stream.StreamField;
 import io.natator.stream.StreamOptions;
 import io.natator.verdict.Reproduction;
@@ -114,15 +113,10 @@ final class ExportCommand implements Callable<Integer> {
         EachOnce.check("--fields", fields, StreamField::text);
         Path simulator = simulatorOption.path();
         SwimSource swimmer = SwimSource.of(source, generation, gait);
-        try {
-            export(swimmer, simulator);
-        } catch (RefusedSceneException e) {
-            throw swimmer.refused(source, e, simulator);
-        }
-        return ExitCode.OK;
+        return swimmer.simulated(source, simulator, () -> export(swimmer, simulator));
     }
 
-    private void export(SwimSource swimmer, Path simulator) throws InterruptedException {
+    private int export(SwimSource swimmer, Path simulator) throws InterruptedException {
         JsonNode overrides = MergePatch.both(swimmer.overrides(), sceneOptions.overrides());
         Scheme scheme = sceneOptions.scheme() != null ? sceneOptions.scheme() : swimmer.scheme();
         TreeSet<StreamField> wanted = new TreeSet<>(fields);
@@ -146,5 +140,6 @@ final class ExportCommand implements Callable<Integer> {
         spec.commandLine().getOut().printf(format.holdsParticles()
                 ? "%s: %d frames of %d particles of water and %d others%n" : "%s: %d frames of bodies alone%n", folder,
                 written.frames(), written.water(), written.solids());
+        return ExitCode.OK;
     }
 }

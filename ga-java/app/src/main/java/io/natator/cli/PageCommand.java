@@ -11,7 +11,6 @@ import io.natator.config.Numbers;
 import io.natator.replay.Replay;
 import io.natator.replay.ReplayHtml;
 import io.natator.replay.ReplayRecorder;
-import io.natator.simulator.RefusedSceneException;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamOptions;
 import io.natator.verdict.Reproduction;
@@ -103,7 +102,7 @@ final class PageCommand implements Callable<Integer> {
         List<Replay> swims = new ArrayList<>();
         for (String source : sources) {
             for (SwimSource swimmer : swimmers(source)) {
-                swims.add(recorded(source, swimmer, simulator));
+                swims.add(swimmer.simulated(source, simulator, () -> recorded(swimmer, simulator)));
             }
         }
         String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
@@ -130,14 +129,6 @@ final class PageCommand implements Callable<Integer> {
         }
         return gaits.stream().map(one -> SwimSource.of(run, null, one, one.equals(run.best().swimmer()) ? run.best() : null))
                 .toList();
-    }
-
-    private Replay recorded(String source, SwimSource swimmer, Path simulator) throws InterruptedException {
-        try {
-            return recorded(swimmer, simulator);
-        } catch (RefusedSceneException e) {
-            throw swimmer.refused(source, e, simulator);
-        }
     }
 
     private Replay recorded(SwimSource swimmer, Path simulator) throws InterruptedException {

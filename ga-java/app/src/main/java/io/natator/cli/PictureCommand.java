@@ -5,7 +5,6 @@ import io.natator.config.InvalidInputException;
 import io.natator.file.OutputFile;
 import io.natator.picture.From;
 import io.natator.picture.PictureOptions;
-import io.natator.simulator.RefusedSceneException;
 import java.nio.file.Path;
 import java.util.Locale;
 import java.util.concurrent.Callable;
@@ -87,19 +86,13 @@ final class PictureCommand implements Callable<Integer> {
             throw new InvalidInputException("--output is " + file + "; expected a name that ends in .png");
         }
         OutputFile png = OutputFile.of(file);
-        DrawnSwim swim = drawn(swimmer, options, simulatorOption.path());
+        Path simulator = simulatorOption.path();
+        DrawnSwim swim = swimmer.simulated(source, simulator,
+                () -> DrawnSwim.of(swimmer, changes.overrides(), changes.scheme(), at, options, simulator));
         png.write(swim.png());
         spec.commandLine().getOut().printf(Locale.ROOT, "%s: %d x %d pixels, at %.2f s%n", file, swim.picture().getWidth(),
                 swim.picture().getHeight(), swim.time());
         return ExitCode.OK;
-    }
-
-    private DrawnSwim drawn(SwimSource swimmer, PictureOptions options, Path simulator) throws InterruptedException {
-        try {
-            return DrawnSwim.of(swimmer, changes.overrides(), changes.scheme(), at, options, simulator);
-        } catch (RefusedSceneException e) {
-            throw swimmer.refused(source, e, simulator);
-        }
     }
 
     private PictureOptions options() {

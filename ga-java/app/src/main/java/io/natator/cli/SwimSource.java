@@ -127,13 +127,25 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
         return same ? new Reproduction(run, best, simulator, Backend.CPU, 0) : null;
     }
 
+    /** What simulates a swim. */
+    @FunctionalInterface
+    interface Simulation<T> {
+
+        T run() throws InterruptedException;
+    }
+
     /**
-     * What to say where the simulator refuses it.
+     * What a simulation of it gives.
      *
      * @param source that the user named
+     * @throws InvalidInputException which is about that, if the simulator refuses the scene
      */
-    InvalidInputException refused(String source, RefusedSceneException refusal, Path simulator) throws InterruptedException {
-        return run == null ? UnknownScene.source(source, refusal, simulator) : refusal;
+    <T> T simulated(String source, Path simulator, Simulation<T> simulation) throws InterruptedException {
+        try {
+            return simulation.run();
+        } catch (RefusedSceneException e) {
+            throw run == null ? UnknownScene.source(source, e, simulator) : e;
+        }
     }
 
     /** Its gait as JSON, or null. */
