@@ -4,12 +4,10 @@ import io.natator.config.ExecutionSettings;
 import io.natator.simulator.Evaluator;
 import io.natator.study.thesis.ThesisStudy;
 import java.io.PrintWriter;
-import java.util.Locale;
 
 /** The measurements of {@code reproduce}: speeds on any backend, also at half the spacing, then recordings on the processor. */
 final class MeasurePhase {
 
-    private static final double INTERVAL_SECONDS = 10;
     private static final double NANOSECONDS = 1e9;
 
     private final ThesisStudy study;
@@ -29,13 +27,15 @@ final class MeasurePhase {
     @SuppressWarnings("try") // The stopper works from other threads.
     boolean run(Double stopAfter, PrintWriter err) throws InterruptedException {
         long started = System.nanoTime();
-        int missing = study.missingMeasurements();
-        if (missing > 0) {
-            err.printf("%d evaluations to measure%n", missing);
+        if (study.missingMeasurements() > 0) {
+            CountProgress progress = new CountProgress(err);
             try (Evaluator evaluator = Evaluator.open(execution);
                     ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
                             () -> QueueOptions.sayGoodbye(err))) {
-                study.measure(evaluator, execution, counter(missing, err));
+                study.measure(evaluator, execution, found -> {
+                    err.printf(progress.all() == 0 ? "%d evaluations to measure%n" : "%d more evaluations to measure%n", found);
+                    progress.expect(found);
+                }, progress::done);
             } catch (InterruptedException e) {
                 return false;
             }
@@ -48,24 +48,11 @@ final class MeasurePhase {
         Thread worker = Thread.currentThread();
         try (ShutdownHandler shutdown = new ShutdownHandler(worker::interrupt, left,
                 () -> QueueOptions.sayGoodbye(err))) {
-            study.converge(execution, counter(levels, err));
-            study.record(execution, counter(recordings, err));
+            study.converge(execution, new CountProgress(err, levels)::done);
+            study.record(execution, new CountProgress(err, recordings)::done);
             return true;
         } catch (InterruptedException e) {
             return false;
         }
-    }
-
-    /** Tells every few seconds how many are done. */
-    private static Runnable counter(int all, PrintWriter err) {
-        long[] state = {0, System.nanoTime()};
-        return () -> {
-            state[0]++;
-            if ((System.nanoTime() - state[1]) / NANOSECONDS > INTERVAL_SECONDS) {
-                state[1] = System.nanoTime();
-                err.printf(Locale.ROOT, "%d of %d%n", state[0], all);
-                err.flush();
-            }
-        };
     }
 }

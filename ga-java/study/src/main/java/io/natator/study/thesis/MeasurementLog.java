@@ -15,6 +15,7 @@ import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
 import java.util.Objects;
+import java.util.function.IntConsumer;
 import java.util.function.Supplier;
 import java.util.function.ToDoubleFunction;
 import java.util.stream.Stream;
@@ -67,13 +68,16 @@ final class MeasurementLog implements AutoCloseable {
      * Measures what is missing, then what that has made known, until a round has added nothing.
      *
      * @param experiments what is known by now
+     * @param round       called before each round with its number of runs
      * @param done        called after each run
      * @throws InterruptedException if the evaluator is closed; what is finished is kept
      */
-    void measureAll(Supplier<List<Experiment>> experiments, Evaluator evaluator, ExecutionSettings execution, Runnable done)
-            throws InterruptedException {
+    void measureAll(Supplier<List<Experiment>> experiments, Evaluator evaluator, ExecutionSettings execution, IntConsumer round,
+            Runnable done) throws InterruptedException {
         List<SimulationRequest> before = List.of();
-        for (List<SimulationRequest> left = missing(experiments.get()); !left.equals(before); left = missing(experiments.get())) {
+        for (List<SimulationRequest> left = missing(experiments.get()); !left.isEmpty() && !left.equals(before);
+                left = missing(experiments.get())) {
+            round.accept(left.size());
             measure(experiments.get(), evaluator, execution, done);
             before = left;
         }

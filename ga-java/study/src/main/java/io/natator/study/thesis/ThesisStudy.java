@@ -17,6 +17,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.function.IntConsumer;
 
 /**
  * The measuring half of the study: what the published gaits and the evolved ones do. Everything is kept in files of the
@@ -72,11 +73,12 @@ public final class ThesisStudy implements AutoCloseable {
     /**
      * Measures speeds: first what is known, then what that has found.
      *
-     * @param done called after each evaluation
+     * @param round called before each round with its number of evaluations
+     * @param done  called after each evaluation
      * @throws InterruptedException if the evaluator is closed; what is finished is kept
      */
-    public void measure(Evaluator evaluator, ExecutionSettings execution, Runnable done) throws InterruptedException {
-        results.measurements().measureAll(results::experiments, evaluator, execution, done);
+    public void measure(Evaluator evaluator, ExecutionSettings execution, IntConsumer round, Runnable done) throws InterruptedException {
+        results.measurements().measureAll(results::experiments, evaluator, execution, round, done);
     }
 
     /**

@@ -53,7 +53,7 @@ class ThesisStudyTest {
                 Duration.ofMinutes(5));
         AtomicInteger count = new AtomicInteger();
         try (Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
-            study.measure(evaluator, execution, count::incrementAndGet);
+            study.measure(evaluator, execution, round -> { }, count::incrementAndGet);
         }
         return count.get();
     }

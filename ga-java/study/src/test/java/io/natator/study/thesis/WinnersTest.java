@@ -18,8 +18,10 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
+import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.Supplier;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeEach;
@@ -37,6 +39,8 @@ class WinnersTest {
     private Path folder;
     private final ThesisData data = ThesisData.load();
     private final ExperimentCatalogue catalogue = new ExperimentCatalogue(data, null, 4);
+    private final List<Integer> rounds = new ArrayList<>();
+    private final AtomicInteger done = new AtomicInteger();
     private EvolvedRun run;
 
     private static Gait gait(double frequency) {
@@ -61,7 +65,7 @@ class WinnersTest {
         Path fake = folder.resolve("fake-simulator.sh");
         ExecutionSettings execution = new ExecutionSettings(Files.exists(fake) ? fake : FakeSimulator.in(folder), 2, Duration.ofMinutes(1));
         try (Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
-            log.measureAll(experiments, evaluator, execution, () -> { });
+            log.measureAll(experiments, evaluator, execution, rounds::add, done::incrementAndGet);
         }
     }
 
@@ -77,6 +81,8 @@ class WinnersTest {
             measure(log, known);
 
             assertThat(known.get()).hasSize(4).allMatch(log::has);
+            assertThat(rounds).containsExactly(8, 8);
+            assertThat(done).hasValue(16);
         }
     }
 
