@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import io.natator.config.FileErrors;
+import io.natator.plot.Drawing;
 import io.natator.plot.PrecisionPlot;
 import io.natator.plot.RooflinePlot;
 import io.natator.plot.StabilityPlot;
@@ -27,7 +28,7 @@ final class PlotCommand implements Callable<Integer> {
     private CommandSpec spec;
 
     @FunctionalInterface
-    private interface Drawing {
+    private interface Study {
         List<Path> draw(Path csv, Path folder) throws IOException;
     }
 
@@ -71,9 +72,9 @@ final class PlotCommand implements Callable<Integer> {
         return draw(ValidationPlot::draw, files);
     }
 
-    private int draw(Drawing drawing, Files files) {
+    private int draw(Study study, Files files) {
         try {
-            drawing.draw(files.csv, files.directory).forEach(spec.commandLine().getOut()::println);
+            Drawing.checked(() -> study.draw(files.csv, files.directory).forEach(spec.commandLine().getOut()::println));
         } catch (IOException e) {
             throw new UncheckedIOException(files.directory + ": cannot be written: "
                     + FileErrors.reason(files.directory, e), e);

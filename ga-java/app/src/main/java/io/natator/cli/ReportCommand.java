@@ -6,6 +6,7 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.FileErrors;
+import io.natator.plot.Drawing;
 import io.natator.report.GaitReport;
 import io.natator.run.EvolutionRun;
 import java.io.IOException;
@@ -47,7 +48,8 @@ final class ReportCommand implements Callable<Integer> {
         Path folder = outputDir != null ? outputDir : run.directory().resolve("report");
         try {
             GaitReport report = new GaitReport(run, folder);
-            spec.commandLine().getOut().println(report.write(execution, DrawnSwim.portrait(directory, execution.simulator())));
+            Drawing.checked(() -> spec.commandLine().getOut().println(report.write(execution,
+                    DrawnSwim.portrait(directory, execution.simulator()))));
             if (report.difference() != null) {
                 spec.commandLine().getErr().println(report.difference());
             }

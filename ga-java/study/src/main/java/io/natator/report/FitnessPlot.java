@@ -2,6 +2,7 @@ package io.natator.report;
 
 import io.natator.checkpoint.RunFolder;
 import io.natator.evolution.GenerationSummary;
+import io.natator.plot.Drawing;
 import io.natator.plot.Picture;
 import java.io.IOException;
 import java.nio.file.Path;
@@ -22,9 +23,9 @@ public final class FitnessPlot {
     /** Draws the curve of a finished run into its folder; where Java cannot draw, a warning says so. */
     public static void draw(RunFolder run, List<GenerationSummary> history) {
         try {
-            draw(run.settings().scene() + ", seed " + run.settings().seed(), history, run.plots());
-        } catch (IOException | LinkageError e) {
-            // A Java without its graphics libraries (or fonts) still has the curve in generations.csv.
+            // A Java without fonts still has the curve in generations.csv.
+            Drawing.orWarn("fitness curve", () -> draw(run.settings().scene() + ", seed " + run.settings().seed(), history, run.plots()));
+        } catch (IOException e) {
             LOG.warn("fitness curve not drawn: {}", e.toString());
         }
     }

@@ -4,6 +4,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
 import io.natator.file.GeneratedPage;
+import io.natator.plot.Drawing;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
@@ -14,13 +15,10 @@ import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 import java.util.stream.Collectors;
-import org.slf4j.Logger;
-import org.slf4j.LoggerFactory;
 
 /** The finished runs as a page, a table and pictures. */
 final class OptimizerReport {
 
-    private static final Logger LOG = LoggerFactory.getLogger(OptimizerReport.class);
     private static final String PAGE = """
             # Optimizers side by side
 
@@ -91,12 +89,8 @@ final class OptimizerReport {
         }
         page.append("\n![best distance against evaluations](").append(scene).append(".png)\n\n")
                 .append(settings(runs.get(0).settings()));
-        try {
-            CurveChart.draw(scene + ": median and quartiles of the runs", bands, directory.resolve(scene));
-        } catch (LinkageError e) {
-            // A Java without its graphics libraries (or fonts) still has the tables.
-            LOG.warn("picture not drawn: {}", e.toString());
-        }
+        // A Java without fonts still has the tables.
+        Drawing.orWarn("curves of " + scene, () -> CurveChart.draw(scene + ": median and quartiles of the runs", bands, directory.resolve(scene)));
     }
 
     private static int at(CurveBand band, double share) {

@@ -5,6 +5,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.file.GeneratedPage;
 import io.natator.file.ShellWord;
+import io.natator.plot.Drawing;
 import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
 import io.natator.report.ReportDocument;
@@ -17,13 +18,10 @@ import java.util.List;
 import java.util.Map;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
-import org.slf4j.Logger;
-import org.slf4j.LoggerFactory;
 
 /** The report: {@code README.md} and {@code report.html}. All that it says of numbers follows from them. */
 final class ThesisReport {
 
-    private static final Logger LOG = LoggerFactory.getLogger(ThesisReport.class);
     private static final String COMMENTARY = "commentary.md";
     /** Works the page's numbers out anew, without this program. */
     private static final String RECOMPUTE = "recompute.py";
@@ -78,22 +76,24 @@ final class ThesisReport {
     }
 
     private void addFirstScreen(ReportDocument page, Answers answers) throws InterruptedException {
-        Path swimmer = directory.resolve("figures").resolve("swimmer.png");
         try {
-            Files.createDirectories(swimmer.getParent());
-            if (portrait != null) {
-                portrait.draw(swimmer);
-            }
-            Path chart = answers.draw(directory.resolve("figures").resolve("answers"));
-            FirstScreen.add(page, answers.sentences(), swimmer, results.portrayed().map(subject -> "creature " + subject.creature()
-                    + ", evolved in " + subject.water().words()).orElse("the swimmer"), answers.evidence());
-            if (chart != null) {
-                page.picture(chart, "speeds in water with error bars");
-            }
+            Drawing.orWarn("pictures of the first screen", () -> drawFirstScreen(page, answers));
         } catch (IOException e) {
             throw new UncheckedIOException("cannot draw: " + e.getMessage(), e);
-        } catch (LinkageError e) {
-            LOG.warn("pictures not drawn: {}", e.toString());
+        }
+    }
+
+    private void drawFirstScreen(ReportDocument page, Answers answers) throws IOException, InterruptedException {
+        Path swimmer = directory.resolve("figures").resolve("swimmer.png");
+        Files.createDirectories(swimmer.getParent());
+        if (portrait != null) {
+            portrait.draw(swimmer);
+        }
+        Path chart = answers.draw(directory.resolve("figures").resolve("answers"));
+        FirstScreen.add(page, answers.sentences(), swimmer, results.portrayed().map(subject -> "creature " + subject.creature()
+                + ", evolved in " + subject.water().words()).orElse("the swimmer"), answers.evidence());
+        if (chart != null) {
+            page.picture(chart, "speeds in water with error bars");
         }
     }
 
@@ -118,12 +118,10 @@ final class ThesisReport {
 
     private void addPictures(ReportDocument page) {
         try {
-            new ThesisFigures(directory, results, recordings).add(page);
+            // A Java without fonts still has the tables.
+            Drawing.orWarn("pictures", () -> new ThesisFigures(directory, results, recordings).add(page));
         } catch (IOException e) {
             throw new UncheckedIOException("cannot draw: " + e.getMessage(), e);
-        } catch (LinkageError e) {
-            // A Java without its graphics libraries (or fonts) still has the tables.
-            LOG.warn("pictures not drawn: {}", e.toString());
         }
     }
 
