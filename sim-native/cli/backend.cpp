@@ -5,19 +5,20 @@
 #include <set>
 
 #include "natator/error.h"
+#include "options.h"
 
 namespace natator::cli {
 
 void add_backend_options(CLI::App* command, BackendChoice& choice) {
     command->add_option("--backend", choice.name, "cpu, cuda (a GPU), or auto (a GPU where there is one).")
-        ->check(CLI::IsMember({"cpu", "cuda", "auto"}))
+        ->check(one_of({"cpu", "cuda", "auto"}))
         ->capture_default_str();
     add_gpu_options(command, choice);
 }
 
 void add_gpu_options(CLI::App* command, BackendChoice& choice) {
     command->add_option("--device", choice.device, "Number of the GPU, see natator-sim info.")
-        ->check(CLI::Range(0, 1023))
+        ->check(whole_number_in(0, 1023))
         ->capture_default_str();
     command->add_flag(
         "--whole-gpu", choice.whole_gpu,

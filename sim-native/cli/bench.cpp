@@ -57,10 +57,10 @@ void report(const std::string& line) {
 void add_common(CLI::App* command, Common& common, std::vector<std::string> precisions) {
     common.precisions = std::move(precisions);
     command->add_option("--scheme", common.schemes, "flex, conserving.")
-        ->check(CLI::IsMember({"flex", "conserving"}))
+        ->check(one_of({"flex", "conserving"}))
         ->capture_default_str();
     command->add_option("--precision", common.precisions, "float, double.")
-        ->check(CLI::IsMember({"float", "double"}))
+        ->check(one_of({"float", "double"}))
         ->capture_default_str();
     command->add_option("--output,-o", common.output,
                         "CSV file; rows that it holds already are kept. Default: standard output.");
@@ -68,7 +68,7 @@ void add_common(CLI::App* command, Common& common, std::vector<std::string> prec
 }
 
 void add_repeats(CLI::App* command, int& repeats, const std::string& description) {
-    command->add_option("--repeats", repeats, description)->check(CLI::Range(1, 1000))->capture_default_str();
+    command->add_option("--repeats", repeats, description)->check(whole_number_in(1, 1000))->capture_default_str();
 }
 
 /// Prints a table that has no file.
@@ -104,10 +104,10 @@ struct Grid {
 
 void add_grid(CLI::App* command, Grid& grid) {
     command->add_option("--substeps", grid.substeps, "Substeps per frame.")
-        ->check(CLI::Range(1, 1000))
+        ->check(whole_number_in(1, 1000))
         ->capture_default_str();
     command->add_option("--iterations", grid.iterations, "Iterations per substep.")
-        ->check(CLI::Range(1, 1000))
+        ->check(whole_number_in(1, 1000))
         ->capture_default_str();
 }
 
@@ -136,7 +136,7 @@ void add_precision(CLI::App* bench, int& status) {
         "precision", "Run time against error over 0.25 s, for scenes x schemes x precisions x substeps x iterations.");
     add_common(command, options->common, {"float", "double"});
     command->add_option("--scene", options->scenes, "Scenes.")
-        ->check(CLI::IsMember(subject_names()))
+        ->check(one_of(subject_names()))
         ->capture_default_str();
     add_grid(command, options->grid);
     add_repeats(command, options->repeats, "Time measurements per setting; their median counts.");
@@ -171,10 +171,10 @@ void add_ensemble(CLI::App* bench, int& status) {
     add_common(command, options->common, {"float"});
     add_grid(command, options->grid);
     command->add_option("--creature", options->study.creatures, "1, 2.")
-        ->check(CLI::Range(1, 2))
+        ->check(whole_number_in(1, 2))
         ->capture_default_str();
     command->add_option("--runs", options->study.runs, "Runs per setting.")
-        ->check(CLI::Range(1, 10000))
+        ->check(whole_number_in(1, 10000))
         ->capture_default_str();
     command->add_option("--perturbation", options->study.perturbation, "Largest shift of each coordinate, length.")
         ->check(number_in(0, 0.01))
@@ -231,12 +231,12 @@ void add_validation(CLI::App* bench, int& status) {
                                               "(1952), density of the fluid at rest against other simulators.");
     add_common(command, options->common, {"float"});
     command->add_option("--part", options->parts, "dam-break, tank.")
-        ->check(CLI::IsMember({"dam-break", "tank"}))
+        ->check(one_of({"dam-break", "tank"}))
         ->capture_default_str();
     command->add_option("--setting", options->settings,
                         "Substeps and iterations, such as 8x4. Default: 4x4 8x4; the tank also 8x2 8x8 16x4.");
     command->add_option("--width", options->study.width, "Particles along the base of the column.")
-        ->check(CLI::Range(4, 100))
+        ->check(whole_number_in(4, 100))
         ->capture_default_str();
     command->callback([options, &status] {
         const Common& common = options->common;
@@ -286,9 +286,9 @@ void add_water(CLI::App* bench, int& status) {
         "water", "How far a scheme is from being a fluid: cases whose outcome is known, with targets.");
     add_common(command, options->common, {"float"});
     add_backend_options(command, options->backend);
-    command->add_option("--case", options->cases, "Cases.")->check(CLI::IsMember(names))->capture_default_str();
+    command->add_option("--case", options->cases, "Cases.")->check(one_of(names))->capture_default_str();
     command->add_option("--resolution", options->resolutions, "Particles along a case's length.")
-        ->check(CLI::Range(8, 200))
+        ->check(whole_number_in(8, 200))
         ->capture_default_str();
     command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4.")->capture_default_str();
     command->add_option("--support", options->supports, "Of the kernel of scheme conserving, in particle distances.")
@@ -325,14 +325,14 @@ void add_speed(CLI::App* bench, int& status) {
         "speed", "Run time of whole evaluations, with a state hash, peak memory and the share of every stage.");
     add_backend_options(command, options->backend);
     command->add_option("--batch", options->batches, "Evaluations at a time on the GPU.")
-        ->check(CLI::Range(1, 1 << 20))
+        ->check(whole_number_in(1, 1 << 20))
         ->capture_default_str();
     add_common(command, options->common, {"float"});
     command->add_option("--scene", options->scenes, "Scenes.")
-        ->check(CLI::IsMember(speed_scene_names()))
+        ->check(one_of(speed_scene_names()))
         ->capture_default_str();
     command->add_option("--threads", options->threads, "Threads inside one evaluation.")
-        ->check(CLI::Range(1, 1024))
+        ->check(whole_number_in(1, 1024))
         ->capture_default_str();
     add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
@@ -372,10 +372,10 @@ void add_throughput(CLI::App* bench, int& status) {
     add_common(command, options->common, {"float"});
     add_gpu_options(command, options->backend);
     command->add_option("--particles", options->particles, "Fluid particles of a scene, about.")
-        ->check(CLI::Range(least_throughput_particles, most_throughput_particles))
+        ->check(whole_number_in(least_throughput_particles, most_throughput_particles))
         ->capture_default_str();
     command->add_option("--batch", options->batches, "Evaluations at a time; with many particles only 1 is done.")
-        ->check(CLI::Range(1, 1 << 20))
+        ->check(whole_number_in(1, 1 << 20))
         ->capture_default_str();
     add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
@@ -407,10 +407,10 @@ void add_stages(CLI::App* bench, int& status) {
         "stages", "What each stage costs in a scene that needs it and in one that does not, and without skipping.");
     add_common(command, options->common, {"float"});
     command->add_option("--feature", asked.features, "Features of a scene.")
-        ->check(CLI::IsMember(stage_feature_names()))
+        ->check(one_of(stage_feature_names()))
         ->capture_default_str();
     command->add_option("--state", asked.states, "off, on.")
-        ->check(CLI::IsMember({"off", "on"}))
+        ->check(one_of({"off", "on"}))
         ->capture_default_str();
     command->add_flag("--skipped-only", asked.skipped_only, "Do not also run everything without skipping.");
     add_repeats(command, asked.repeats, "Runs of each; the fastest counts.");
@@ -438,7 +438,7 @@ void add_roofline(CLI::App* bench, int& status) {
         "roofline", "How near the stages come to what the processor can do: measured roofs, counted operations. On a GPU: "
                     "how near those of scheme conserving come to loops that only fetch.");
     command->add_option("--scheme", options->common.schemes, "flex, conserving; the latter alone on a GPU.")
-        ->check(CLI::IsMember({"flex", "conserving"}))
+        ->check(one_of({"flex", "conserving"}))
         ->capture_default_str();
     command->add_option("--output,-o", options->common.output,
                         "CSV file; rows that it holds already are kept. Default: standard output.");

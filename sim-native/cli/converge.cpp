@@ -20,6 +20,7 @@
 #include "natator/instruction_set.h"
 #include "natator/model_builder.h"
 #include "natator/version.h"
+#include "options.h"
 #include "run_record.h"
 #include "scene/merge_patches.h"
 #include "scene/scene_json.h"
@@ -320,11 +321,11 @@ void add_converge(CLI::App& app, int& status) {
                         "File or JSON text: a request as for `evaluate`; its perturbation gives the amplitude of the "
                         "starts, else they are perturbed by 0.001 of fluidRestDistance. Default, and -: standard input.");
     command->add_option("--starts", options->starts, "Perturbed starts: seeds 1 to this.")
-        ->check(CLI::Range(2, 1000))
+        ->check(whole_number_in(2, 1000))
         ->capture_default_str();
     command->add_option("--levels", options->levels, "Of time/2, time/4, spacing/2 and both/2, beside the base.")
         ->delimiter(',')
-        ->check(CLI::IsMember({"time/2", "time/4", "spacing/2", "both/2"}))
+        ->check(one_of({"time/2", "time/4", "spacing/2", "both/2"}))
         ->default_str("time/2,spacing/2");
     command->add_option("--output", options->output,
                         "File that gets a line for each run at its end; runs that it holds already are not done again.");

@@ -14,14 +14,29 @@ namespace {
 
 constexpr const char* empty_value = "the value is empty; must be left out or have one";
 
-CLI::Validator within(double low, double high, const std::string& expected, const std::string& type) {
-    const auto check = [low, high, expected](const std::string& text) {
+/// The check with the words of this program instead of its own. What is empty has another check.
+CLI::Validator in_words(CLI::Validator check, const std::string& must_be) {
+    const CLI::Validator own = check;
+    return check.operation([own, must_be](const std::string& value) {
+        return value.empty() || own(value).empty() ? std::string() : "= " + value + ": must be " + must_be;
+    });
+}
+
+CLI::Validator within(double low, double high, const std::string& must_be, const std::string& type) {
+    const auto check = [low, high](const std::string& text) {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
-        const bool good = text.empty() || (*end == '\0' && low <= value && value <= high);
-        return good ? std::string() : "expected " + expected + ", not " + text;
+        return std::string(*end == '\0' && low <= value && value <= high ? "" : "beyond");
     };
-    return CLI::Validator(check, type);
+    return in_words(CLI::Validator(check, type), must_be);
+}
+
+/// "a, b or c".
+std::string any_of(const std::vector<std::string>& words) {
+    std::string list;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    return list;
 }
 
 }  // namespace
@@ -53,6 +68,12 @@ void refuse_repeated_values(CLI::App& app) {
 CLI::Validator seconds() {
     return within(0, std::numeric_limits<double>::max(), "a number of seconds from 0", "SECONDS");
 }
+
+CLI::Validator whole_number_in(int low, int high) {
+    return in_words(CLI::Range(low, high), "a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) { return in_words(CLI::IsMember(words), any_of(words)); }
 
 CLI::Validator number_in(double low, double high) {
     return within(low, high, "a number in [" + natator::number_text(low) + ", " + natator::number_text(high) + "]", "NUMBER");

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 namespace natator::cli {
 
@@ -13,10 +15,18 @@ void refuse_empty_values(int argc, const char* const* argv);
 /// Makes a value that is given twice in a list refused, of any option of a command and of those below it.
 void refuse_repeated_values(CLI::App& app);
 
+// Checks of values. Their words, "= 7: must be ...", stand behind the option's name.
+
 /// What a number of seconds may be: finite, and from 0.
 CLI::Validator seconds();
 
 /// A number of these limits; CLI::Range takes NaN for one.
 CLI::Validator number_in(double low, double high);
+
+/// A whole number of these limits.
+CLI::Validator whole_number_in(int low, int high);
+
+/// One of these words.
+CLI::Validator one_of(const std::vector<std::string>& words);
 
 }  // namespace natator::cli

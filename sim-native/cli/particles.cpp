@@ -6,6 +6,7 @@
 #include "io/strict_json.h"
 #include "io/whole_file.h"
 #include "natator/error.h"
+#include "options.h"
 
 namespace natator::cli {
 namespace {
@@ -57,12 +58,12 @@ void add_particles(CLI::App& app, int& status) {
         ->required();
     command->add_option("--output,-o", options->output, "Write here instead of standard output");
     command->add_option("--precision", options->precision, "float or double")
-        ->check(CLI::IsMember({"float", "double"}));
+        ->check(one_of({"float", "double"}));
     command->add_option("--backend", options->backend, "cpu or cuda (a GPU)")
-        ->check(CLI::IsMember({"cpu", "cuda"}))
+        ->check(one_of({"cpu", "cuda"}))
         ->capture_default_str();
     command->add_option("--device", options->device, "Number of the GPU, see natator-sim info")
-        ->check(CLI::Range(0, 1023))
+        ->check(whole_number_in(0, 1023))
         ->capture_default_str();
     command->callback([options, &status] { run_particles(*options, status); });
 }

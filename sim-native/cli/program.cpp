@@ -30,8 +30,17 @@ std::string fault_of_value(const CLI::App& command, const CLI::ConversionError& 
     if (!text.starts_with(before)) return text;
     const std::string given = text.substr(before.size());
     const CLI::Option* const option = command.get_option_no_throw(given.substr(0, given.find(' ')));
+    if (option && option->get_items_expected_max() == 0) return given + ": must be true or false";
     const bool number = option && option->get_type_name().starts_with("FLOAT");  // of whole ones a range is given
     return given + (number ? ": must be a number" : ": cannot be read");
+}
+
+/// The parser puts a colon between an option and what a check says, which begins with "= value" where it is about a value.
+std::string fault_of_check(const CLI::ValidationError& error) {
+    std::string text = error.what();
+    const std::size_t colon = text.find(':');
+    if (colon != std::string::npos && text.compare(colon, 3, ": =") == 0) text.erase(colon, 1);
+    return text;
 }
 
 /// What is wrong with a command line. The parser alone does not name a command that it does not know, names options
@@ -41,6 +50,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
     if (const auto* const conversion = dynamic_cast<const CLI::ConversionError*>(&error))
         return fault_of_value(*command, *conversion);
+    if (const auto* const check = dynamic_cast<const CLI::ValidationError*>(&error)) return fault_of_check(*check);
     const std::vector<std::string> left_over = app.remaining(true);
     if (left_over.empty()) return error.what();
     if (command->get_require_subcommand_min() > 0) {

@@ -215,7 +215,7 @@ void add_run(CLI::App& app, int& status) {
     command->add_option("--duration", options->duration, "Simulated time, s. Default: the scene's.");
     command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
-        ->check(CLI::IsMember({"float", "double"}))
+        ->check(one_of({"float", "double"}))
         ->capture_default_str();
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
     auto* trajectory =

@@ -14,6 +14,7 @@
 #include "line_queue.h"
 #include "natator/error.h"
 #include "natator/limits.h"
+#include "options.h"
 
 namespace natator::cli {
 namespace {
@@ -164,7 +165,7 @@ void add_serve(CLI::App& app, int& status) {
     const auto options = std::make_shared<ServeOptions>();
     add_backend_options(command, options->backend);
     command->add_option("--batch", options->most, "Most requests that are taken together.")
-        ->check(CLI::Range(1, 1 << 20))
+        ->check(whole_number_in(1, 1 << 20))
         ->capture_default_str();
     command->add_flag("--summary", options->summary,
                       "At the end, say on standard error how many requests took how many evaluations.");

@@ -82,16 +82,16 @@ void add_stream(CLI::App& app, int& status) {
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
     command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
-        ->check(CLI::IsMember({"float", "double"}))
+        ->check(one_of({"float", "double"}))
         ->capture_default_str();
     command->add_option("--start", options->start, "Which of its many starts, as in a request. Default: the scene's own.")
-        ->check(CLI::Range(0, 2147483647));
+        ->check(whole_number_in(0, 2147483647));
     command->add_option("--fields", options->fields, "What frames hold of particles: position, velocity, density; none.")
         ->delimiter(',')
-        ->check(CLI::IsMember({"position", "velocity", "density", "none"}))
+        ->check(one_of({"position", "velocity", "density", "none"}))
         ->capture_default_str();
     command->add_option("--every", settings.every, "Offer every Nth frame only.")
-        ->check(CLI::Range(1, 1'000'000))
+        ->check(whole_number_in(1, 1'000'000))
         ->capture_default_str();
     command
         ->add_option("--rate", settings.rate,
