@@ -107,7 +107,6 @@ std::vector<LevelRuns> read_levels(json request, const ConvergeOptions& options)
     request.erase("perturbation");
     levels.front().request = request;
     for (const std::string& name : options.levels) {
-        if (find_level(levels, name)) continue;  // named twice
         const Level level = Level::named(name);
         json finer = request;
         const json own = request.contains("overrides") ? request.at("overrides") : json::object();
@@ -332,6 +331,7 @@ void add_converge(CLI::App& app, int& status) {
     command->add_flag("--plain", options->plain, "Write the table to standard output instead of JSON.");
     add_backend_options(command, options->backend);
     add_execution_options(command, options->execution);
+    refuse_repeated_values(*command);
     command->callback([options, &status] { status = run_converge(*options); });
 }
 

@@ -131,6 +131,8 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
         EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err;
     };
     refused({"converge", "-", "--levels", "time/3"}, swim.dump(), "time/3");
+    refused({"converge", "-", "--levels", "time/2,time/2"}, swim.dump(), "--levels: time/2 is given twice; must be given once");
+    refused({"converge", "-", "--levels", "time/2", "--levels", "spacing/2,time/2"}, swim.dump(), "--levels: time/2 is given twice");
     refused({"converge", "-", "--starts", "1"}, swim.dump(), "--starts");
     refused({"converge", "no-such-file.json"}, "", "no-such-file.json");
     refused({"converge", "-"}, "[]", "request");
@@ -186,12 +188,6 @@ TEST_F(ConvergeTest, AFileThatCannotBeMadeIsAFailureBeforeAnyRun) {
     const Outcome outcome = run_simulator({"converge", "-", "--output", "/no-such-folder/runs.jsonl"}, swim.dump());
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
-}
-
-TEST_F(ConvergeTest, ALevelThatIsNamedTwiceIsOne) {
-    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2,time/2"}, swim.dump());
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_EQ(json::parse(outcome.out)["levels"].size(), 2u);
 }
 
 TEST_F(ConvergeTest, UnstableRunsAreLeftOutAndToldByTheExitCode) {
