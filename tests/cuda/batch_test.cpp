@@ -145,6 +145,47 @@ INSTANTIATE_TEST_SUITE_P(Schemes, GpuBatch,
                                     (std::get<1>(test.param) == Precision::double_precision ? "Double" : "Float");
                          });
 
+/// Scenes whose solids have a block for themselves where States are few, or are too many for that; beside the fluid on one chip.
+struct SolidCase {
+    const char* name;
+    const char* overrides;
+};
+class GpuTeams : public OnGpu<testing::TestWithParam<SolidCase>> {
+protected:
+    static std::vector<std::uint64_t> hashes(const Scene& scene, int first, int count, Precision precision) {
+        std::vector<BatchMember> members;
+        for (int k = first; k < first + count; ++k) members.push_back({wave(scene, k), {1e-6, static_cast<std::uint64_t>(k + 1)}});
+        std::vector<std::uint64_t> result;
+        for (const Evaluation& one : evaluate_on_gpu(scene, members, {.precision = precision})) result.push_back(one.hash);
+        return result;
+    }
+};
+
+TEST_P(GpuTeams, OfManyBlocksGiveTheBitsOfFewer) {
+    Scene scene = load_scene("thesis/creature-2", nlohmann::json::parse(GetParam().overrides));
+    scene.duration = 0.1;
+    for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+        const std::vector<std::uint64_t> all = hashes(scene, 0, 140, precision);
+        EXPECT_NE(all[0], all[1]);
+        for (const int count : {1, 9, 20, 50})
+            EXPECT_EQ(hashes(scene, 0, count, precision), std::vector(all.begin(), all.begin() + count)) << "the first " << count;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Solids, GpuTeams,
+    testing::Values(
+        SolidCase{"AsTheyAre", "{}"}, SolidCase{"WithoutClusters", R"({"creature": {"clusterStiffness": 0}})"},
+        SolidCase{"WithoutSprings", R"({"creature": {"springStiffness": 0}})"}, SolidCase{"WithoutFluid", R"({"fluid": null})"},
+        SolidCase{"BesideAnObstacle",
+                  R"({"obstacles": [{"shape": "sphere", "centre": [2.4, 0.6, 0.6], "radius": 0.2}]})"},
+        SolidCase{"OfThreeBodies", R"({"companions": [{"creature": {"name": "creature-3", "rearCentre": [0.6, 0.6, 0.25]}},
+                                                      {"creature": {"name": "creature-4", "rearCentre": [2.2, 0.6, 0.9]}}]})"},
+        SolidCase{"WithEffects", R"({"solver": {"restitution": 0.5, "adhesion": 20, "cohesion": 0.02, "surfaceTension": 0.5,
+                                     "vorticityConfinement": 0.5, "freeSurfaceDrag": 1, "dissipation": 3,
+                                     "shockPropagation": 1.5}})"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
 /// A member that stops early, or becomes unstable, leaves the others as they are.
 TEST(GpuBatchEnds, AMemberThatStopsEarlyChangesNoOther) {
     if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";
@@ -167,7 +208,7 @@ TEST(GpuBatchEnds, AMemberThatIsRefusedCostsTheOthersNothing) {
     scene.duration = 0.1;
     std::vector<BatchMember> good, members;
     for (int k = 0; k < 48; ++k) {
-        members.push_back({wave(scene, k), {}});
+        members.push_back({wave(scene, k), {1e-6, static_cast<std::uint64_t>(k + 1)}});
         if (k == 5)
             members.back().gait.amplitude[0] = -1e-17;
         else

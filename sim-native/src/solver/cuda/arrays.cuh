@@ -48,7 +48,18 @@
     X(Quad<Real>, next_velocity, all, scratch)         \
     X(ClusterFit<Real>, fit_before, size.clusters, scratch)
 
+// Of the block that has the solids on its chip, see solids_on_chip.cuh; shares in the Model's order.
+#define NATATOR_CHIP_SOLID_ARRAYS(X)                                                                    \
+    X(Quad<Real>, chip_solid, room.solids, block_chip)               /* where it is; w: inverse mass */ \
+    X(int, chip_springs_begin, room.solid_bounds, block_chip)        /* of its shares, by solid */      \
+    X(int, chip_members_begin, room.solid_bounds, block_chip)                                           \
+    X(ChipSpring<Real>, chip_spring, room.spring_shares, block_chip)                                    \
+    X(Share, chip_member_share, room.members, block_chip)                                               \
+    X(Quad<Real>, chip_member, room.members, block_chip)             /* rest offset; w: solid id */     \
+    X(ClusterView<Real>, chip_cluster, room.clusters, block_chip)                                       \
+    X(ClusterFit<Real>, chip_fit, room.clusters, block_chip)
+
 // Their order is that of the offsets which the kernel keeps in registers: in another it is 1.6 % slower on an H100.
 #define NATATOR_TEAM_ARRAYS(X) \
     NATATOR_CHIP_ARRAYS(X) NATATOR_TEAM_ONLY_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) \
-    X(Index, own_staging, room.staging, block_chip)
+    X(Index, own_staging, room.staging, block_chip) NATATOR_CHIP_SOLID_ARRAYS(X)

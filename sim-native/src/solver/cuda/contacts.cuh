@@ -121,14 +121,18 @@ __device__ Vec3<Real> contact_push(const ModelView<Real>& model, const Team& tea
     });
 }
 
-/// Calls visit(plane, distance) for the planes near slot s, the last plane first; x may change between two calls.
-template <class Real, class Team, class Visit>
-__device__ void for_each_near_plane(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
-                                    const Visit& visit) {
-    const unsigned near = team.plane_contact()[s];
+/// Calls visit(plane, distance) for the planes of a set, the last plane first; x may change between two calls.
+template <class Real, class Visit>
+__device__ void for_each_near_plane(const ModelView<Real>& model, unsigned near, const Vec3<Real>& x, const Visit& visit) {
     if (near == 0) return;
     for (int k = model.planes - 1; k >= 0; --k)
         if (near >> k & 1) visit(model.plane[k].surface, distance_to(model.plane[k].surface, x));
+}
+/// The same for the planes near slot s.
+template <class Real, class Team, class Visit>
+__device__ void for_each_near_plane(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
+                                    const Visit& visit) {
+    for_each_near_plane(model, unsigned{team.plane_contact()[s]}, x, visit);
 }
 
 }  // namespace natator::cuda

@@ -21,23 +21,19 @@ __device__ Real compression_of(const ModelView<Real>& model, const Team& team, i
     return fluid.density(model.solid_pressure * solids.sum, model.density_scale) - 1;
 }
 
-/// Fits the rotation and centre of cluster k, by one warp.
-template <class Real, class Team>
-__device__ void fit_cluster(const ModelView<Real>& model, const Team& team, int k) {
+/// Fits the rotation and centre of a cluster of `count` members, by one warp: place(m) is where member m is, offset(m) its
+/// rest offset.
+template <class Real, class Place, class Offset>
+__device__ void fit_members(int count, ClusterFit<Real>& fit, const Place& place, const Offset& offset) {
     const int lane = threadIdx.x % 32;
-    const ClusterView<Real> cluster = model.cluster[k];
-    const auto place = [&](int m) { return xyz(team.position()[team.slot_of_solid()[model.member[m]]]); };
     Vec3<double> sum{};
-    for (int m = cluster.begin + lane; m < cluster.end; m += 32) sum += physics::cast<double>(place(m));
+    for (int m = lane; m < count; m += 32) sum += physics::cast<double>(place(m));
     sum = {sum_of_warp(sum.x), sum_of_warp(sum.y), sum_of_warp(sum.z)};
-    const int count = cluster.end - cluster.begin;
     const Vec3<Real> mean = physics::cast<Real>(Vec3<double>{sum.x / count, sum.y / count, sum.z / count});
     physics::Covariance covariance;
-    for (int m = cluster.begin + lane; m < cluster.end; m += 32)
-        add_arm(covariance, place(m) - mean, model.offset[m]);
+    for (int m = lane; m < count; m += 32) add_arm(covariance, place(m) - mean, offset(m));
     for (double& entry : covariance.entry) entry = sum_of_warp(entry);
 
-    ClusterFit<Real>& fit = team.fit()[k];
     double q[4] = {fit.rotation[0], fit.rotation[1], fit.rotation[2], fit.rotation[3]};
     __syncwarp();
     physics::fit_rotation(covariance, q, physics::flex_fit_steps);
@@ -49,11 +45,27 @@ __device__ void fit_cluster(const ModelView<Real>& model, const Team& team, int 
     __syncwarp();
 }
 
+/// Fits cluster k, by one warp.
+template <class Real, class Team>
+__device__ void fit_cluster(const ModelView<Real>& model, const Team& team, int k) {
+    const int begin = model.cluster[k].begin, end = model.cluster[k].end;
+    fit_members(
+        end - begin, team.fit()[k],
+        [&](int m) { return xyz(team.position()[team.slot_of_solid()[model.member[begin + m]]]); },
+        [&](int m) { return model.offset[begin + m]; });
+}
+
 /// What the constraints of one slot add up to.
 template <class Real>
 struct Correction {
     Vec3<Real> sum{0, 0, 0};
     Real constraints = 0;
+
+    /// A push, times the factor beside it.
+    __device__ void add(const Quad<Real>& push) {
+        sum += push.w * xyz(push);
+        constraints += 1;
+    }
 };
 
 /// Writes what the contacts of the slots in a unit push them by.
@@ -83,8 +95,17 @@ __device__ void push_touched(const ModelView<Real>& model, const Team& team, int
     });
 }
 
-/// rho_i - 1, but at least `least`, beside the positions in `next`; and all that depends on positions alone: fits of
-/// clusters and pushes of contacts. Ends with a barrier.
+/// rho_i - 1, but at least `least`, of slot s beside its position in `next`.
+template <class Real, class Team>
+__device__ void compute_density_of(const ModelView<Real>& model, const Team& team, int s, Real least) {
+    const Vec3<Real> x = xyz(team.position()[s]);
+    const Real above = s < model.fluid ? compression_of(model, team, s, x) : Real(0);
+    if (model.plan.free_surface_drag && s < model.fluid) team.density()[s] = above + 1;
+    team.next()[s] = quad(x, s < model.fluid ? max(above, least) : Real(0));
+}
+
+/// The densities of all slots, and what else depends on positions alone: fits of clusters and pushes of contacts. Ends with a
+/// barrier.
 template <class Real, class Team>
 __device__ void compute_density(const ModelView<Real>& model, Team& team, Real least) {
     const int touched = touched_units<Real>(model, team), slots = (model.particles + 31) / 32;
@@ -92,11 +113,7 @@ __device__ void compute_density(const ModelView<Real>& model, Team& team, Real l
         if (unit < model.clusters) return fit_cluster(model, team, unit);
         if (unit < model.clusters + touched) return push_touched(model, team, unit - model.clusters);
         const int s = (unit - model.clusters - touched) * 32 + threadIdx.x % 32;
-        if (s >= model.particles) return;
-        const Vec3<Real> x = xyz(team.position()[s]);
-        const Real above = s < model.fluid ? compression_of(model, team, s, x) : Real(0);
-        if (model.plan.free_surface_drag && s < model.fluid) team.density()[s] = above + 1;
-        team.next()[s] = quad(x, s < model.fluid ? max(above, least) : Real(0));
+        if (s < model.particles) compute_density_of(model, team, s, least);
     });
     team.barrier();
 }
@@ -114,37 +131,78 @@ __device__ Correction<Real> density_constraint(const ModelView<Real>& model, con
     return {push.correction(inverse_mass, model.radius), push.constraints};
 }
 
+/// A spring as one of its ends sees it.
+template <class Real>
+struct SpringEnd {
+    Vec3<Real> other;
+    Real inverse_mass;  ///< of the other end
+    Real rest_length;
+    physics::SpringRule<Real> rule;
+};
+/// Springs `begin` .. `end` - 1 of one solid, by the `lanes` threads that share it; end_of(e) is how it sees spring e.
+template <int lanes, class Real, class EndOf>
+__device__ void add_springs(Correction<Real>& correction, const Vec3<Real>& x, Real inverse_mass, int begin, int end,
+                            const EndOf& end_of) {
+    add_in_order<lanes, Real>(
+        begin, end,
+        [&](int e) {
+            const SpringEnd<Real> spring = end_of(e);
+            return quad(physics::spring_push(x - spring.other, inverse_mass + spring.inverse_mass, spring.rest_length,
+                                             spring.rule),
+                        inverse_mass);
+        },
+        [&](const Quad<Real>& push) { correction.add(push); });
+}
+/// The same of clusters; member_of(e) is a fit with the solid's rest offset and the stiffness beside it.
+template <int lanes, class Real, class MemberOf>
+__device__ void add_clusters(Correction<Real>& correction, const Vec3<Real>& x, int begin, int end, const MemberOf& member_of) {
+    add_in_order<lanes, Real>(
+        begin, end,
+        [&](int e) {
+            return member_of(e, [&](const ClusterFit<Real>& fit, const Vec3<Real>& offset, Real stiffness) {
+                return quad(physics::way_to_goal(fit.centre, fit.matrix, offset, x), stiffness);
+            });
+        },
+        [&](const Quad<Real>& push) { correction.add(push); });
+}
+
 /// Of springs and clusters, seen from one solid, by the `lanes` threads that share it; of none if it is -1.
 template <int lanes, class Real, class Team>
 __device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, const Team& team, int solid,
                                                  const Vec3<Real>& x, Real inverse_mass) {
     Correction<Real> correction;
-    const auto add = [&](const Quad<Real>& push) {
-        correction.sum += push.w * xyz(push);
-        correction.constraints += 1;
-    };
     const auto begin = [solid](const int* shares_begin) { return solid < 0 ? 0 : shares_begin[solid]; };
     const auto end = [solid](const int* shares_begin) { return solid < 0 ? 0 : shares_begin[solid + 1]; };
-    add_in_order<lanes, Real>(begin(model.spring_shares_begin), end(model.spring_shares_begin), [&](int e) {
-        const Share share = model.spring_share[e];
-        const Real weights = inverse_mass + model.inverse_mass[model.fluid + share.other];
-        const Vec3<Real> difference = x - xyz(team.next()[team.slot_of_solid()[share.other]]);
-        return quad(physics::spring_push(difference, weights, team.rest_length()[share.constraint],
-                                         model.spring[share.constraint].rule),
-                    inverse_mass);
-    }, add);
-    add_in_order<lanes, Real>(begin(model.cluster_shares_begin), end(model.cluster_shares_begin), [&](int e) {
-        const Share share = model.cluster_share[e];
-        const ClusterFit<Real>& fit = team.fit()[share.constraint];
-        return quad(physics::way_to_goal(fit.centre, fit.matrix, model.offset[share.other], x),
-                    model.cluster[share.constraint].stiffness);
-    }, add);
+    add_springs<lanes>(correction, x, inverse_mass, begin(model.spring_shares_begin), end(model.spring_shares_begin),
+                       [&](int e) {
+                           const Share share = model.spring_share[e];
+                           return SpringEnd<Real>{xyz(team.next()[team.slot_of_solid()[share.other]]),
+                                                  model.inverse_mass[model.fluid + share.other],
+                                                  team.rest_length()[share.constraint],
+                                                  model.spring[share.constraint].rule};
+                       });
+    add_clusters<lanes>(correction, x, begin(model.cluster_shares_begin), end(model.cluster_shares_begin),
+                        [&](int e, const auto& push) {
+                            const Share share = model.cluster_share[e];
+                            return push(team.fit()[share.constraint], model.offset[share.other],
+                                        model.cluster[share.constraint].stiffness);
+                        });
     return correction;
 }
 
+/// What a slot touches: known before its correction is.
+struct Touch {
+    unsigned planes;  ///< bit k: plane k may be touched
+    bool contacts;
+};
 template <class Real, class Team>
-__device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Team& team, int s, Vec3<Real> x) {
-    for_each_near_plane(model, team, s, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {
+__device__ Touch touch_of(const ModelView<Real>& model, const Team& team, int s) {
+    return {team.plane_contact()[s], model.plan.contacts && team.contact_count()[s] > 0};
+}
+
+template <class Real, class Team>
+__device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Team& team, int s, unsigned near, Vec3<Real> x) {
+    for_each_near_plane(model, near, x, [&](const physics::PlaneSurface<Real>& plane, Real distance) {
         const Real depth = model.collision_distance - distance;
         if (depth > 0)
             x = resolve_plane_penetration(x, depth, plane.normal, plane_friction(model),
@@ -153,18 +211,18 @@ __device__ Vec3<Real> solve_planes(const ModelView<Real>& model, const Team& tea
     return x;
 }
 
-/// Adds the contacts to the corrections of slot s, relaxes and applies the sum, planes last.
+/// Adds the contacts to the corrections of slot s, relaxes and applies the sum, planes last. Returns where it is then.
 template <class Real, class Team>
-__device__ void apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real inverse_mass,
-                      Correction<Real> correction) {
-    if (model.plan.contacts && team.contact_count()[s] > 0) {
+__device__ Quad<Real> apply(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real inverse_mass,
+                            Correction<Real> correction, const Touch& touch) {
+    if (touch.contacts) {
         const Quad<Real> push = team.contact_push()[s];
         correction.sum = correction.sum + xyz(push);
         correction.constraints += push.w;
     }
     const Real scale = physics::relaxation(correction.constraints, model.relaxation_factor, model.local_relaxation);
     const Vec3<Real> moved = x + scale * correction.sum;
-    team.position()[s] = quad(solve_planes(model, team, s, moved), inverse_mass);
+    return team.position()[s] = quad(solve_planes(model, team, s, touch.planes, moved), inverse_mass);
 }
 
 /// Corrects the solids of a unit, by so many threads each.
@@ -177,7 +235,8 @@ __device__ void correct_solids(const ModelView<Real>& model, const Team& team, i
     const Real inverse_mass = team.position()[there ? s : model.particles].w;
     const int solid = there ? team.number()[s] - model.fluid : -1;
     const auto correction = springs_and_clusters<lanes>(model, team, solid, xyz(here), inverse_mass);
-    if (there && threadIdx.x % lanes == 0) apply(model, team, s, xyz(here), inverse_mass, correction);
+    if (there && threadIdx.x % lanes == 0)
+        apply(model, team, s, xyz(here), inverse_mass, correction, touch_of(model, team, s));
 }
 
 /// Units of apply_corrections that the solids make, with one thread or several for each.
@@ -185,6 +244,17 @@ template <class Real>
 __host__ __device__ int solid_units(const ModelView<Real>& model, bool shared) {
     const int in_unit = shared ? slots_of_warp : 32;
     return (model.solids + in_unit - 1) / in_unit;
+}
+
+/// Corrects fluid slot s.
+template <class Real, class Team>
+__device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s) {
+    const Quad<Real> here = team.next()[s];
+    const Real inverse_mass = team.position()[s].w;
+    const Touch touch = touch_of(model, team, s);
+    Correction<Real> correction = density_constraint(model, team, s, here, inverse_mass);
+    if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, team, s);
+    apply(model, team, s, xyz(here), inverse_mass, correction, touch);
 }
 
 /// Every correction from the same positions: first of the solids, which take longest.
@@ -196,31 +266,36 @@ __device__ void apply_corrections(const ModelView<Real>& model, Team& team) {
             return team.shares_solids() ? correct_solids<pair_lanes>(model, team, unit)
                                         : correct_solids<1>(model, team, unit);
         const int s = fluid_slot(unit - of_solids, of_fluid);
-        if (s >= model.fluid) return;
-        const Quad<Real> here = team.next()[s];
-        const Real inverse_mass = team.position()[s].w;
-        Correction<Real> correction = density_constraint(model, team, s, here, inverse_mass);
-        if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, team, s);
-        apply(model, team, s, xyz(here), inverse_mass, correction);
+        if (s < model.fluid) correct_fluid(model, team, s);
     });
+}
+
+/// The product rounded by itself, as if it were stored: never fused with what it is added to.
+__device__ inline float rounded_product(float a, float b) {
+    return __fmul_rn(a, b);
+}
+__device__ inline double rounded_product(double a, double b) {
+    return __dmul_rn(a, b);
 }
 
 /// What slot s moved by per second.
 template <class Real, class Team>
 __device__ Vec3<Real> moved_per_second(const Team& team, int s) {
-    return 1 / team.h * (xyz(team.position()[s]) - xyz(team.start()[s]));
+    const Real frequency = 1 / team.h;
+    const Vec3<Real> way = xyz(team.position()[s]) - xyz(team.start()[s]);
+    return {rounded_product(frequency, way.x), rounded_product(frequency, way.y), rounded_product(frequency, way.z)};
 }
 
-/// The velocity that slot s leaves the substep with; for viscosity `next` holds what the fluid moved by per second.
-template <class Real, class Team>
-__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s) {
+/// The velocity that slot s leaves the substep with; for viscosity, movement_of(slot) is what a fluid slot moved by per second.
+template <class Real, class Team, class MovementOf>
+__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s, const MovementOf& movement_of) {
     const Vec3<Real> x = xyz(team.position()[s]), u = moved_per_second<Real>(team, s);
     physics::FlexSmoothing<Real> smoothing;
     const bool viscous = model.plan.viscosity && s < model.fluid;
     if (viscous)
         for_each_neighbour(model, team, s, [&](int other) {
             const Real r = physics::length_of(x - xyz(team.position()[other]));
-            smoothing.add(1 - r * model.inverse_radius, xyz(team.next()[other]) - u);
+            smoothing.add(1 - r * model.inverse_radius, movement_of(other) - u);
         });
     const Vec3<Real> predicted = xyz(team.predicted_velocity()[s]);
     const physics::VelocityRule<Real> rule{viscous,
@@ -237,17 +312,20 @@ __device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& tea
 /// True if all that this thread wrote is finite.
 template <class Real, class Team>
 __device__ bool update_velocities(const ModelView<Real>& model, Team& team) {
-    if (model.plan.viscosity) {
+    // Where a barrier is dear, each works out what its neighbours moved by.
+    constexpr bool stored = !Team::of_several_blocks;
+    if (stored && model.plan.viscosity) {
         for (int s = team.thread(); s < model.fluid; s += team.size())
             team.next()[s] = quad(moved_per_second<Real>(team, s), Real(0));
         team.barrier();
     }
+    const auto movement_of = [&](int s) { return stored ? xyz(team.next()[s]) : moved_per_second<Real>(team, s); };
     bool finite = true;
     for_each_unit(team, 0, (model.particles + 31) / 32, [&](int unit) {
         const int s = unit * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
         const Quad<Real> here = team.position()[s];
-        const Vec3<Real> v = new_velocity(model, team, s);
+        const Vec3<Real> v = new_velocity(model, team, s, movement_of);
         finite &= isfinite(here.x + here.y + here.z) && isfinite(v.x + v.y + v.z);
         team.next_velocity()[s] = quad(here.w > 0 ? v : xyz(team.predicted_velocity()[s]), Real(0));
     });

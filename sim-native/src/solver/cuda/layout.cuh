@@ -28,25 +28,43 @@ private:
     std::size_t used_ = 0;
 };
 
+/// Has one of so many blocks the solids? Where it has a thread for each, and the others are enough for the fluid.
+template <class Real>
+bool splits_solids(const ModelView<Real>& model, int blocks) {
+    constexpr int most_solids = threads / 2, fewest_blocks = 8;
+    constexpr std::size_t most_bytes = 64 << 10;
+    const std::size_t bytes = model.solids * sizeof(Quad<Real>) + 2 * model.springs * sizeof(ChipSpring<Real>) +
+                              model.members * (sizeof(Share) + sizeof(Quad<Real>));
+    return blocks >= fewest_blocks && model.solids > 0 && model.solids <= most_solids && bytes <= most_bytes;
+}
+
 /// `on_chip` says where a team's arrays are; else each of its blocks has `staging_rows` neighbours' room for each thread on
 /// the chip, and one row more for what is no neighbour. Throws InputError for lists that offsets cannot reach.
 template <class Real>
-Layout layout_of(const ModelView<Real>& model, bool on_chip, std::size_t staging_rows) {
+Layout layout_of(const ModelView<Real>& model, bool on_chip, int blocks, std::size_t staging_rows) {
     using Index = typename StateTeam<Real, true>::Index;
     using Word = typename StateTeam<Real, true>::Word;
     const ModelView<Real>& size = model;
     const Plan& plan = model.plan;
     const std::size_t all = model.particles + 1, fluid = model.fluid, solids = model.solids;
     const std::size_t row = threads * sizeof(Index), least_rows = 25;
+    Layout at{};
+    at.splits_solids = !on_chip && splits_solids(model, blocks);
+    const auto if_split = [&](int count) -> std::size_t { return at.splits_solids ? count : 0; };
     const struct {
         std::size_t next, cells, neighbours, fluid_contacts, solid_contacts, staging;
+        std::size_t solids, solid_bounds, spring_shares, members, clusters;
     } room{on_chip ? std::max(all, least_rows * row / sizeof(Quad<Real>)) : all,
            static_cast<std::size_t>(model.grid.cells),
            fluid * ((model.most_neighbours + 7) / 8),
            plan.contacts ? fluid * solids : 0,
            plan.contacts ? solids * model.particles : 0,
-           on_chip ? 0 : (staging_rows + 1) * threads};
-    Layout at{};
+           on_chip ? 0 : (staging_rows + 1) * threads,
+           if_split(model.solids),
+           if_split(model.solids + 1),
+           if_split(2 * model.springs),
+           if_split(model.members),
+           if_split(model.clusters)};
     Pieces block_chip, scratch;
     Pieces& team = on_chip ? block_chip : scratch;
 #define NATATOR_TAKE(type, name, count, place) at.name = place.template take<type>(count);

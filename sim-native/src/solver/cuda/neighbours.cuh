@@ -17,12 +17,16 @@ __device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec
                                    model.plan.clamp_speed, model.max_speed);
 }
 
+/// Nothing is in any cell. Barriers follow before they are counted.
+template <class Real, class Team>
+__device__ void clear_cells(const ModelView<Real>& model, const Team& team) {
+    for (int c = team.thread(); c < model.grid.cells; c += team.size()) team.table()[c] = 0;
+}
+
 /// v*, x* = x + h v*; counts the particles of each cell, the fluid's first. Ends with a barrier.
 template <class Real, class Team>
 __device__ void predict(const ModelView<Real>& model, Team& team) {
     std::uint32_t* const table = team.table();
-    for (int c = team.thread(); c < model.grid.cells; c += team.size()) table[c] = 0;
-    team.barrier();
     for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit_before()[k] = team.fit()[k];
     for (int s = team.thread(); s < model.particles; s += team.size()) {
         const Quad<Real> x = team.position()[s];
@@ -36,14 +40,13 @@ __device__ void predict(const ModelView<Real>& model, Team& team) {
     team.barrier();
 }
 
-/// Box around the solids at their predicted positions, by the first warp.
+/// Box around the solids, whose predicted positions are given by slot, by one warp.
 template <class Real, class Team>
-__device__ void bound_solids(const ModelView<Real>& model, Team& team) {
-    const int lane = team.thread();
-    if (lane >= 32) return;
+__device__ void bound_solids(const ModelView<Real>& model, const Team& team, const Quad<Real>* predicted) {
+    const int lane = static_cast<int>(threadIdx.x) % 32;
     Real low[3] = {Real(1e30), Real(1e30), Real(1e30)}, high[3] = {Real(-1e30), Real(-1e30), Real(-1e30)};
     for (int s = model.fluid + lane; s < model.particles; s += 32) {
-        const Quad<Real> x = team.position()[s];
+        const Quad<Real> x = predicted[s];
         const Real at[3] = {x.x, x.y, x.z};
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] = min(low[axis], at[axis]);
@@ -104,6 +107,9 @@ __device__ void sort_into_cells(const ModelView<Real>& model, Team& team) {
         team.start()[s] = team.position()[before];
         team.predicted_velocity()[s] = team.unsorted_velocity()[before];
     }
+    if (team.thread() == 0) team.shared().touched = 0;
+    if (model.plan.contacts && team.thread() >= team.size() - 32)  // which has least to do
+        bound_solids(model, team, team.unsorted_position());
     team.barrier();
     for (int s = team.thread(); s < model.particles; s += team.size()) {
         const std::uint32_t key = keys[s];
@@ -113,9 +119,6 @@ __device__ void sort_into_cells(const ModelView<Real>& model, Team& team) {
         team.number()[s] = static_cast<std::uint16_t>(number);
         if (s >= model.fluid) team.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);
     }
-    team.barrier();
-    if (model.plan.contacts) bound_solids(model, team);
-    if (team.thread() == 0) team.shared().touched = 0;
     team.barrier();
 }
 
@@ -333,26 +336,33 @@ __device__ void find_neighbours_of_solids(const ModelView<Real>& model, const Te
     note_near_planes(model, team, s, team.base()[s]);
 }
 
+/// Lists contacts and planes of a fluid slot.
+template <class Real, class Team>
+__device__ void find_contacts_of_fluid(const ModelView<Real>& model, const Team& team, int s) {
+    const Quad<Real> here = team.base()[s];
+    if (model.plan.contacts) {
+        const bool searched = near_solids(team, xyz(here));
+        note_contacts(team, s, searched ? search_contacts(model, team, s, contact_lister(model, team, s)) : 0);
+    }
+    note_near_planes(model, team, s, here);
+}
+
 /// Lists fluid neighbours, contacts and planes of every slot at the predicted positions: first of the solids, which take
-/// longest. Ends with a barrier.
+/// longest, then the contacts of the fluid near them. Ends with a barrier.
 template <class Real, class Team>
 __device__ void find_neighbours(const ModelView<Real>& model, Team& team) {
     const int of_solids = team.shares_solids() ? model.solids : (model.solids + 31) / 32;
     const int of_fluid = fluid_units(model);
-    for_each_unit(team, of_solids, of_fluid, [&](int unit) {
+    for_each_unit(team, of_solids + of_fluid, of_fluid, [&](int unit) {
         if (unit < of_solids) return find_neighbours_of_solids(model, team, unit);
-        const int s = fluid_slot(unit - of_solids, of_fluid);
+        const bool contacts = unit < of_solids + of_fluid;
+        const int s = fluid_slot(unit - of_solids - (contacts ? 0 : of_fluid), of_fluid);
         if (s >= model.fluid) return;
-        const Quad<Real> here = team.base()[s];
-        const Vec3<Real> x = xyz(here);
-        list_fluid_neighbours(model, team, s, x);
-        if (model.plan.contacts) {
-            const bool searched = near_solids(team, x);
-            note_contacts(team, s, searched ? search_contacts(model, team, s, contact_lister(model, team, s)) : 0);
-        }
-        note_near_planes(model, team, s, here);
+        if (contacts) return find_contacts_of_fluid(model, team, s);
+        list_fluid_neighbours(model, team, s, xyz(team.base()[s]));
     });
     team.barrier();
+    if constexpr (Team::of_several_blocks) return;
     // `next` was room for the search; its far slot is what lists end with.
     if (team.thread() == 0) team.next()[model.particles] = far_away<Real>();
     team.barrier();

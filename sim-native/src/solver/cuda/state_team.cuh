@@ -19,6 +19,14 @@ struct ClusterFit {
     Real rotation[4];  ///< x, y, z, w
 };
 
+/// A spring on the chip, as one of its ends sees it.
+template <class Real>
+struct ChipSpring {
+    int other;  ///< solid id
+    Real rest_length;
+    physics::SpringRule<Real> rule;
+};
+
 /// Where an observer's view of a State is written; null where nobody looks. By slot, with the particles' numbers.
 template <class Real>
 struct Trace {
@@ -54,6 +62,7 @@ struct Layout {
     NATATOR_TEAM_ARRAYS(NATATOR_OFFSET)
 #undef NATATOR_OFFSET
     unsigned chip_bytes, scratch_bytes;
+    bool splits_solids;  ///< one of the team's blocks has the solids on its chip
     int staged;  ///< neighbours that a thread has room for while it searches them
 };
 
@@ -102,6 +111,10 @@ public:
     /// meanwhile.
     __device__ static constexpr bool shares_solids() { return StateTeam::blocks() > 1; }
 
+    /// Has one block the solids, and the others the fluid? It is the last.
+    __device__ bool splits_solids() const { return !on_chip && at_.splits_solids; }
+    __device__ bool has_solids() const { return splits_solids() && StateTeam::block() == StateTeam::blocks() - 1; }
+
     using Index = std::uint16_t;
     using Word = std::uint32_t;  // of two cells
 
@@ -138,24 +151,29 @@ private:
 };
 
 /// Calls work(unit) for the units 0 .. few + many - 1, each by one whole warp. Of the first, which take long, a block of
-/// the team has every so many-th; of the others, which lie side by side in the tank, a row. Its warps take them as they
-/// get free. Every thread of the team calls it; a barrier must lie between two calls.
+/// the team has every so many-th; of the others, which lie side by side in the tank, a row. Each of its warps begins with one
+/// of them and takes more as it gets free. Every thread of the first `blocks` blocks calls it, of all if none are named; a
+/// barrier must lie between two calls.
 template <class Team, class Work>
-__device__ void for_each_unit(Team& team, int few, int many, const Work& work) {
-    const int own_few = (few - team.block() + team.blocks() - 1) / team.blocks();
-    const int row = (many + team.blocks() - 1) / team.blocks();
+__device__ void for_each_unit(Team& team, int blocks, int few, int many, const Work& work) {
+    const int own_few = (few - team.block() + blocks - 1) / blocks;
+    const int row = (many + blocks - 1) / blocks;
     const int skipped = team.block() * row, own = own_few + max(min(row, many - skipped), 0);
     int* const next_unit = team.of_block().next_unit;
     const int turn = team.phase & 1;
     team.phase ^= 1;
     if (threadIdx.x == 0) next_unit[turn ^ 1] = 0;  // for the next call; nobody uses it any more
-    for (;;) {
-        int unit = 0;
-        if (threadIdx.x % 32 == 0) unit = atomicAdd(&next_unit[turn], 1);
+    for (int unit = threadIdx.x / 32; unit < own;) {
+        work(unit < own_few ? unit * blocks + team.block() : few + skipped + unit - own_few);
+        if (own <= warps) return;
+        if (threadIdx.x % 32 == 0) unit = warps + atomicAdd(&next_unit[turn], 1);
         unit = __shfl_sync(0xffffffff, unit, 0);
-        if (unit >= own) return;
-        work(unit < own_few ? unit * team.blocks() + team.block() : few + skipped + unit - own_few);
     }
+}
+
+template <class Team, class Work>
+__device__ void for_each_unit(Team& team, int few, int many, const Work& work) {
+    for_each_unit(team, team.blocks(), few, many, work);
 }
 
 /// Units of 32 slots that the fluid makes.

@@ -58,10 +58,16 @@ public:
     __device__ void barrier() const {
         __syncthreads();
         if (blocks() == 1) return;
-        if (threadIdx.x < 32) {
-            if (static_cast<int>(threadIdx.x) < blocks()) arrive_at(threadIdx.x);
+        arrive();
+        wait();
+    }
+    // The same in halves, for a block that has nothing to say and goes on meanwhile; the second is a barrier of the block, too.
+    __device__ void arrive() const {
+        if (static_cast<int>(threadIdx.x) < blocks()) arrive_at(threadIdx.x);
+    }
+    __device__ void wait() const {
+        if (threadIdx.x < 32)
             while (!all_arrived(turn_)) {}
-        }
         turn_ ^= 1;
         __syncthreads();
     }
@@ -75,6 +81,8 @@ public:
     }
     __device__ static void end() {}
     __device__ static void barrier() { __syncthreads(); }
+    __device__ static void arrive() {}
+    __device__ static void wait() { __syncthreads(); }
 #endif
     /// Of two flags that begin with 0, each call sets the one that the call before it does not read.
     __device__ bool any(bool value) const {

@@ -6,6 +6,7 @@
 #include "measure.cuh"
 #include "neighbours.cuh"
 #include "physics/muscle.h"
+#include "solids_on_chip.cuh"
 #include "solver/step.h"
 
 namespace natator::cuda {
@@ -58,6 +59,7 @@ struct TeamStages {
     Team& team;
     int number;
     int iteration = 0;
+    int touched = 0;     ///< units that the slots with contacts make, where a team has several blocks
     bool finite = true;  ///< of all velocities, before what acts behind them
 
     __device__ void predict() { cuda::predict(model, team); }
@@ -67,13 +69,26 @@ struct TeamStages {
         cuda::find_neighbours(model, team);
     }
     __device__ void begin_iterations() {
+        if constexpr (Team::of_several_blocks) {
+            touched = touched_units<Real>(model, team);
+            if (team.has_solids()) load_solids(model, team);
+        }
         if constexpr (effects)
             if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, team, s); });
     }
-    __device__ void compute_density_and_fits() { compute_density(model, team, Real(0)); }
+    __device__ void compute_density_and_fits() {
+        if constexpr (Team::of_several_blocks)
+            if (team.splits_solids()) return compute_density_beside_solids(model, team, touched);
+        compute_density(model, team, Real(0));
+    }
     __device__ void apply_corrections() {
-        cuda::apply_corrections(model, team);
+        correct();
         team.barrier();
+    }
+    __device__ void correct() {
+        if constexpr (Team::of_several_blocks)
+            if (team.splits_solids()) return apply_corrections_beside_solids(model, team);
+        cuda::apply_corrections(model, team);
     }
     __device__ void update_velocities() {
         finite = cuda::update_velocities(model, team);
@@ -131,7 +146,7 @@ struct AfterTeamStage {
     }
 };
 
-/// Particles of infinite mass keep their place. Ends with a barrier.
+/// Particles of infinite mass keep their place; the cells are ready for the next substep. Ends with a barrier.
 template <class Real, class Team>
 __device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Team& team, int number) {
     for (int s = team.thread(); s < model.particles; s += team.size()) {
@@ -140,6 +155,7 @@ __device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, T
         team.velocity[s] = v;
         if (trace.velocity) trace.velocity[static_cast<std::size_t>(number) * model.particles + s] = v;
     }
+    clear_cells(model, team);
     team.barrier();
 }
 
@@ -222,7 +238,9 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Team
         team.number()[s] = static_cast<std::uint16_t>(i);
         if (s >= model.fluid) team.slot_of_solid()[i - model.fluid] = static_cast<std::uint16_t>(s);
     }
-    if (team.thread() == 0) team.position()[model.particles] = team.start()[model.particles] = far_away<Real>();
+    if (team.thread() == 0)
+        team.position()[model.particles] = team.start()[model.particles] = team.next()[model.particles] = far_away<Real>();
+    clear_cells(model, team);
     for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit()[k] = fit[k];
     team.h = static_cast<Real>(batch.time_step) / static_cast<Real>(batch.substeps);
     const bool last = number + 1 == batch.updates;
@@ -230,6 +248,7 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Team
     const double time = batch.start_time + (batch.settling ? 0 : number * batch.time_step);
     rest(batch, state, team);
     actuate(model, batch.gait, state, time, team);
+    if constexpr (Team::of_several_blocks) load_constraints_of_solids(model, team);
     if (!batch.settling && number == 0)
         measure_path(model, team, batch.path + static_cast<std::size_t>(state) * (batch.updates + 1));
     team.book(Stage::load);

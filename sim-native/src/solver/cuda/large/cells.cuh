@@ -60,9 +60,8 @@ __device__ void order_in_cells(const ModelView<Real>& model, const Slots<Real>& 
 /// The box around the solids, by one block.
 template <class Real>
 __device__ void prepare_search(const ModelView<Real>& model, const Slots<Real>& slots) {
-    bound_solids(model, slots);
-    if (threadIdx.x > 0) return;
-    slots.shared().touched = 0;
+    if (threadIdx.x < 32) bound_solids(model, slots, slots.position());
+    if (threadIdx.x == 0) slots.shared().touched = 0;
 }
 
 }  // namespace natator::cuda

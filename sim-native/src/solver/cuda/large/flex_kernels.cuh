@@ -30,7 +30,7 @@ __device__ void commit_large(const Slots<Real>& slots, int s, const Vec3<Real>& 
 
 template <class Real>
 __device__ void velocities_large(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    commit_large(slots, s, new_velocity(model, slots, s));
+    commit_large(slots, s, new_velocity(model, slots, s, [&](int other) { return xyz(slots.next()[other]); }));
 }
 
 }  // namespace natator::cuda
