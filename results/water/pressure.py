@@ -71,4 +71,5 @@ def main():
         print(f"| {gait} | {gravity} | {' | '.join(cells)} |")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -90,7 +90,8 @@ final class OptimizerReport {
         page.append("\n![best distance against evaluations](").append(scene).append(".png)\n\n")
                 .append(settings(runs.get(0).settings()));
         // A Java without fonts still has the tables.
-        Drawing.orWarn("curves of " + scene, () -> CurveChart.draw(scene + ": median and quartiles of the runs", bands, directory.resolve(scene)));
+        Drawing.orWarn("curves of " + scene,
+                () -> CurveChart.draw(scene + ": median and quartiles of the runs", bands, directory.resolve(scene)));
     }
 
     private static int at(CurveBand band, double share) {
