@@ -132,7 +132,7 @@ __device__ void for_each_near_plane(const ModelView<Real>& model, unsigned near,
 template <class Real, class Team, class Visit>
 __device__ void for_each_near_plane(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
                                     const Visit& visit) {
-    for_each_near_plane(model, unsigned{team.plane_contact()[s]}, x, visit);
+    for_each_near_plane(model, static_cast<unsigned>(team.plane_contact()[s]), x, visit);
 }
 
 }  // namespace natator::cuda

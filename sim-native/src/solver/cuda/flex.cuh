@@ -197,7 +197,7 @@ struct Touch {
 };
 template <class Real, class Team>
 __device__ Touch touch_of(const ModelView<Real>& model, const Team& team, int s) {
-    return {team.plane_contact()[s], model.plan.contacts && team.contact_count()[s] > 0};
+    return {static_cast<unsigned>(team.plane_contact()[s]), model.plan.contacts && team.contact_count()[s] > 0};
 }
 
 template <class Real, class Team>
