@@ -38,6 +38,12 @@ TEST_F(GpuThreads, UnlikeScenesDoNotDisturbOneAnother) {
     EXPECT_EQ(faults, std::vector<std::string>(4));
 }
 
+std::vector<std::uint64_t> hashes_of(const Scene& scene, const std::vector<BatchMember>& batch, Precision precision) {
+    std::vector<std::uint64_t> result;
+    for (const Evaluation& one : evaluate_on_gpu(scene, batch, {.precision = precision})) result.push_back(one.hash);
+    return result;
+}
+
 class GpuBatch : public OnGpu<testing::TestWithParam<std::tuple<Scheme, Precision>>> {
 protected:
     GpuBatch() {
@@ -52,10 +58,7 @@ protected:
         return result;
     }
     std::vector<std::uint64_t> hashes(const std::vector<BatchMember>& batch) const {
-        std::vector<std::uint64_t> result;
-        for (const Evaluation& one : evaluate_on_gpu(scene, batch, {.precision = precision()}))
-            result.push_back(one.hash);
-        return result;
+        return hashes_of(scene, batch, precision());
     }
     Scene scene = load_scene("thesis/creature-1");
 };
@@ -150,25 +153,20 @@ struct SolidCase {
     const char* name;
     const char* overrides;
 };
-class GpuTeams : public OnGpu<testing::TestWithParam<SolidCase>> {
-protected:
-    static std::vector<std::uint64_t> hashes(const Scene& scene, int first, int count, Precision precision) {
-        std::vector<BatchMember> members;
-        for (int k = first; k < first + count; ++k) members.push_back({wave(scene, k), {1e-6, static_cast<std::uint64_t>(k + 1)}});
-        std::vector<std::uint64_t> result;
-        for (const Evaluation& one : evaluate_on_gpu(scene, members, {.precision = precision})) result.push_back(one.hash);
-        return result;
-    }
-};
+class GpuTeams : public OnGpu<testing::TestWithParam<SolidCase>> {};
 
 TEST_P(GpuTeams, OfManyBlocksGiveTheBitsOfFewer) {
     Scene scene = load_scene("thesis/creature-2", nlohmann::json::parse(GetParam().overrides));
     scene.duration = 0.1;
+    std::vector<BatchMember> members;
+    for (int k = 0; k < 140; ++k) members.push_back({wave(scene, k), {1e-6, static_cast<std::uint64_t>(k + 1)}});
     for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
-        const std::vector<std::uint64_t> all = hashes(scene, 0, 140, precision);
+        const std::vector<std::uint64_t> all = hashes_of(scene, members, precision);
         EXPECT_NE(all[0], all[1]);
         for (const int count : {1, 9, 20, 50})
-            EXPECT_EQ(hashes(scene, 0, count, precision), std::vector(all.begin(), all.begin() + count)) << "the first " << count;
+            EXPECT_EQ(hashes_of(scene, {members.begin(), members.begin() + count}, precision),
+                      std::vector(all.begin(), all.begin() + count))
+                << "the first " << count;
     }
 }
 
@@ -208,7 +206,7 @@ TEST(GpuBatchEnds, AMemberThatIsRefusedCostsTheOthersNothing) {
     scene.duration = 0.1;
     std::vector<BatchMember> good, members;
     for (int k = 0; k < 48; ++k) {
-        members.push_back({wave(scene, k), {1e-6, static_cast<std::uint64_t>(k + 1)}});
+        members.push_back({wave(scene, k), {}});
         if (k == 5)
             members.back().gait.amplitude[0] = -1e-17;
         else
