@@ -153,15 +153,21 @@ __device__ void add_springs(Correction<Real>& correction, const Vec3<Real>& x, R
         },
         [&](const Quad<Real>& push) { correction.add(push); });
 }
-/// The same of clusters; member_of(e) is a fit with the solid's rest offset and the stiffness beside it.
+/// A cluster as one of its members sees it.
+template <class Real>
+struct ClusterMember {
+    const ClusterFit<Real>& fit;
+    Vec3<Real> offset;  ///< of the member at rest
+    Real stiffness;
+};
+/// The same of clusters; member_of(e) is how it sees cluster e.
 template <int lanes, class Real, class MemberOf>
 __device__ void add_clusters(Correction<Real>& correction, const Vec3<Real>& x, int begin, int end, const MemberOf& member_of) {
     add_in_order<lanes, Real>(
         begin, end,
         [&](int e) {
-            return member_of(e, [&](const ClusterFit<Real>& fit, const Vec3<Real>& offset, Real stiffness) {
-                return quad(physics::way_to_goal(fit.centre, fit.matrix, offset, x), stiffness);
-            });
+            const ClusterMember<Real> member = member_of(e);
+            return quad(physics::way_to_goal(member.fit.centre, member.fit.matrix, member.offset, x), member.stiffness);
         },
         [&](const Quad<Real>& push) { correction.add(push); });
 }
@@ -182,10 +188,10 @@ __device__ Correction<Real> springs_and_clusters(const ModelView<Real>& model, c
                                                   model.spring[share.constraint].rule};
                        });
     add_clusters<lanes>(correction, x, begin(model.cluster_shares_begin), end(model.cluster_shares_begin),
-                        [&](int e, const auto& push) {
+                        [&](int e) {
                             const Share share = model.cluster_share[e];
-                            return push(team.fit()[share.constraint], model.offset[share.other],
-                                        model.cluster[share.constraint].stiffness);
+                            return ClusterMember<Real>{team.fit()[share.constraint], model.offset[share.other],
+                                                       model.cluster[share.constraint].stiffness};
                         });
     return correction;
 }

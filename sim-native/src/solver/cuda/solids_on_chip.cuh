@@ -7,53 +7,46 @@
 
 namespace natator::cuda {
 
-/// What the warps of that block do: a thread for each solid, a warp for one cluster or several in turn.
-struct SolidWarps {
-    int solids, clusters;
-
-    template <class Real>
-    __device__ explicit SolidWarps(const ModelView<Real>& model)
-        : solids((model.solids + 31) / 32), clusters(min(model.clusters, warps - solids)) {}
-};
+/// Calls work(k) for k = 0 .. count - 1 by the threads of this block.
+template <class Work>
+__device__ void for_each_in_block(int count, const Work& work) {
+#pragma unroll 1  // it seldom goes round twice
+    for (int k = static_cast<int>(threadIdx.x); k < count; k += threads) work(k);
+}
 
 /// What springs and clusters are, for an update whose rest lengths are known. Barriers follow before it is read.
 template <class Real, class Team>
 __device__ void load_constraints_of_solids(const ModelView<Real>& model, const Team& team) {
     if (!team.has_solids()) return;
-    const auto each = [](int count, const auto& load) {
-        for (int e = static_cast<int>(threadIdx.x); e < count; e += threads) load(e);
-    };
-    each(model.solids + 1, [&](int i) {
+    for_each_in_block(model.solids + 1, [&](int i) {
         team.chip_springs_begin()[i] = model.spring_shares_begin[i];
         team.chip_members_begin()[i] = model.cluster_shares_begin[i];
     });
-    each(2 * model.springs, [&](int e) {
+    for_each_in_block(2 * model.springs, [&](int e) {
         const Share share = model.spring_share[e];
         team.chip_spring()[e] = {share.other, team.rest_length()[share.constraint], model.spring[share.constraint].rule};
     });
-    each(model.members, [&](int e) {
+    for_each_in_block(model.members, [&](int e) {
         team.chip_member_share()[e] = model.cluster_share[e];
         team.chip_member()[e] = quad(model.offset[e], as_number<Real>(model.member[e]));
     });
-    each(model.clusters, [&](int k) { team.chip_cluster()[k] = model.cluster[k]; });
+    for_each_in_block(model.clusters, [&](int k) { team.chip_cluster()[k] = model.cluster[k]; });
 }
 
 /// Where the solids are, and the fits as they are. Ends with a barrier of the block.
 template <class Real, class Team>
 __device__ void load_solids(const ModelView<Real>& model, const Team& team) {
-    for (int i = static_cast<int>(threadIdx.x); i < model.solids; i += threads)
-        team.chip_solid()[i] = team.position()[team.slot_of_solid()[i]];
-    for (int k = static_cast<int>(threadIdx.x); k < model.clusters; k += threads) team.chip_fit()[k] = team.fit()[k];
+    for_each_in_block(model.solids, [&](int i) { team.chip_solid()[i] = team.position()[team.slot_of_solid()[i]]; });
+    for_each_in_block(model.clusters, [&](int k) { team.chip_fit()[k] = team.fit()[k]; });
     __syncthreads();
 }
 
-/// Fits all clusters, by the warps that have them.
+/// Fits all clusters, each by a warp, beside those whose threads have a solid each.
 template <class Real, class Team>
 __device__ void fit_clusters_on_chip(const ModelView<Real>& model, const Team& team) {
-    const SolidWarps work(model);
-    const int warp = static_cast<int>(threadIdx.x) / 32, first = warp - work.solids;
-    if (first < 0 || first >= work.clusters) return;
-    for (int k = first; k < model.clusters; k += work.clusters) {
+    const int of_solids = (model.solids + 31) / 32, first = static_cast<int>(threadIdx.x) / 32 - of_solids;
+    if (first < 0) return;
+    for (int k = first; k < model.clusters; k += warps - of_solids) {
         const int begin = team.chip_cluster()[k].begin, end = team.chip_cluster()[k].end;
         const Quad<Real>* const member = team.chip_member() + begin;
         ClusterFit<Real>& fit = team.chip_fit()[k];
@@ -87,10 +80,10 @@ __device__ void correct_solids_on_chip(const ModelView<Real>& model, const Team&
     team.wait();
     if (!there) return;
     add_clusters<1>(correction, xyz(here), team.chip_members_begin()[i], team.chip_members_begin()[i + 1],
-                    [&](int e, const auto& push) {
+                    [&](int e) {
                         const Share share = team.chip_member_share()[e];
-                        return push(team.chip_fit()[share.constraint], xyz(team.chip_member()[share.other]),
-                                    team.chip_cluster()[share.constraint].stiffness);
+                        return ClusterMember<Real>{team.chip_fit()[share.constraint], xyz(team.chip_member()[share.other]),
+                                                   team.chip_cluster()[share.constraint].stiffness};
                     });
     team.chip_solid()[i] = apply(model, team, s, xyz(here), here.w, correction, touch);
 }
