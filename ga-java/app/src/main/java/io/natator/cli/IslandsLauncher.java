@@ -33,7 +33,7 @@ final class IslandsLauncher {
         Archipelago.Plan plan = archipelago.plan();
         ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, plan.settings());
         List<Path> begun = archipelago.folders();
-        long recorded = begun.stream().mapToLong(folder -> StoredRun.evaluations(folder).size()).sum();
+        long recorded = begun.stream().mapToLong(StoredRun::evaluated).sum();
         String how = "continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(archipelago.directory());
         boolean finished;
         try (Evaluator evaluator = EvolutionRun.open(limited);

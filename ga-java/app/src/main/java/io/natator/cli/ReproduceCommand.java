@@ -73,7 +73,7 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--generations", paramLabel = "N",
-            description = "Generations after the random one, from 0. Default: 25.")
+            description = "Generations after the random one, from 0; evolutions of fewer go on. Default: 25, or those of the evolutions in DIR.")
     private Integer generations;
 
     @Section(Topic.EXTENT)
@@ -119,7 +119,7 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.OUTPUT)
     @Option(names = "--compact", description = "Drop the single evaluations of finished evolutions, some ten megabytes "
-            + "each, which the same seed gives again.")
+            + "each, which the same seed gives again; the last population stays, so that they can go on to more generations.")
     private boolean compact;
 
     @Section(Topic.OTHER)

@@ -7,6 +7,7 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
 import io.natator.run.EvolutionRun;
 import java.nio.file.Path;
 import java.util.concurrent.Callable;
@@ -20,9 +21,10 @@ import picocli.CommandLine.Spec;
 
 /** {@code natator resume}: continues a run. */
 @Command(name = "resume", mixinStandardHelpOptions = true,
-        description = {"Continues a run that was interrupted.",
+        description = {"Continues a run that was interrupted, or gives one more generations.",
             "Its outcome is that of an uninterrupted one, unless it continues on another backend."},
-        footer = {"", "Example:", "  natator resume runs/creature-1-seed-1"})
+        footer = {"", "Examples:", "  natator resume runs/creature-1-seed-1",
+            "  natator resume runs/creature-1-seed-1 --generations 200"})
 final class ResumeCommand implements Callable<Integer> {
 
     @Spec
@@ -35,6 +37,11 @@ final class ResumeCommand implements Callable<Integer> {
     private CacheOptions cacheOptions;
 
     @Section(Topic.EXTENT)
+    @Option(names = "--generations", paramLabel = "N",
+            description = "Go on to so many generations after the random one, more than the run was begun with; one that is finished, too.")
+    private Integer generations;
+
+    @Section(Topic.EXTENT)
     @Option(names = "--stop-after", paramLabel = "SECONDS", description = "Stop then, to be continued.")
     private Double stopAfter;
 
@@ -43,8 +50,31 @@ final class ResumeCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
+        if (generations != null) {
+            extend(folder, generations);
+        }
         resume(folder, executionOptions, cacheOptions, stopAfter, spec);
         return ExitCode.OK;
+    }
+
+    private static void extend(Path directory, int generations) {
+        boolean islands = Archipelago.exists(directory);
+        EvolutionSettings settings = islands ? Archipelago.in(directory).plan().settings() : StoredRun.settings(directory);
+        if (generations < settings.generations()) {
+            throw new InvalidInputException("--generations is " + generations + "; expected at least the " + settings.generations()
+                    + " of " + directory);
+        }
+        if (generations == settings.generations()) {
+            return;
+        }
+        if (islands) {
+            Archipelago.in(directory).extend(generations);
+            return;
+        }
+        EvolutionRun.checkAlone(directory, settings);
+        try (RunFolder folder = RunFolder.open(directory)) {
+            folder.extend(generations);
+        }
     }
 
     static void resume(Path directory, ExecutionOptions options, CacheOptions cache, Double stopAfter,

@@ -45,7 +45,7 @@ final class RunLauncher {
             String how)
             throws InterruptedException {
         EvolutionRun.Outcome outcome;
-        try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().size(), err,
+        try (Progress progress = new Progress(folder.settings(), folder.checkpoint(), folder.recorded().end(), err,
                 System.console() != null ? System.err : null)) {
             List<EvolutionListener> listeners = new ArrayList<>(List.of(progress));
             if (execution.inBatches()) {

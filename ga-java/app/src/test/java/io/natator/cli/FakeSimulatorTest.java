@@ -43,7 +43,11 @@ abstract class FakeSimulatorTest {
 
     /** Evolves eight gaits for three generations into a folder of that name. */
     int evolve(String runName, String... more) {
-        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "8", "--generations", "3", "--seed",
+        return evolveTo(3, runName, more);
+    }
+
+    int evolveTo(int generations, String runName, String... more) {
+        List<String> arguments = new ArrayList<>(List.of("evolve", "--population", "8", "--generations", "" + generations, "--seed",
                 "5", "--output-dir", folder.resolve(runName).toString()));
         arguments.addAll(List.of(more));
         return natator(arguments.toArray(String[]::new));

@@ -3,6 +3,7 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assumptions.assumeThat;
 
+import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.simulator.ProgramInfo;
 import java.io.IOException;
@@ -13,6 +14,7 @@ import java.nio.file.Path;
 import java.time.LocalDate;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
@@ -53,6 +55,25 @@ class ReproduceTest {
         String environment = Files.readString(folder.resolve("runs/creature-1/flex/seed-1/environment.json"));
         assertThat(reproduce(options.toArray(String[]::new))).isZero();
         assertThat(folder.resolve("runs/creature-1/flex/seed-1/environment.json")).hasContent(environment);
+    }
+
+    /** What is left of a compact run is enough, and so many generations as it has are kept where none are asked for. */
+    @Test
+    void aFinishedEvolutionGoesOnToMoreGenerations() throws IOException {
+        Path run = folder.resolve("runs/creature-1/flex/seed-1");
+        List<String> options = List.of("--creature", "1", "--water", "flex", "--phase", "evolve", "--simulator", "batch", "--compact");
+        for (String generations : List.of("1", "3")) {
+            assertThat(reproduce(Stream.concat(options.stream(), Stream.of("--generations", generations)).toArray(String[]::new)))
+                    .as(err.toString()).isZero();
+            assertThat(Files.readString(run.resolve("finalists.json"))).contains("\"generation\" : " + generations);
+        }
+        assertThat(reproduce(options.toArray(String[]::new))).isZero();
+        List<String> parts = Files.readAllLines(run.resolve("generations.csv"));
+
+        RunFolder.delete(run);
+        Files.delete(run.resolve("finalists.json"));
+        assertThat(reproduce(Stream.concat(options.stream(), Stream.of("--generations", "3")).toArray(String[]::new))).isZero();
+        assertThat(Files.readAllLines(run.resolve("generations.csv"))).isEqualTo(parts).hasSize(5);
     }
 
     @Test
@@ -118,13 +139,15 @@ class ReproduceTest {
         String same = "java -jar ga-java/target/natator.jar reproduce ";
         String rest = " --creature 1 --output-dir '" + study + "'\n";
 
+        int generations = StoredRun.settings(run).generations();
+
         String page = page(study, "--creature", "1");
-        assertThat(page).contains("- 1 of 7 evolutions are finished", "```\n" + same + "--water flex --seeds 4 --generations 25" + rest
+        assertThat(page).contains("- 1 of 7 evolutions are finished", "```\n" + same + "--water flex --seeds 4 --generations " + generations + rest
                 + same + "--water open-water --seeds 3 --generations 25" + rest + same + "--phase report" + rest + "```\n",
                 "`--phase report` builds page and pictures anew from the rows, in seconds", "a row's `request`, given to `natator-sim evaluate`,")
                 .doesNotContain("recompute.py");
         assertThat(page(study, "--creature", "1", "--water", "flex")).contains("- 1 of 4 evolutions are finished",
-                "```\n" + same + "--water flex --seeds 4 --generations 25" + rest + "```\n");
+                "```\n" + same + "--water flex --seeds 4 --generations " + generations + rest + "```\n");
 
         Files.writeString(study.resolve("recompute.py"), "");
         assertThat(page(study, "--creature", "1", "--generations", "9", "--seeds", "3")).contains("- 0 of 6 evolutions are finished",

@@ -91,6 +91,35 @@ class ResumeCommandTest extends FakeSimulatorTest {
     }
 
     @Test
+    void aFinishedRunCanHaveMoreGenerations() throws IOException {
+        assertThat(evolve("run", "--starts", "2")).isZero();
+        String folderName = folder.resolve("run").toString();
+        assertThat(natator("resume", folderName, "--generations", "5")).as(err.toString()).isZero();
+        assertThat(evolveTo(5, "whole", "--starts", "2")).isZero();
+        for (String name : List.of("config.json", "generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl", "savings.json")) {
+            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
+        }
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folderName, "--generations", "4")).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator resume: --generations is 4; expected at least the 5 of " + folderName + "\n");
+        assertThat(natator("resume", folderName, "--generations", "-1")).isEqualTo(2);
+        assertThat(natator("resume", folderName, "--generations", "5")).isZero();
+        assertThat(file("run", "checkpoint.json")).isEqualTo(file("whole", "checkpoint.json"));
+    }
+
+    @Test
+    void islandsCanHaveMoreGenerations() throws IOException {
+        assertThat(evolve("run", "--islands", "2", "--migrate-every", "2")).as(err.toString()).isZero();
+        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "6")).as(err.toString()).isZero();
+        assertThat(evolveTo(6, "whole", "--islands", "2", "--migrate-every", "2")).isZero();
+        for (String name : List.of("islands.json", "island-1/checkpoint.json", "island-2/checkpoint.json", "island-2/config.json",
+                "island-2/evaluations.jsonl", "island-1/migrants.jsonl")) {
+            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
+        }
+    }
+
+    @Test
     void resumingAFinishedRunChangesNothing() throws IOException {
         assertThat(evolve("run")).isZero();
         String before = file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl");

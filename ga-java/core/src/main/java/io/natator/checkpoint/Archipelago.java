@@ -104,7 +104,16 @@ public record Archipelago(Path directory, Plan plan) {
 
     /** The same archipelago, from here on on another backend. */
     public Archipelago changeBackend(Backend backend) {
-        Plan changed = new Plan(plan.settings.withBackend(backend), plan.islands, plan.every, plan.migrants);
+        return with(plan.settings.withBackend(backend));
+    }
+
+    /** The same archipelago, from here on of so many generations, which are more than before. */
+    public Archipelago extend(int generations) {
+        return with(plan.settings.withSize(plan.settings.population(), generations));
+    }
+
+    private Archipelago with(EvolutionSettings settings) {
+        Plan changed = new Plan(settings, plan.islands, plan.every, plan.migrants);
         AtomicFile.write(directory.resolve(PLAN), Json.document(changed));
         return new Archipelago(directory, changed);
     }

@@ -2,8 +2,10 @@ package io.natator.checkpoint;
 
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
 import io.natator.file.AtomicFile;
+import io.natator.file.CompressedJson;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
@@ -13,12 +15,15 @@ import java.util.List;
 /** Makes the folder of a finished run some hundred times smaller, to be kept for long. */
 public final class CompactRun {
 
+    /** The checkpoint with its population, which a run of more generations goes on from. */
+    static final String WHOLE = RunFolder.CHECKPOINT + ".gz";
+
     private CompactRun() {
     }
 
     /**
-     * Leaves settings, best gait, every generation's figures and the pictures; drops the single evaluations and the last
-     * population, which the same settings, seed and simulator give again.
+     * Leaves settings, best gait, every generation's figures, the pictures and, compressed, the last population; drops the
+     * single evaluations, which the same settings, seed and simulator give again.
      *
      * @throws InvalidInputException if the run is not finished
      */
@@ -28,12 +33,33 @@ public final class CompactRun {
         }
         Path checkpoint = directory.resolve(RunFolder.CHECKPOINT);
         EvolutionState state = Json.read(checkpoint, EvolutionState.class, "checkpoint");
-        AtomicFile.write(checkpoint, Json.document(new EvolutionState(state.generation(), state.evaluations(), List.of(),
-                state.best(), state.history())));
         try {
+            if (!state.population().isEmpty()) {
+                CompressedJson.write(directory.resolve(WHOLE), state);
+                AtomicFile.write(checkpoint, Json.document(new EvolutionState(state.generation(), state.evaluations(), List.of(),
+                        state.best(), state.history())));
+            }
             Files.deleteIfExists(directory.resolve(RunFolder.EVALUATIONS));
         } catch (IOException e) {
             throw new UncheckedIOException("cannot remove the evaluations of " + directory + ": " + e.getMessage(), e);
         }
+    }
+
+    /** The state after the last finished generation, with its population unless an older program dropped that; or null. */
+    static EvolutionState lastState(Path directory) {
+        EvolutionState state = StoredRun.state(directory);
+        return state != null && state.population().isEmpty() && Files.exists(directory.resolve(WHOLE)) ? whole(directory) : state;
+    }
+
+    /** How many of the first evaluations are not recorded any more, beside those that are. */
+    static long dropped(Path directory, List<EvaluationRecord> recorded) {
+        if (!Files.exists(directory.resolve(WHOLE))) {
+            return 0;
+        }
+        return recorded.isEmpty() ? whole(directory).evaluations() : recorded.get(0).result().id();
+    }
+
+    private static EvolutionState whole(Path directory) {
+        return CompressedJson.read(directory.resolve(WHOLE), EvolutionState.class, "checkpoint");
     }
 }

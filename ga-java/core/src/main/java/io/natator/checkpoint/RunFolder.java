@@ -7,10 +7,12 @@ import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Migration;
+import io.natator.config.OptimizerKind;
 import io.natator.evolution.Departure;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.Recorded;
 import io.natator.file.AtomicFile;
 import io.natator.file.JsonLines;
 import io.natator.simulator.SimulationResult;
@@ -44,13 +46,15 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
     private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
-            CONTROLS, ENVIRONMENT, EVALUATIONS, MIGRANTS, GENERATIONS, TIMINGS, CONFIG, ".");
+            CONTROLS, ENVIRONMENT, EVALUATIONS, MIGRANTS, GENERATIONS, TIMINGS, CompactRun.WHOLE, CONFIG, ".");
 
     private final Path directory;
     private EvolutionSettings settings;
     private final Genome genome;
     private final EvolutionState checkpoint;
     private final JsonLines<EvaluationRecord> log;
+    /** How many evaluations are not in the log any more. */
+    private final long dropped;
     private final JsonLines<Departure> departures;
     private final GenerationTimes timings;
 
@@ -60,8 +64,8 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         this.genome = settings.genome();
         this.log = JsonLines.locked(directory.resolve(EVALUATIONS), EvaluationRecord.class);
         try {
-            this.checkpoint = Files.exists(directory.resolve(CHECKPOINT))
-                    ? Json.read(directory.resolve(CHECKPOINT), EvolutionState.class, "checkpoint") : null;
+            this.checkpoint = CompactRun.lastState(directory);
+            this.dropped = CompactRun.dropped(directory, log.rows());
             this.departures = JsonLines.of(directory.resolve(MIGRANTS), Departure.class);
         } catch (InvalidInputException e) {
             log.close();
@@ -143,22 +147,30 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
-        String lost = damage(directory, folder.checkpoint, folder.log.rows().size());
+        String lost = damage(directory, folder.checkpoint, folder.recorded().end());
         String damage = lost != null ? lost
                 : damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size());
-        if (damage != null) {
-            folder.close();
-            throw new InvalidInputException(damage);
-        }
+        folder.refuse(damage);
         folder.dropFailures();
         return folder;
+    }
+
+    /** Closes the folder if something is wrong with it; null if nothing is. */
+    private void refuse(String wrong) {
+        if (wrong != null) {
+            close();
+            throw new InvalidInputException(wrong);
+        }
     }
 
     /**
      * What of a run is lost, in one line; null if nothing is. Evaluations are on the disk before the checkpoint that counts
      * them, so there are never fewer of a sound run, also while it is written.
      */
-    static String damage(Path directory, EvolutionState checkpoint, int recorded) {
+    static String damage(Path directory, EvolutionState checkpoint, long recorded) {
+        if (checkpoint != null && checkpoint.population().isEmpty()) {
+            return directory + " has no population any more, which it would go on from: an older program made it small";
+        }
         return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
                 + " has " + recorded + " whole lines; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
     }
@@ -179,7 +191,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     private void dropFailures() {
         List<EvaluationRecord> all = log.rows();
-        int first = checkpoint == null ? 0 : (int) checkpoint.evaluations();
+        int first = checkpoint == null ? 0 : (int) (checkpoint.evaluations() - dropped);
         int failed = 0;
         int firstFailed = -1;
         for (int i = first; i < all.size(); i++) {
@@ -209,14 +221,27 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
     }
 
+    /**
+     * From here on the run has so many generations, which are more than before.
+     *
+     * @throws InvalidInputException if it was made small and lacks what it would go on from; the folder is closed then
+     */
+    public void extend(int generations) {
+        if (dropped > 0 && settings.optimizer() == OptimizerKind.CMA_ES) {
+            refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
+        }
+        settings = settings.withSize(settings.population(), generations);
+        AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
+    }
+
     /** The state after the last generation that was finished when the folder was opened; null if there was none. */
     public EvolutionState checkpoint() {
         return checkpoint;
     }
 
-    /** Simulations that were recorded when the folder was opened, in the order of their ids. */
-    public List<EvaluationRecord> recorded() {
-        return log.rows();
+    /** Simulations that were recorded when the folder was opened. */
+    public Recorded recorded() {
+        return new Recorded(dropped, log.rows());
     }
 
     /** The gaits that had left the run, as one of several islands, when the folder was opened. */
@@ -253,7 +278,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     @Override
     public void evaluated(EvaluationRecord evaluation) {
-        if (evaluation.result().id() >= log.size()) {
+        if (evaluation.result().id() >= dropped + log.size()) {
             log.append(evaluation);
         }
     }

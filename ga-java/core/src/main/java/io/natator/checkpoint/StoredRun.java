@@ -70,7 +70,8 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      */
     public String damage() {
         boolean compact = state != null && state.population().isEmpty() && evaluations.isEmpty();
-        String damage = compact ? null : RunFolder.damage(directory, state, evaluations.size());
+        String damage = compact ? null
+                : RunFolder.damage(directory, state, CompactRun.dropped(directory, evaluations) + evaluations.size());
         return damage != null ? damage : RunFolder.damage(directory, settings.migration(), state, departures(directory).size());
     }
 
@@ -109,7 +110,13 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return state.best() == null || best != null && best.vacuum() != null;
     }
 
-    /** The evaluations that the run in a folder has recorded. */
+    /** How many evaluations the run in a folder has behind it, also where it has dropped them since. */
+    public static long evaluated(Path directory) {
+        List<EvaluationRecord> recorded = evaluations(directory);
+        return CompactRun.dropped(directory, recorded) + recorded.size();
+    }
+
+    /** The evaluations that the run in a folder has recorded; of one that was made small, those since. */
     public static List<EvaluationRecord> evaluations(Path directory) {
         return JsonLines.read(directory.resolve(RunFolder.EVALUATIONS), EvaluationRecord.class);
     }

@@ -23,7 +23,7 @@ public final class Evolution {
     private final Genome genome;
     private final Evaluator evaluator;
     private final List<EvolutionListener> listeners;
-    private final List<EvaluationRecord> recorded;
+    private final Recorded recorded;
     private final Exchange exchange;
 
     private int generation;
@@ -47,17 +47,17 @@ public final class Evolution {
      */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
             List<EvaluationRecord> recorded) {
-        this(settings, evaluator, listeners, recorded, Exchange.NONE);
+        this(settings, evaluator, listeners, new Recorded(0, recorded), Exchange.NONE);
     }
 
-    /** The same on an island. */
+    /** The same of a run that may have dropped the first of its simulations, and on an island. */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
-            List<EvaluationRecord> recorded, Exchange exchange) {
+            Recorded recorded, Exchange exchange) {
         this.settings = settings;
         this.genome = settings.genome();
         this.evaluator = evaluator;
         this.listeners = List.copyOf(listeners);
-        this.recorded = List.copyOf(recorded);
+        this.recorded = recorded;
         this.exchange = exchange;
     }
 
@@ -71,12 +71,12 @@ public final class Evolution {
      */
     public EvolutionState run(EvolutionState from) {
         evaluations = from == null ? 0 : from.evaluations();
-        if (recorded.size() < evaluations) {
-            throw new IllegalArgumentException(recorded.size() + " simulations recorded; expected the " + evaluations
+        if (recorded.end() < evaluations) {
+            throw new IllegalArgumentException(recorded.end() + " simulations recorded; expected the " + evaluations
                     + " up to where the evolution is to continue");
         }
         try (Optimizer optimizer = Optimizer.of(settings, genome.genes(), this::evaluate)) {
-            optimizer.recall(newborns(recorded.subList(0, (int) evaluations)));
+            optimizer.recall(newborns(recorded.between(0, evaluations)));
             EvolutionState state = from;
             while (state == null || !state.isLastOf(settings)) {
                 List<Individual> parents = state == null ? List.of() : parents(state);
@@ -207,7 +207,7 @@ public final class Evolution {
     /** Simulates, save what the interrupted run had finished. */
     private List<SimulationResult> simulate(List<Run> runs) {
         int before = simulated.size();
-        while (simulated.size() - before < runs.size() && evaluations < recorded.size()) {
+        while (simulated.size() - before < runs.size() && evaluations < recorded.end()) {
             accept(replayed(runs.get(simulated.size() - before)));
         }
         long first = evaluations;
@@ -231,7 +231,7 @@ public final class Evolution {
     }
 
     private EvaluationRecord replayed(Run run) {
-        EvaluationRecord found = recorded.get((int) evaluations);
+        EvaluationRecord found = recorded.get(evaluations);
         if (!found.genes().equals(run.genes()) || !Objects.equals(found.start(), run.start())) {
             throw new EvolutionFailedException("recorded evaluation " + evaluations
                     + " is of other genes, or from another start, than this evolution's: the run folder was changed, or made by another version");

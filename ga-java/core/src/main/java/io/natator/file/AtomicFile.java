@@ -21,10 +21,15 @@ public final class AtomicFile {
      * @throws UncheckedIOException if that fails; the old file is then untouched
      */
     public static void write(Path file, String content) {
+        write(file, content.getBytes(StandardCharsets.UTF_8));
+    }
+
+    /** The same of bytes. */
+    public static void write(Path file, byte[] content) {
         Path fresh = unfinished(file);
         try {
             try (FileOutputStream out = new FileOutputStream(fresh.toFile())) {
-                out.write(content.getBytes(StandardCharsets.UTF_8));
+                out.write(content);
                 out.getFD().sync();
             }
             Files.move(fresh, file, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);

@@ -41,8 +41,21 @@ final class EvaluationCounter implements EvolutionListener {
         EvaluationStatistics before = statistics(folder);
         this.foundBefore = before == null ? 0 : before.fromCache();
         if (folder.checkpoint() != null) {
-            folder.recorded().subList(0, (int) folder.checkpoint().evaluations()).forEach(this::evaluated);
+            long first = folder.recorded().first();
+            if (first > 0 && before != null) {
+                takeOver(before);
+                first = before.evaluations();
+            }
+            folder.recorded().between(first, folder.checkpoint().evaluations()).forEach(this::evaluated);
         }
+    }
+
+    /** What cannot be counted anew, since the evaluations were dropped. */
+    private void takeOver(EvaluationStatistics before) {
+        evaluations = before.evaluations();
+        refused = before.evaluations() - before.simulations();
+        stoppedEarly = before.stoppedEarly();
+        saved = before.wholeSeconds() - before.simulatedSeconds();
     }
 
     /** Of the run so far; a damaged file of them costs only how many results came from the cache. */

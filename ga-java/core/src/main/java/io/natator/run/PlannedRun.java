@@ -15,7 +15,7 @@ import java.nio.file.Path;
 public record PlannedRun(EvolutionSettings settings, Path directory) {
 
     /**
-     * Opens its folder, or makes it.
+     * Opens its folder, or makes it. A run of fewer generations goes on to those of the settings.
      *
      * @throws InvalidInputException if there is a run of other settings in it
      */
@@ -24,6 +24,9 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
             return RunFolder.create(directory, settings);
         }
         RunFolder folder = RunFolder.open(directory);
+        if (isShorter(folder.settings())) {
+            folder.extend(settings.generations());
+        }
         if (!folder.settings().equals(settings)) {
             folder.close();
             throw new InvalidInputException(directory + " was begun with other settings; choose another --output-dir, "
@@ -34,11 +37,17 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
 
     /** Whether it has come to its end. */
     public boolean isFinished() {
-        return StoredRun.isFinished(directory);
+        return StoredRun.isFinished(directory) && !isShorter(StoredRun.settings(directory));
+    }
+
+    /** Whether the stored run is the first part of this one. */
+    private boolean isShorter(EvolutionSettings stored) {
+        return stored.generations() < settings.generations()
+                && stored.withSize(stored.population(), settings.generations()).equals(settings);
     }
 
     /** How many of its evaluations are recorded. */
     public long recorded() {
-        return StoredRun.exists(directory) ? StoredRun.evaluations(directory).size() : 0;
+        return StoredRun.exists(directory) ? StoredRun.evaluated(directory) : 0;
     }
 }

@@ -60,7 +60,7 @@ public final class RunQueue {
     static void carryOut(PlannedRun run, ExecutionSettings execution, Evaluator evaluator, Watcher watcher,
             Function<RunFolder, Exchange> exchange) throws InterruptedException {
         try (RunFolder folder = run.open()) {
-            int before = folder.recorded().size();
+            long before = folder.recorded().end();
             EvolutionListener counter = new EvolutionListener() {
                 @Override
                 public void evaluated(EvaluationRecord evaluation) {

@@ -26,14 +26,14 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: " + speed + ", less than "
                     + Verdict.LEAST_DISTANCE + " " + name + " in " + Numbers.fixed(controls.duration(), 2) + " s");
         }
-        double vacuum = controls.vacuum().distance().mean();
-        if (Math.abs(vacuum) >= Verdict.LEAST_LEFT * net) {
-            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(Math.abs(vacuum) / net, 1)
-                    + " times as far in vacuum" + (vacuum < 0 ? ", the other way" : ""));
+        if (drift(controls) - error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
+            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(drift(controls), 1)
+                    + " times as far in vacuum" + (controls.vacuum().distance().mean() < 0 ? ", the other way" : ""));
         }
-        if (controls.clampOff() != null && left(controls.clampOff(), controls) < Verdict.LEAST_LEFT) {
+        SwimSample clampOff = controls.clampOff();
+        if (clampOff != null && left(clampOff, controls) + error(clampOff, controls) < Verdict.LEAST_LEFT) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: the acceleration clamp moves it; without, "
-                    + percent(left(controls.clampOff(), controls)) + " of its way is left");
+                    + percent(left(clampOff, controls)) + " of its way is left");
         }
         List<String> doubts = doubts(controls, net, unit);
         return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + reasons(controls))
@@ -44,6 +44,15 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         List<String> doubts = new ArrayList<>();
         if (!Verdict.getsFar(net, controls.error(), unit)) {
             doubts.add("its runs differ too much to tell");
+        }
+        if (drift(controls) + error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
+            doubts.add("it moves " + Numbers.fixed(drift(controls), 1) + " ± " + Numbers.fixed(error(controls.vacuum(), controls), 1)
+                    + " times as far in vacuum");
+        }
+        SwimSample clampOff = controls.clampOff();
+        if (clampOff != null && left(clampOff, controls) - error(clampOff, controls) < Verdict.LEAST_LEFT) {
+            doubts.add("without the acceleration clamp " + percent(left(clampOff, controls)) + " ± " + percent(error(clampOff, controls))
+                    + " of its way is left");
         }
         if (controls.underWater() != null && controls.underWater() < Verdict.LEAST_LEFT) {
             doubts.add("it skims: " + percent(controls.underWater()) + " of its body are under water");
@@ -74,6 +83,16 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         }
         return ", " + String.join(", ", where)
                 + (controls.underWater() == null ? "" : "; " + percent(controls.underWater()) + " under water");
+    }
+
+    /** Way in vacuum, either way, as a share of its way in water. */
+    private static double drift(Controls controls) {
+        return Math.abs(controls.vacuum().distance().mean()) / controls.net();
+    }
+
+    /** So much a control's mean is known to, as a share of the way in water. */
+    private static double error(SwimSample sample, Controls controls) {
+        return Verdict.SURE * sample.distance().sd() / Math.sqrt(sample.runs()) / controls.net();
     }
 
     /** Share of its way in water, less the dead body's drift in both. */

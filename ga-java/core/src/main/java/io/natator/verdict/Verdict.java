@@ -32,7 +32,7 @@ public record Verdict(Kind kind, String text, String advice) {
     static final double WAY_TO_WALL = 0.5;
 
     /** A mean is known to so many standard errors. */
-    private static final double SURE = 2;
+    static final double SURE = 2;
     /** What keeps less than this share of its way under another condition, mirrored say, is no swimmer under that. */
     static final double LEAST_LEFT = 0.5;
 

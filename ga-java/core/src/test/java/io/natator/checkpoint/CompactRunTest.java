@@ -7,27 +7,42 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Judge;
+import io.natator.config.Objective;
+import io.natator.config.OptimizerKind;
+import io.natator.config.WeightedObjective;
 import io.natator.evolution.ToySimulator;
 import io.natator.run.EvolutionRun;
+import io.natator.run.PlannedRun;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.FakeSimulator;
 import io.natator.simulator.WorkerPool;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.List;
+import java.util.Locale;
+import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 class CompactRunTest {
 
     @TempDir
     private Path folder;
+    private ExecutionSettings execution;
+
+    @BeforeEach
+    void fake() {
+        execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
+    }
 
     @Test
     void aCompactRunIsStillFinishedAndHasItsResults() throws Exception {
         Path directory = folder.resolve("run");
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 3);
-        ExecutionSettings execution = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
         try (RunFolder run = RunFolder.create(directory, settings);
                 Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
             assertThatThrownBy(() -> CompactRun.compact(directory)).isInstanceOf(InvalidInputException.class)
@@ -47,5 +62,62 @@ class CompactRunTest {
         assertThat(after.state().evaluations()).isEqualTo(before.evaluations().size());
         assertThat(after.evaluations()).isEmpty();
         assertThat(Files.size(directory.resolve("checkpoint.json"))).isLessThan(5000);
+    }
+
+    private void evolve(Path directory, EvolutionSettings settings) throws Exception {
+        try (RunFolder run = new PlannedRun(settings, directory).open();
+                Evaluator evaluator = new WorkerPool(new ToySimulator(), 2)) {
+            new EvolutionRun(run).run(execution, evaluator);
+        }
+    }
+
+    /** Twice in parts: once from what is left of it alone, then from that and the evaluations since. */
+    @ParameterizedTest
+    @CsvSource({"jgap, 1", "jgap, 2", "random, 1", "map-elites, 2", "nsga2, 1"})
+    void aCompactRunGoesOnAsIfItHadNeverStopped(String optimizer, int starts) throws Exception {
+        OptimizerKind kind = OptimizerKind.valueOf(optimizer.toUpperCase(Locale.ROOT).replace('-', '_'));
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withStarts(starts, Judge.MEAN)
+                .withObjectives(kind, kind != OptimizerKind.NSGA2 ? null
+                        : List.of(new WeightedObjective(Objective.DISTANCE, null), new WeightedObjective(Objective.WORK, null)));
+        Path parts = folder.resolve("parts");
+        evolve(parts, settings.withSize(8, 2));
+        long dropped = StoredRun.evaluated(parts);
+        CompactRun.compact(parts);
+        assertThat(StoredRun.evaluated(parts)).isEqualTo(dropped);
+
+        evolve(parts, settings.withSize(8, 3));
+        assertThat(StoredRun.in(parts).damage()).isNull();
+        evolve(parts, settings.withSize(8, 5));
+
+        Path whole = folder.resolve("whole");
+        evolve(whole, settings.withSize(8, 5));
+        for (String name : List.of("config.json", "checkpoint.json", "best.json", "generations.csv", "savings.json")) {
+            assertThat(parts.resolve(name)).as(name).hasSameTextualContentAs(whole.resolve(name));
+        }
+        List<String> evaluations = Files.readAllLines(whole.resolve("evaluations.jsonl"));
+        assertThat(Files.readAllLines(parts.resolve("evaluations.jsonl")))
+                .isEqualTo(evaluations.subList((int) dropped, evaluations.size()));
+        assertThat(StoredRun.evaluated(parts)).isEqualTo(evaluations.size());
+        CompactRun.compact(parts);
+        CompactRun.compact(whole);
+        assertThat(parts.resolve("checkpoint.json.gz")).hasSameBinaryContentAs(whole.resolve("checkpoint.json.gz"));
+    }
+
+    @Test
+    void whatIsNeededToGoOnMayBeGone() throws Exception {
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 2);
+        Path old = folder.resolve("old");
+        evolve(old, settings);
+        CompactRun.compact(old);
+        Files.delete(old.resolve("checkpoint.json.gz"));
+        assertThatThrownBy(() -> evolve(old, settings.withSize(8, 3))).isInstanceOf(InvalidInputException.class)
+                .hasMessage(old + " has no population any more, which it would go on from: an older program made it small");
+
+        Path strategy = folder.resolve("strategy");
+        EvolutionSettings other = settings.withObjectives(OptimizerKind.CMA_ES, null);
+        evolve(strategy, other);
+        CompactRun.compact(strategy);
+        assertThatThrownBy(() -> evolve(strategy, other.withSize(8, 3))).isInstanceOf(InvalidInputException.class)
+                .hasMessage(strategy + " has not all of its evaluations any more, which cma-es would go on from");
     }
 }

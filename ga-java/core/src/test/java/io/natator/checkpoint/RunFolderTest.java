@@ -57,7 +57,7 @@ class RunFolderTest {
         listeners.addAll(List.of(more));
         ToySimulator simulator = new ToySimulator();
         try (folder; WorkerPool pool = new WorkerPool(simulator, 3)) {
-            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded())
+            EvolutionState end = new Evolution(folder.settings(), pool, listeners, folder.recorded().rows())
                     .run(folder.checkpoint());
             folder.writeResults(end);
         }

@@ -79,7 +79,7 @@ class FreshStartsTest {
     void aWinnerIsRunFromStartsThatNoGenerationHad(int starts, Judge judge, int fresh) throws InterruptedException {
         BestGait best = best(starts, judge, false);
 
-        List<EvaluationRecord> evolved = RunFolder.open(folder.resolve("run")).recorded();
+        List<EvaluationRecord> evolved = RunFolder.open(folder.resolve("run")).recorded().rows();
         List<Integer> used = evolved.stream().map(EvaluationRecord::start).toList();
         List<SimulationRequest> after = asked.stream()
                 .filter(one -> one.start() != null && !used.contains(one.start())).toList();

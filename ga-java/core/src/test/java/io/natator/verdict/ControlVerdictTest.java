@@ -51,6 +51,24 @@ class ControlVerdictTest {
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
     }
 
+    /** Of a net way of 0.75 half is 0.375: controls that are known no better than to this side or that of it decide nothing. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "0.5|0.05|0.7|0.0|DOES_NOT_SWIM|does not swim: moves 0.7 times as far in vacuum",
+        "-0.5|0.1|0.7|0.0|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but it moves 0.7 ± 0.3 times as far in vacuum",
+        "0.3|0.1|0.7|0.0|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but it moves 0.4 ± 0.3 times as far in vacuum",
+        "0.3|0.01|0.3|0.1|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but without the acceleration clamp 41 % ± 27 % "
+            + "of its way is left",
+        "0.0|0.1|0.2|0.05|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 28 % of its way is left"})
+    void whatIsNotKnownWellDecidesNothing(double vacuum, double vacuumFrom, double clampOff, double clampOffFrom, Verdict.Kind kind,
+            String text) {
+        Controls controls = new Controls(GAIT, null, "flex", 4.0, 1.25, sample(0.74, 0.01), sample(-0.01, 0), sample(vacuum, vacuumFrom),
+                sample(clampOff, clampOffFrom), sample(0.7, 0), sample(0.74, 0), null, null, 0.9);
+
+        assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
+        assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
+    }
+
     /** Where there is a GPU it must swim on that too; a program without clamp or water is not asked for them. */
     @ParameterizedTest
     @CsvSource({"0.7, SWIMS, on cuda (95 %)", "0.1, UNPROVEN, on cuda 15 % of its way is left"})

@@ -1,6 +1,8 @@
 package io.natator.plot;
 
 import java.io.IOException;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -8,6 +10,8 @@ import org.slf4j.LoggerFactory;
 public final class Drawing {
 
     private static final Logger LOG = LoggerFactory.getLogger(Drawing.class);
+    /** What was said: a process may end many runs. */
+    private static final Set<String> WARNINGS = ConcurrentHashMap.newKeySet();
 
     private Drawing() {
     }
@@ -40,7 +44,8 @@ public final class Drawing {
             while (first.getCause() != null) {
                 first = first.getCause();
             }
-            return String.valueOf(first.getMessage() == null ? first : first.getMessage()).strip().replaceAll("\\s*\\R\\s*", " | ");
+            return String.valueOf(first.getMessage() == null ? first : first.getMessage()).replaceAll(" *\\[in thread \"[^\"]*\"]", "").strip()
+                    .replaceAll("\\s*\\R\\s*", " | ");
         }
     }
 
@@ -59,7 +64,7 @@ public final class Drawing {
     }
 
     /**
-     * Draws what can be done without: if Java cannot, a warning says so.
+     * Draws what can be done without: if Java cannot, a warning says so, the first time.
      *
      * @param <E>  what else it may throw
      * @param what is drawn, for the warning
@@ -69,7 +74,10 @@ public final class Drawing {
         try {
             checked(task);
         } catch (CannotDrawException e) {
-            LOG.warn("{} not drawn: {}", what, e.getMessage());
+            String warning = what + " not drawn: " + e.getMessage();
+            if (WARNINGS.add(warning)) {
+                LOG.warn(warning);
+            }
         }
     }
 }

@@ -1,9 +1,8 @@
 package io.natator.report;
 
 import com.fasterxml.jackson.annotation.JsonProperty;
-import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.config.InvalidInputException;
-import io.natator.config.Json;
+import io.natator.file.CompressedJson;
 import io.natator.flow.FlowField;
 import io.natator.kinematics.Attitude;
 import io.natator.kinematics.BodyPath;
@@ -11,14 +10,10 @@ import io.natator.kinematics.SpinePath;
 import io.natator.simulator.SimulationRequest;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardCopyOption;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.zip.GZIPInputStream;
-import java.util.zip.GZIPOutputStream;
 
 /**
  * What pictures of a run are drawn from; a file {@code NAME.json.gz}. Lengths are rounded to 10⁻⁶ scene units.
@@ -66,16 +61,12 @@ public record Recording(@JsonProperty(required = true) String program,
 
     /** Writes the file; it appears whole. */
     public void write(Path file) {
-        Path fresh = file.resolveSibling(file.getFileName() + ".new");
         try {
             Files.createDirectories(file.toAbsolutePath().getParent());
-            try (GZIPOutputStream out = new GZIPOutputStream(Files.newOutputStream(fresh))) {
-                out.write(Json.line(this).getBytes(StandardCharsets.UTF_8));
-            }
-            Files.move(fresh, file, StandardCopyOption.REPLACE_EXISTING);
         } catch (IOException e) {
             throw new UncheckedIOException("cannot write " + file + ": " + e.getMessage(), e);
         }
+        CompressedJson.write(file, this);
     }
 
     /**
@@ -84,12 +75,6 @@ public record Recording(@JsonProperty(required = true) String program,
      * @throws InvalidInputException if it is no recording
      */
     public static Recording read(Path file) {
-        try (GZIPInputStream in = new GZIPInputStream(Files.newInputStream(file))) {
-            return Json.parse(new String(in.readAllBytes(), StandardCharsets.UTF_8), Recording.class);
-        } catch (JsonProcessingException e) {
-            throw new InvalidInputException("recording " + file + ": " + Json.reason(e), e);
-        } catch (IOException e) {
-            throw new InvalidInputException("recording " + file + " cannot be read: " + e.getMessage(), e);
-        }
+        return CompressedJson.read(file, Recording.class, "recording");
     }
 }

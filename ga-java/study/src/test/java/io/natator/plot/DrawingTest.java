@@ -29,6 +29,11 @@ class DrawingTest {
                 .initCause(new UnsatisfiedLinkError("libfreetype.so.6: cannot open shared object file"));
     }
 
+    /** What Java throws when it tries a second time. */
+    private static void inAnotherThread() {
+        throw new NoClassDefFoundError("libfreetype.so.6: cannot open shared object file [in thread \"pool-1-thread-2\"]");
+    }
+
     private static List<String> warnings(Drawing.Task<RuntimeException> task) throws IOException {
         Logger logger = (Logger) LoggerFactory.getLogger(Drawing.class);
         ListAppender<ILoggingEvent> seen = new ListAppender<>();
@@ -48,6 +53,8 @@ class DrawingTest {
                 + "them (Fontconfig head is null, | check your fonts or fonts configuration)" + ADVICE);
         assertThat(warnings(DrawingTest::withoutLibrary)).containsExactly("fitness curve not drawn: Java finds no fonts, or no library that reads "
                 + "them (libfreetype.so.6: cannot open shared object file)" + ADVICE);
+        assertThat(warnings(DrawingTest::withoutFonts)).as("said before").isEmpty();
+        assertThat(warnings(DrawingTest::inAnotherThread)).as("said before, by another thread").isEmpty();
         assertThat(warnings(() -> { })).isEmpty();
     }
 

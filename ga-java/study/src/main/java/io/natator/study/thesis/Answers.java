@@ -49,9 +49,9 @@ final class Answers {
             return List.of("**Nothing is measured yet.**");
         }
         List<String> sentences = new ArrayList<>();
-        String evolved = inEach(water -> swimming(best(water)));
+        String evolved = inEach(water -> swimming(results.evolved(water)));
         sentences.add("**Of the thesis' gaits " + inEach(water -> swimming(published(water))) + " swim by every control"
-                + (evolved.isEmpty() ? ".**" : "; of what its four bodies evolve here " + evolved + " do.**"));
+                + (evolved.isEmpty() ? ".**" : "; of the gaits that evolved here " + evolved + " do.**"));
         String fastest = inEach(this::fastest);
         if (!fastest.isEmpty()) {
             sentences.add("The fastest that swims is " + fastest + ".");
@@ -86,7 +86,7 @@ final class Answers {
     }
 
     private String fastest(Water water) {
-        return best(water).stream().filter(this::swims).max(Comparator.comparingDouble(subject -> results.speed(subject).orElseThrow().mean()))
+        return results.evolved(water).stream().filter(this::swims).max(Comparator.comparingDouble(subject -> results.speed(subject).orElseThrow().mean()))
                 .map(subject -> "creature " + subject.creature() + " at " + results.speed(subject).orElseThrow()
                         .text(results.bodyLength(subject.creature())) + " body lengths/s").orElse(null);
     }
@@ -112,19 +112,25 @@ final class Answers {
                 row.add(told(Optional.of(Subject.of(gait, water))));
             }
             for (Water water : Water.values()) {
-                row.add(isPublished ? told(results.best(gait.creature(), water)) : "");
+                row.add(isPublished ? toldOfSeeds(gait.creature(), water) : "");
             }
             rows.add(row);
         }
         return new FirstScreen.Evidence(List.of("creature", "published", "thesis' gait, flex", "thesis' gait, open water", "evolved, flex",
                 "evolved, open water"), rows, "Speed in scene units/s ± the largest of: the 95 % interval over fresh starts, the change at half "
                 + "the time step, the change at half the spacing (where evolved). ✔ swims by every control, ✘ does not, – may: "
-                + "[what the controls are](#how-it-was-judged). Evolved: of the seeds the fastest by the lower of its speeds at both time steps.");
+                + "[what the controls are](#how-it-was-judged). Evolved: of the seeds the fastest by the lower of its speeds at both time steps, and how many of "
+                + "them swim.");
     }
 
     private String told(Optional<Subject> subject) {
         return subject.flatMap(one -> results.speed(one).map(speed -> results.verdict(one).map(Answers::sign).orElse("–") + " "
                 + speed.text(1))).orElse("");
+    }
+
+    private String toldOfSeeds(int creature, Water water) {
+        String seeds = swimming(results.evolved(water).stream().filter(subject -> subject.creature() == creature).toList());
+        return told(results.best(creature, water)) + (seeds == null ? "" : " (" + seeds + ")");
     }
 
     /** What stands before a verdict: ✔, ✘ or –. */

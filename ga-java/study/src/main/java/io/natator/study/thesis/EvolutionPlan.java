@@ -90,7 +90,9 @@ public final class EvolutionPlan {
                 for (int creature : seed <= counts.get(water) ? creatures : List.<Integer>of()) {
                     EvolutionSettings settings = size.of(settings(creature, water, simulator), water).withBackend(backend);
                     Path folder = seeds(creature, water, directory).resolve(SEED + seed);
-                    runs.add(new EvolvedRun(creature, water, seed, new PlannedRun(settings.withSeed(seed), folder)));
+                    EvolutionSettings own = size.generations() == null && StoredRun.exists(folder)
+                            ? settings.withSize(settings.population(), StoredRun.settings(folder).generations()) : settings;
+                    runs.add(new EvolvedRun(creature, water, seed, new PlannedRun(own.withSeed(seed), folder)));
                 }
             }
         }

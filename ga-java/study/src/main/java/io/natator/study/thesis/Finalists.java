@@ -1,5 +1,6 @@
 package io.natator.study.thesis;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import io.natator.checkpoint.JudgedGait;
 import io.natator.checkpoint.StoredRun;
@@ -9,15 +10,22 @@ import io.natator.encoding.Gait;
 import io.natator.file.AtomicFile;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.Comparator;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
+import java.util.Objects;
+import java.util.stream.Stream;
 
 /**
  * The gaits of a finished evolution that are worth being judged again, the best first; {@code finalists.json} in its run
  * folder, since the evaluations that they are taken from are too large to be kept.
  *
- * @param gaits with what they were worth to the evolution
+ * @param gaits      with what they were worth to the evolution
+ * @param generation after which they were taken; null in files of older programs: the last
  */
-public record Finalists(@JsonProperty(required = true) List<Finalist> gaits) {
+public record Finalists(@JsonProperty(required = true) List<Finalist> gaits,
+        @JsonInclude(JsonInclude.Include.NON_NULL) Integer generation) {
 
     private static final String FILE = "finalists.json";
     static final int COUNT = 8;
@@ -34,22 +42,45 @@ public record Finalists(@JsonProperty(required = true) List<Finalist> gaits) {
         private static Finalist of(JudgedGait judged) {
             return new Finalist(judged.swimmer().gait(), judged.score(), judged.runs());
         }
+
+        /** The same gait by the runs of both. */
+        private Finalist with(Finalist other) {
+            int all = runs + other.runs;
+            return new Finalist(gait, (score * runs + other.score * other.runs) / all, all);
+        }
     }
 
     /**
-     * Takes them from a finished run, if that has not been done.
+     * Takes them from a finished run, if that has not been done: of all its gaits, or, where its first evaluations are gone, of
+     * those taken before and all since.
      *
      * @throws InvalidInputException if they are neither there nor to be had, since the evaluations are gone
      */
     public static void keep(Path run) {
-        if (Files.exists(run.resolve(FILE))) {
+        Finalists before = Files.exists(run.resolve(FILE)) ? of(run) : null;
+        int generation = StoredRun.state(run).generation();
+        if (before != null && Objects.equals(before.generation, generation)) {
             return;
         }
-        List<JudgedGait> gaits = StoredRun.in(run).gaits();
+        StoredRun stored = StoredRun.in(run);
+        if (before != null && stored.evaluations().isEmpty()) {
+            return;
+        }
+        List<Finalist> gaits = stored.gaits().stream().map(Finalist::of).toList();
         if (gaits.isEmpty()) {
             throw new InvalidInputException(run + " has no evaluations any more and no " + FILE + "; delete it to evolve it again");
         }
-        AtomicFile.write(run.resolve(FILE), Json.document(new Finalists(gaits.stream().limit(COUNT).map(Finalist::of).toList())));
+        if (before != null && stored.evaluations().get(0).result().id() > 0) {
+            gaits = joined(before.gaits, gaits);
+        }
+        AtomicFile.write(run.resolve(FILE), Json.document(new Finalists(gaits.stream().limit(COUNT).toList(), generation)));
+    }
+
+    /** Those of both parts of a run, the best first. */
+    private static List<Finalist> joined(List<Finalist> before, List<Finalist> since) {
+        Map<Gait, Finalist> all = new LinkedHashMap<>();
+        Stream.concat(before.stream(), since.stream()).forEach(one -> all.merge(one.gait, one, Finalist::with));
+        return all.values().stream().sorted(Comparator.comparingDouble(Finalist::score).reversed()).toList();
     }
 
     /** Those of a run that were kept. */

@@ -2,6 +2,7 @@ package io.natator.study.thesis;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -22,6 +23,8 @@ class EvolutionPlanTest {
     private EvolutionPlan plan(Integer seeds) throws InterruptedException {
         return new EvolutionPlan(List.of(1, 2), List.of(Water.values()), seeds, SIZE, Backend.CPU, SIMULATOR, folder);
     }
+
+    private final int generations = StoredRun.settings(FINISHED).generations();
 
     private void hold(String run, String... names) throws IOException {
         Path copy = Files.createDirectories(folder.resolve("runs").resolve(run));
@@ -59,8 +62,8 @@ class EvolutionPlanTest {
         assertThat(seeds(plan, Water.OPEN_WATER)).as("the same command goes on until there are three")
                 .isEqualTo("[1/1, 2/1, 1/2, 2/2, 1/3, 2/3]");
         assertThat(plan.finished()).hasSize(4);
-        assertThat(plan.extents()).containsEntry(Water.FLEX, new EvolutionPlan.Extent(5, 25))
-                .containsEntry(Water.OPEN_WATER, new EvolutionPlan.Extent(2, 25));
+        assertThat(plan.extents()).containsEntry(Water.FLEX, new EvolutionPlan.Extent(5, generations))
+                .containsEntry(Water.OPEN_WATER, new EvolutionPlan.Extent(2, generations));
         assertThat(plan.begun()).as("5 and 2 of 2 creatures").hasSize(14);
     }
 
@@ -70,7 +73,7 @@ class EvolutionPlanTest {
 
         assertThat(seeds(plan(2), Water.FLEX)).isEqualTo("[1/1, 2/1, 1/2, 2/2]");
         assertThat(plan(6).runs()).hasSize(24);
-        assertThat(plan(6).extents()).containsEntry(Water.FLEX, new EvolutionPlan.Extent(4, 25))
+        assertThat(plan(6).extents()).containsEntry(Water.FLEX, new EvolutionPlan.Extent(4, generations))
                 .containsEntry(Water.OPEN_WATER, new EvolutionPlan.Extent(6, 7));
     }
 }

@@ -53,7 +53,7 @@ class WinnersTest {
         Path directory = folder.resolve("runs/creature-1/flex/seed-1");
         Files.createDirectories(directory);
         Files.writeString(directory.resolve("finalists.json"), Json.document(new Finalists(List.of(new Finalists.Finalist(LUCKY, 2.9, 1),
-                new Finalists.Finalist(GOOD, 0.8, 5)))));
+                new Finalists.Finalist(GOOD, 0.8, 5)), 3)));
         run = new EvolvedRun(1, Water.FLEX, 1, new PlannedRun(EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2), directory));
     }
 
