@@ -21,7 +21,7 @@ void pause() {
 /// two; falling asleep and being woken takes longer than these, so it looks for a while before it sleeps.
 template <class T>
 void wait(const std::atomic<T>& value, T old) {
-    constexpr int looks = 1000;  // some ten microseconds
+    constexpr int looks = 4000;  // some forty microseconds
     for (int k = 0; k < looks; ++k) {
         if (value != old) return;
         pause();
