@@ -4,14 +4,17 @@ usage: draw_pareto.py [CASE [QUANTITY [RESOLUTION [BACKEND]]]]; default: vortex 
 taken as 1 / Re. Settings that no other beats in both are joined and named: support, substeps x iterations. Needs Python alone.
 """
 import csv
-import math
 import pathlib
 import sys
 
+here = pathlib.Path(__file__).parent
+sys.path.append(str(here.parent))
+from log_chart import LogChart, around
+
 case, quantity, resolution, backend = [
     *sys.argv[1:5], *("vortex", "numerical Reynolds number", "20", "cpu")[len(sys.argv[1:5]):]]
-left, top, width, height = 80, 20, 480, 300
 colours = {"2": "#1668b0", "2.5": "#b04a16", "3": "#2a8a3a"}
+least_error = 1e-9  # that is drawn: 0 has no logarithm
 
 
 def error(row):
@@ -22,12 +25,12 @@ def error(row):
 
 
 def read():
-    with open(pathlib.Path(__file__).parent / "water.csv", newline="") as table:
+    with open(here / "water.csv", newline="") as table:
         for row in csv.DictReader(table):
             key = row["case"], row["quantity"], row["resolution"], row["backend"], row["scheme"]
             if key == (case, quantity, resolution, backend, "conserving") and row["status"] == "ok":
                 name = f'{row["support"]}, {row["substeps"]}×{row["iterations"]}'
-                yield float(row["run_time"]), error(row), name, row["support"]
+                yield float(row["run_time"]), max(error(row), least_error), name, row["support"]
 
 
 def front(points):
@@ -38,43 +41,23 @@ def front(points):
     return best
 
 
-def limits(values):
-    return min(values) / 1.5, max(values) * 1.5
-
-
 points = list(read())
 if not points:
     sys.exit(f"draw_pareto.py: water.csv has no {quantity!r} of {case} at resolution {resolution} on {backend}")
-times, errors = limits([p[0] for p in points]), limits([max(p[1], 1e-9) for p in points])
-
-
-def place(seconds, off):
-    x = math.log(seconds / times[0]) / math.log(times[1] / times[0])
-    y = math.log(max(off, 1e-9) / errors[0]) / math.log(errors[1] / errors[0])
-    return left + x * width, top + (1 - y) * height
-
-
-def text(x, y, words, more=""):
-    return f'<text x="{x:.1f}" y="{y:.1f}" {more}>{words}</text>'
-
-
-parts = [f'<rect x="{left}" y="{top}" width="{width}" height="{height}" fill="none" stroke="#888"/>',
-         text(left + width / 2, top + height + 36, "run time (s)", 'text-anchor="middle"'),
-         text(left, top - 6, f"error of: {case}, {quantity}")]
-for seconds in times[0] * 1.5, times[1] / 1.5:
-    parts.append(text(place(seconds, errors[0])[0], top + height + 16, f"{seconds:.3g}", 'text-anchor="middle"'))
-for off in errors[0] * 1.5, errors[1] / 1.5:
-    parts.append(text(left - 6, place(times[0], off)[1] + 4, f"{off:.2g}", 'text-anchor="end"'))
-path = " ".join("{:.1f},{:.1f}".format(*place(*p[:2])) for p in front(points))
-parts.append(f'<polyline points="{path}" fill="none" stroke="#bbb"/>')
+times, errors = [p[0] for p in points], [p[1] for p in points]
+chart = LogChart(around(times, 1.5), around(errors, 1.5))
+chart.name_x("run time (s)")
+chart.text((chart.left, chart.top - 6), f"error of: {case}, {quantity}")
+for seconds in min(times), max(times):
+    chart.mark_x(seconds, f"{seconds:.3g}")
+for off in min(errors), max(errors):
+    chart.mark_y(off, f"{off:.2g}")
+chart.line([chart.place(*p[:2]) for p in front(points)], 'stroke="#bbb"')
 for seconds, off, name, support in points:
-    x, y = place(seconds, off)
-    parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colours.get(support, "#555")}"/>')
+    chart.dot(chart.place(seconds, off), colours.get(support, "#555"))
 for seconds, off, name, _ in front(points):
-    x, y = place(seconds, off)
-    parts.append(text(x + 6, y - 6, name))
+    x, y = chart.place(seconds, off)
+    chart.text((x + 6, y - 6), name)
 for k, (support, colour) in enumerate(colours.items()):
-    parts.append(f'<circle cx="{left + width - 110}" cy="{top + 18 + 16 * k}" r="4" fill="{colour}"/>')
-    parts.append(text(left + width - 100, top + 22 + 16 * k, f"support {support}"))
-print(f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + 40}" height="{top + height + 50}" '
-      'font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="white"/>' + "\n".join(parts) + "</svg>")
+    chart.key(k, colour, f"support {support}", x=chart.left + chart.width - 110)
+print(chart.svg())
