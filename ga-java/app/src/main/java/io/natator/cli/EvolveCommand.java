@@ -176,7 +176,7 @@ final class EvolveCommand implements Callable<Integer> {
         checkStopAfter(stopAfter);
         if (resume != null) {
             refuseSettings();
-            ResumeCommand.resume(resume, executionOptions, cacheOptions, stopAfter, spec);
+            ResumeCommand.resume(resume, executionOptions, cacheOptions, stopAfter, null, spec);
             return ExitCode.OK;
         }
         ExecutionSettings execution = cacheOptions.in(executionOptions.execution(Backend.CPU));

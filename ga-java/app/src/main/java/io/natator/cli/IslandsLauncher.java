@@ -39,7 +39,7 @@ final class IslandsLauncher {
         try (Evaluator evaluator = EvolutionRun.open(limited);
                 ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter, () -> say("interrupted; " + how))) {
             StudyProgress progress = new StudyProgress(plan.islands(),
-                    (int) begun.stream().filter(StoredRun::isFinished).count(),
+                    IslandsRun.finished(archipelago),
                     plan.islands() * expected(plan.settings()), recorded, err) {
                 @Override
                 public EvolutionListener forRun() {

@@ -8,8 +8,13 @@ import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.evolution.EvolutionState;
 import io.natator.run.EvolutionRun;
+import io.natator.run.IslandsRun;
+import io.natator.run.PlannedRun;
 import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
@@ -38,7 +43,7 @@ final class ResumeCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--generations", paramLabel = "N",
-            description = "Go on to so many generations after the random one, more than the run was begun with; one that is finished, too.")
+            description = "Go on to so many generations after the random one, also where the run is finished; at least those that are done.")
     private Integer generations;
 
     @Section(Topic.EXTENT)
@@ -50,58 +55,77 @@ final class ResumeCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        if (generations != null) {
-            extend(folder, generations);
-        }
-        resume(folder, executionOptions, cacheOptions, stopAfter, spec);
+        resume(folder, executionOptions, cacheOptions, stopAfter, generations, spec);
         return ExitCode.OK;
     }
 
-    private static void extend(Path directory, int generations) {
-        boolean islands = Archipelago.exists(directory);
-        EvolutionSettings settings = islands ? Archipelago.in(directory).plan().settings() : StoredRun.settings(directory);
-        if (generations < settings.generations()) {
-            throw new InvalidInputException("--generations is " + generations + "; expected at least the " + settings.generations()
-                    + " of " + directory);
-        }
-        if (generations == settings.generations()) {
-            return;
-        }
-        if (islands) {
-            Archipelago.in(directory).extend(generations);
-            return;
-        }
-        EvolutionRun.checkAlone(directory, settings);
-        try (RunFolder folder = RunFolder.open(directory)) {
-            folder.extend(generations);
-        }
-    }
-
-    static void resume(Path directory, ExecutionOptions options, CacheOptions cache, Double stopAfter,
+    /**
+     * Continues a run.
+     *
+     * @param stopAfter   seconds, or null
+     * @param generations that it is to have from here on, or null
+     */
+    static void resume(Path directory, ExecutionOptions options, CacheOptions cache, Double stopAfter, Integer generations,
             CommandSpec spec) throws InterruptedException {
         EvolveCommand.checkStopAfter(stopAfter);
         if (Archipelago.exists(directory)) {
-            resume(Archipelago.in(directory), options, cache, stopAfter, spec);
+            resume(Archipelago.in(directory), options, cache, stopAfter, generations, spec);
             return;
         }
         EvolutionSettings settings = StoredRun.settings(directory);
         EvolutionRun.checkAlone(directory, settings);
         Backend before = settings.backend();
-        ExecutionSettings execution = cache.in(options.execution(before));
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
         RunFolder folder = RunFolder.open(directory);
-        if (isChanged(before, StoredRun.isFinished(directory), options, spec)) {
+        if (generations != null) {
+            changeGenerations(folder, generations);
+        }
+        boolean isFinished = new PlannedRun(folder.settings(), directory).isFinished();
+        if (isChanged(before, isFinished, options, spec)) {
             folder.changeBackend(options.backend());
         }
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
     }
 
-    private static void resume(Archipelago stored, ExecutionOptions options, CacheOptions cache, Double stopAfter,
+    private static void changeGenerations(RunFolder folder, int generations) {
+        EvolutionState state = folder.checkpoint();
+        int done = state == null ? 0 : state.generation();
+        String wrong = generations < done ? "--generations is " + generations + "; expected at least the " + done + " that are done"
+                : state != null && generations > done && state.isLastOf(folder.settings().withGenerations(generations))
+                ? folder.directory() + " ends after its " + state.evaluations() + " evaluations, however many --generations it may have" : null;
+        if (wrong != null) {
+            folder.close();
+            throw new InvalidInputException(wrong);
+        }
+        if (generations != folder.settings().generations()) {
+            folder.changeGenerations(generations);
+        }
+    }
+
+    private static void resume(Archipelago stored, ExecutionOptions options, CacheOptions cache, Double stopAfter, Integer generations,
             CommandSpec spec) throws InterruptedException {
-        Backend before = stored.plan().settings().backend();
-        ExecutionSettings execution = cache.in(options.execution(before));
-        boolean isFinished = stored.plan().islands() == stored.folders().stream().filter(StoredRun::isFinished).count();
-        Archipelago archipelago = isChanged(before, isFinished, options, spec) ? stored.changeBackend(options.backend()) : stored;
+        EvolutionSettings settings = stored.plan().settings();
+        Backend before = settings.backend();
+        ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
+        Archipelago extended = generations == null || generations == settings.generations() ? stored : extended(stored, generations);
+        boolean isFinished = extended.plan().islands() == IslandsRun.finished(extended);
+        Archipelago archipelago = isChanged(before, isFinished, options, spec) ? extended.changeBackend(options.backend()) : extended;
         new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
+    }
+
+    /** While no other process computes any of them. */
+    private static Archipelago extended(Archipelago stored, int generations) {
+        int before = stored.plan().settings().generations();
+        if (generations < before) {
+            throw new InvalidInputException("--generations is " + generations + "; expected at least the " + before + " of all islands");
+        }
+        List<RunFolder> islands = new ArrayList<>();
+        try {
+            stored.folders().forEach(folder -> islands.add(RunFolder.open(folder)));
+            return stored.extend(generations);
+        } finally {
+            islands.forEach(RunFolder::close);
+        }
     }
 
     /** Whether another backend is asked for, which is told of; what is finished keeps the one that it was computed on. */

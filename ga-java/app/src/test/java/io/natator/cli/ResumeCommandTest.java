@@ -3,6 +3,7 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.RunFolder;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -102,16 +103,37 @@ class ResumeCommandTest extends FakeSimulatorTest {
         err.getBuffer().setLength(0);
 
         assertThat(natator("resume", folderName, "--generations", "4")).isEqualTo(2);
-        assertThat(err.toString()).isEqualTo("natator resume: --generations is 4; expected at least the 5 of " + folderName + "\n");
+        assertThat(err.toString()).isEqualTo("natator resume: --generations is 4; expected at least the 5 that are done\n");
         assertThat(natator("resume", folderName, "--generations", "-1")).isEqualTo(2);
+        assertThat(natator("resume", folderName, "--generations", "60", "--stop-after", "-1")).isEqualTo(2);
+        assertThat(natator("resume", folderName, "--generations", "60", "--simulator-path", "/nowhere")).isNotZero();
+        assertThat(file("run", "config.json")).as("nothing was begun").isEqualTo(file("whole", "config.json"));
         assertThat(natator("resume", folderName, "--generations", "5")).isZero();
         assertThat(file("run", "checkpoint.json")).isEqualTo(file("whole", "checkpoint.json"));
     }
 
     @Test
+    void whatEndsByItsEvaluationsHasNoMoreGenerations() throws IOException {
+        assertThat(evolve("run", "--evaluations", "20")).isZero();
+        String config = file("run", "config.json");
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "9")).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run") + " ends after its 20 evaluations, however many --generations "
+                + "it may have\n");
+        assertThat(file("run", "config.json")).isEqualTo(config);
+    }
+
+    @Test
     void islandsCanHaveMoreGenerations() throws IOException {
         assertThat(evolve("run", "--islands", "2", "--migrate-every", "2")).as(err.toString()).isZero();
+        try (RunFolder used = RunFolder.open(folder.resolve("run/island-2"))) {
+            assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "7")).isEqualTo(2);
+            assertThat(err.toString()).endsWith("is in use by another run\n");
+            assertThat(used.settings().generations()).isEqualTo(3);
+        }
         assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "6")).as(err.toString()).isZero();
+        assertThat(err.toString()).doesNotContain("2 of 2 runs, 0 of");
         assertThat(evolveTo(6, "whole", "--islands", "2", "--migrate-every", "2")).isZero();
         for (String name : List.of("islands.json", "island-1/checkpoint.json", "island-2/checkpoint.json", "island-2/config.json",
                 "island-2/evaluations.jsonl", "island-1/migrants.jsonl")) {

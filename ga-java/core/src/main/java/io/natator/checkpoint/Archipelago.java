@@ -109,7 +109,7 @@ public record Archipelago(Path directory, Plan plan) {
 
     /** The same archipelago, from here on of so many generations, which are more than before. */
     public Archipelago extend(int generations) {
-        return with(plan.settings.withSize(plan.settings.population(), generations));
+        return with(plan.settings.withGenerations(generations));
     }
 
     private Archipelago with(EvolutionSettings settings) {

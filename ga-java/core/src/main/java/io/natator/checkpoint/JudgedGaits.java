@@ -16,7 +16,7 @@ import java.util.NavigableSet;
 import java.util.TreeSet;
 
 /** The gaits of a run as its evaluations become known one after another. */
-final class JudgedGaits {
+public final class JudgedGaits {
 
     private final EvolutionSettings settings;
     private final Genome genome;
@@ -55,6 +55,13 @@ final class JudgedGaits {
             swimmer = swimmer == null ? new Swimmer(first.gait(), genome.body(first.genes())) : swimmer;
             return new JudgedGait(first.genes(), swimmer, first.generation(), estimate.score(), estimate.runs().size());
         }
+    }
+
+    /** Those of these evaluations alone, the best first. */
+    public static List<JudgedGait> ranked(EvolutionSettings settings, List<EvaluationRecord> evaluations) {
+        JudgedGaits gaits = new JudgedGaits(settings);
+        evaluations.forEach(gaits::add);
+        return gaits.ranked();
     }
 
     JudgedGaits(EvolutionSettings settings) {

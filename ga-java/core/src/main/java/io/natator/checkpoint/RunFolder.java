@@ -222,15 +222,15 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     }
 
     /**
-     * From here on the run has so many generations, which are more than before.
+     * From here on the run has so many generations, at least those that are done.
      *
      * @throws InvalidInputException if it was made small and lacks what it would go on from; the folder is closed then
      */
-    public void extend(int generations) {
+    public void changeGenerations(int generations) {
         if (dropped > 0 && settings.optimizer() == OptimizerKind.CMA_ES) {
             refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
         }
-        settings = settings.withSize(settings.population(), generations);
+        settings = settings.withGenerations(generations);
         AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
     }
 

@@ -30,7 +30,7 @@ import org.slf4j.LoggerFactory;
  * @param settings    of the run
  * @param state       after the last finished generation, or null
  * @param best        the best gait so far, or null
- * @param evaluations all that are recorded, in the order of their ids
+ * @param evaluations all, in the order of their ids; none of a run that was made small, which lacks the first of them
  * @param statistics     what it did not have to simulate, or null if that was not recorded
  * @param vacuum      best gaits that were run in vacuum
  */
@@ -60,18 +60,20 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
             LOG.warn("{}; shown without it", e.getMessage());
             statistics = null;
         }
-        return new StoredRun(directory, settings, state, best(directory, settings, state),
-                evaluations(directory), statistics, vacuumRecords(directory));
+        List<EvaluationRecord> recorded = evaluations(directory);
+        boolean isWhole = recorded.isEmpty() || recorded.get(0).result().id() == 0;
+        return new StoredRun(directory, settings, state, best(directory, settings, state), isWhole ? recorded : List.of(), statistics,
+                vacuumRecords(directory));
     }
 
     /**
-     * What of the run is lost though nobody trimmed it, in one line; null if nothing is. It was trimmed where there is no
-     * population either; {@link CompactRun}.
+     * What of the run is lost though nobody trimmed it, in one line; null if nothing is. An older program trimmed it where there
+     * is no population either; {@link CompactRun}.
      */
     public String damage() {
-        boolean compact = state != null && state.population().isEmpty() && evaluations.isEmpty();
-        String damage = compact ? null
-                : RunFolder.damage(directory, state, CompactRun.dropped(directory, evaluations) + evaluations.size());
+        EvolutionState last = CompactRun.lastState(directory);
+        boolean compact = last != null && last.population().isEmpty() && evaluations.isEmpty();
+        String damage = compact ? null : RunFolder.damage(directory, last, evaluated(directory));
         return damage != null ? damage : RunFolder.damage(directory, settings.migration(), state, departures(directory).size());
     }
 
@@ -207,11 +209,9 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return bests;
     }
 
-    /** All gaits that are recorded, the best first. */
+    /** All gaits, the best first. */
     public List<JudgedGait> gaits() {
-        JudgedGaits gaits = new JudgedGaits(settings);
-        evaluations.forEach(gaits::add);
-        return gaits.ranked();
+        return JudgedGaits.ranked(settings, evaluations);
     }
 
     /** Best fitness after each evaluation. */

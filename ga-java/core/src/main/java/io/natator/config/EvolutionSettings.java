@@ -128,6 +128,11 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
                 Backend.CPU, null, null, null, 1, Judge.MEAN, null, null, null);
     }
 
+    /** These settings with another number of generations. */
+    public EvolutionSettings withGenerations(int newGenerations) {
+        return with(to -> to.generations(newGenerations));
+    }
+
     /** These settings with another size. */
     public EvolutionSettings withSize(int newPopulation, int newGenerations) {
         return with(to -> to.population(newPopulation).generations(newGenerations));

@@ -18,6 +18,8 @@ final class EvaluationCounter implements EvolutionListener {
 
     private static final Logger LOG = LoggerFactory.getLogger(EvaluationCounter.class);
 
+    private static final double NANOSECONDS = 1e9;
+
     private final RunFolder folder;
     private final double duration;
     private final LongSupplier found;
@@ -25,8 +27,10 @@ final class EvaluationCounter implements EvolutionListener {
     private long evaluations;
     private long refused;
     private long stoppedEarly;
-    /** Seconds; exactly 0 if nothing ended early. */
-    private double saved;
+    /** Nanoseconds, so that sums of parts of a run are those of the whole. */
+    private long saved;
+    /** Whether it is known what to count on from. */
+    private final boolean known;
 
     /**
      * Counts on from the folder's checkpoint.
@@ -40,12 +44,13 @@ final class EvaluationCounter implements EvolutionListener {
         this.found = found;
         EvaluationStatistics before = statistics(folder);
         this.foundBefore = before == null ? 0 : before.fromCache();
+        long first = folder.recorded().first();
+        this.known = first == 0 || before != null;
+        if (first > 0 && known) {
+            takeOver(before);
+            first = evaluations;
+        }
         if (folder.checkpoint() != null) {
-            long first = folder.recorded().first();
-            if (first > 0 && before != null) {
-                takeOver(before);
-                first = before.evaluations();
-            }
             folder.recorded().between(first, folder.checkpoint().evaluations()).forEach(this::evaluated);
         }
     }
@@ -55,7 +60,7 @@ final class EvaluationCounter implements EvolutionListener {
         evaluations = before.evaluations();
         refused = before.evaluations() - before.simulations();
         stoppedEarly = before.stoppedEarly();
-        saved = before.wholeSeconds() - before.simulatedSeconds();
+        saved = Math.round((before.wholeSeconds() - before.simulatedSeconds()) * NANOSECONDS);
     }
 
     /** Of the run so far; a damaged file of them costs only how many results came from the cache. */
@@ -63,7 +68,8 @@ final class EvaluationCounter implements EvolutionListener {
         try {
             return StoredRun.statistics(folder.directory());
         } catch (InvalidInputException e) {
-            LOG.warn("{}; counted anew, without the results that came from the cache", e.getMessage());
+            LOG.warn(folder.recorded().first() == 0 ? "{}; counted anew, without the results that came from the cache"
+                    : "{}; not counted any more, since the first evaluations are gone", e.getMessage());
             return null;
         }
     }
@@ -77,15 +83,17 @@ final class EvaluationCounter implements EvolutionListener {
         }
         if (result.isStoppedEarly(duration)) {
             stoppedEarly++;
-            saved += duration - result.simulatedOf(duration);
+            saved += Math.round((duration - result.simulatedOf(duration)) * NANOSECONDS);
         }
     }
 
     @Override
     public void generationFinished(EvolutionState state) {
         long unchanged = state.history().stream().mapToLong(GenerationSummary::unchangedOrRest).sum();
-        double whole = (evaluations - refused) * duration;
-        folder.write(new EvaluationStatistics(evaluations, unchanged, foundBefore + found.getAsLong(), stoppedEarly,
-                whole - saved, whole, refused));
+        long whole = (evaluations - refused) * Math.round(duration * NANOSECONDS);
+        if (known) {
+            folder.write(new EvaluationStatistics(evaluations, unchanged, foundBefore + found.getAsLong(), stoppedEarly,
+                    (whole - saved) / NANOSECONDS, whole / NANOSECONDS, refused));
+        }
     }
 }

@@ -141,7 +141,8 @@ public final class EvolutionRun {
             List<EvolutionListener> listeners) throws InterruptedException {
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
-        List<EvolutionListener> all = new ArrayList<>(List.of(folder, new EvaluationCounter(folder, duration, found)));
+        EvaluationCounter counter = new EvaluationCounter(folder, duration, found);
+        List<EvolutionListener> all = new ArrayList<>(List.of(folder, counter));
         if (settings.vacuumCheck()) {
             all.add(new VacuumCheck(folder, evaluator));
         }
@@ -150,6 +151,7 @@ public final class EvolutionRun {
                 : new BodyCheckEvaluator(evaluator, settings, execution.simulator());
         EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded(),
                 exchange).run(folder.checkpoint());
+        counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
         BestGait best = folder.writeResults(state);
         if (best != null) {
             best = examined(best, state.best(), new FreshStarts(settings, evaluator, execution.simulator()), evaluator,

@@ -19,8 +19,17 @@ public final class IslandsRun {
 
     /** Of these islands, whose folders need not be there yet. */
     public IslandsRun(Archipelago archipelago) {
-        this.islands = IntStream.rangeClosed(1, archipelago.plan().islands())
+        this.islands = islands(archipelago);
+    }
+
+    private static List<PlannedRun> islands(Archipelago archipelago) {
+        return IntStream.rangeClosed(1, archipelago.plan().islands())
                 .mapToObj(i -> new PlannedRun(archipelago.plan().settings(i), archipelago.folder(i))).toList();
+    }
+
+    /** How many of the islands have come to the end that is planned. */
+    public static int finished(Archipelago archipelago) {
+        return (int) islands(archipelago).stream().filter(PlannedRun::isFinished).count();
     }
 
     /**

@@ -24,8 +24,8 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
             return RunFolder.create(directory, settings);
         }
         RunFolder folder = RunFolder.open(directory);
-        if (isShorter(folder.settings())) {
-            folder.extend(settings.generations());
+        if (isShorter(folder.settings()) && folder.settings().withGenerations(settings.generations()).equals(settings)) {
+            folder.changeGenerations(settings.generations());
         }
         if (!folder.settings().equals(settings)) {
             folder.close();
@@ -35,15 +35,13 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
         return folder;
     }
 
-    /** Whether it has come to its end. */
+    /** Whether it has come to its end; one of fewer generations than this has not. */
     public boolean isFinished() {
         return StoredRun.isFinished(directory) && !isShorter(StoredRun.settings(directory));
     }
 
-    /** Whether the stored run is the first part of this one. */
     private boolean isShorter(EvolutionSettings stored) {
-        return stored.generations() < settings.generations()
-                && stored.withSize(stored.population(), settings.generations()).equals(settings);
+        return stored.generations() < settings.generations();
     }
 
     /** How many of its evaluations are recorded. */

@@ -87,6 +87,7 @@ class CompactRunTest {
 
         evolve(parts, settings.withSize(8, 3));
         assertThat(StoredRun.in(parts).damage()).isNull();
+        assertThat(StoredRun.in(parts).evaluations()).as("not the whole course").isEmpty();
         evolve(parts, settings.withSize(8, 5));
 
         Path whole = folder.resolve("whole");
@@ -101,6 +102,34 @@ class CompactRunTest {
         CompactRun.compact(parts);
         CompactRun.compact(whole);
         assertThat(parts.resolve("checkpoint.json.gz")).hasSameBinaryContentAs(whole.resolve("checkpoint.json.gz"));
+    }
+
+    /** What was written first is whole: the kill may come after any of the steps, and before the first new evaluation. */
+    @Test
+    void aRunThatWasKilledWhileItWasMadeSmallIsSound() throws Exception {
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 2);
+        Path run = folder.resolve("run");
+        evolve(run, settings);
+        byte[] evaluations = Files.readAllBytes(run.resolve("evaluations.jsonl"));
+        byte[] checkpoint = Files.readAllBytes(run.resolve("checkpoint.json"));
+        CompactRun.compact(run);
+        byte[] small = Files.readAllBytes(run.resolve("checkpoint.json"));
+        Path whole = folder.resolve("whole");
+        evolve(whole, settings.withSize(8, 3));
+
+        for (byte[] state : List.of(checkpoint, small)) {
+            Files.write(run.resolve("checkpoint.json"), state);
+            Files.write(run.resolve("evaluations.jsonl"), evaluations);
+            assertThat(StoredRun.in(run).damage()).isNull();
+        }
+        try (RunFolder opened = RunFolder.open(run)) {
+            opened.changeGenerations(3);
+            assertThat(StoredRun.in(run).damage()).isNull();
+        }
+        evolve(run, settings.withSize(8, 3));
+        for (String name : List.of("checkpoint.json", "evaluations.jsonl", "savings.json")) {
+            assertThat(run.resolve(name)).as(name).hasSameTextualContentAs(whole.resolve(name));
+        }
     }
 
     @Test

@@ -90,9 +90,9 @@ public final class EvolutionPlan {
                 for (int creature : seed <= counts.get(water) ? creatures : List.<Integer>of()) {
                     EvolutionSettings settings = size.of(settings(creature, water, simulator), water).withBackend(backend);
                     Path folder = seeds(creature, water, directory).resolve(SEED + seed);
-                    EvolutionSettings own = size.generations() == null && StoredRun.exists(folder)
-                            ? settings.withSize(settings.population(), StoredRun.settings(folder).generations()) : settings;
-                    runs.add(new EvolvedRun(creature, water, seed, new PlannedRun(own.withSeed(seed), folder)));
+                    int generations = size.generations() != null ? size.generations() : held(folder, settings.generations());
+                    runs.add(new EvolvedRun(creature, water, seed,
+                            new PlannedRun(settings.withGenerations(generations).withSeed(seed), folder)));
                 }
             }
         }
@@ -100,6 +100,12 @@ public final class EvolutionPlan {
 
     private static Path seeds(int creature, Water water, Path directory) {
         return directory.resolve("runs").resolve("creature-" + creature).resolve(water.label());
+    }
+
+    /** Generations of the evolution in a folder, else of the first seed beside it, else the usual number. */
+    private static int held(Path folder, int usual) {
+        return Stream.of(folder, folder.resolveSibling(SEED + 1)).filter(StoredRun::exists)
+                .map(one -> StoredRun.settings(one).generations()).findFirst().orElse(usual);
     }
 
     /** The largest seed of a finished evolution, of any of the creatures; 0 without one. */

@@ -3,10 +3,12 @@ package io.natator.study.thesis;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import io.natator.checkpoint.JudgedGait;
+import io.natator.checkpoint.JudgedGaits;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
+import io.natator.evolution.EvaluationRecord;
 import io.natator.file.AtomicFile;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -43,10 +45,12 @@ public record Finalists(@JsonProperty(required = true) List<Finalist> gaits,
             return new Finalist(judged.swimmer().gait(), judged.score(), judged.runs());
         }
 
-        /** The same gait by the runs of both. */
-        private Finalist with(Finalist other) {
-            int all = runs + other.runs;
-            return new Finalist(gait, (score * runs + other.score * other.runs) / all, all);
+        /** The same gait by these runs, too, of those that are its own. */
+        private Finalist with(List<EvaluationRecord> since) {
+            List<EvaluationRecord> own = since.stream().filter(one -> gait.equals(one.gait())).toList();
+            double sum = own.stream().mapToDouble(one -> one.result().score()).sum();
+            int all = runs + own.size();
+            return new Finalist(gait, (score * runs + sum) / all, all);
         }
     }
 
@@ -62,24 +66,25 @@ public record Finalists(@JsonProperty(required = true) List<Finalist> gaits,
         if (before != null && Objects.equals(before.generation, generation)) {
             return;
         }
-        StoredRun stored = StoredRun.in(run);
-        if (before != null && stored.evaluations().isEmpty()) {
+        List<EvaluationRecord> recorded = StoredRun.evaluations(run);
+        if (before != null && recorded.isEmpty()) {
             return;
         }
-        List<Finalist> gaits = stored.gaits().stream().map(Finalist::of).toList();
+        boolean isWhole = before == null || recorded.get(0).result().id() == 0;
+        List<EvaluationRecord> since = isWhole || before.generation == null ? recorded
+                : recorded.stream().filter(one -> one.generation() > before.generation).toList();
+        List<Finalist> gaits = JudgedGaits.ranked(StoredRun.settings(run), since).stream().map(Finalist::of).toList();
+        gaits = isWhole ? gaits : joined(before.gaits.stream().map(one -> one.with(since)).toList(), gaits);
         if (gaits.isEmpty()) {
             throw new InvalidInputException(run + " has no evaluations any more and no " + FILE + "; delete it to evolve it again");
-        }
-        if (before != null && stored.evaluations().get(0).result().id() > 0) {
-            gaits = joined(before.gaits, gaits);
         }
         AtomicFile.write(run.resolve(FILE), Json.document(new Finalists(gaits.stream().limit(COUNT).toList(), generation)));
     }
 
-    /** Those of both parts of a run, the best first. */
-    private static List<Finalist> joined(List<Finalist> before, List<Finalist> since) {
+    /** Those that were known before, and the others, the best first. */
+    private static List<Finalist> joined(List<Finalist> known, List<Finalist> others) {
         Map<Gait, Finalist> all = new LinkedHashMap<>();
-        Stream.concat(before.stream(), since.stream()).forEach(one -> all.merge(one.gait, one, Finalist::with));
+        Stream.concat(known.stream(), others.stream()).forEach(one -> all.putIfAbsent(one.gait, one));
         return all.values().stream().sorted(Comparator.comparingDouble(Finalist::score).reversed()).toList();
     }
 

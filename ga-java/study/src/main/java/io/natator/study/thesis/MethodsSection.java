@@ -6,6 +6,7 @@ import io.natator.config.Json;
 import io.natator.report.ReportDocument;
 import java.util.Arrays;
 import java.util.DoubleSummaryStatistics;
+import java.util.IntSummaryStatistics;
 import java.util.List;
 import java.util.Locale;
 import java.util.Objects;
@@ -82,11 +83,17 @@ final class MethodsSection {
                 + Arrays.stream(Water.values()).map(this::evolutions).flatMap(Optional::stream).collect(Collectors.joining(" "));
     }
 
+    /** Of all evolutions; from the least to the most where some have gone on further than others. */
+    private static String generations(List<EvolutionSettings> settings) {
+        IntSummaryStatistics all = settings.stream().mapToInt(EvolutionSettings::generations).summaryStatistics();
+        return all.getMin() == all.getMax() ? "" + all.getMin() : all.getMin() + " to " + all.getMax();
+    }
+
     private Optional<String> evolutions(Water water) {
         List<EvolutionSettings> settings = results.runs().stream().filter(run -> run.water() == water)
                 .map(run -> StoredRun.settings(run.plan().directory())).toList();
         return settings.stream().findFirst().map(one -> "In " + water.words() + " " + settings.size() + " evolutions of " + one.population()
-                + " chromosomes over " + one.generations() + " generations, " + one.starts() + " starts for each new gait and the best judged again in every "
+                + " chromosomes over " + generations(settings) + " generations, " + one.starts() + " starts for each new gait and the best judged again in every "
                 + "generation" + (one.duration() == null ? ", 4 s a run" : ", " + one.duration() + " s a run")
                 + (one.overrides() == null ? "." : ", at coarser steps (`" + Json.line(one.overrides()) + "`) than they are judged by."));
     }

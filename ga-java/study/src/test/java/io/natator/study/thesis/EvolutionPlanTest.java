@@ -67,6 +67,22 @@ class EvolutionPlanTest {
         assertThat(plan.begun()).as("5 and 2 of 2 creatures").hasSize(14);
     }
 
+    /** What goes on is asked for; otherwise further seeds have as many as the first. */
+    @Test
+    void soManyGenerationsAsThereAreAreUsual() throws InterruptedException, IOException {
+        hold("creature-1/flex/seed-1", "config.json", "checkpoint.json", "best.json");
+
+        EvolutionPlan usual = new EvolutionPlan(List.of(1, 2), List.of(Water.FLEX), 2, new EvolutionPlan.Size(null, null, null, null), Backend.CPU,
+                SIMULATOR, folder);
+        assertThat(usual.runs().stream().map(run -> run.plan().settings().generations())).as("1/1, 2/1, 1/2, 2/2")
+                .containsExactly(generations, 25, generations, 25);
+        assertThat(usual.finished()).hasSize(1);
+
+        EvolutionPlan more = new EvolutionPlan(List.of(1), List.of(Water.FLEX), 1, new EvolutionPlan.Size(null, generations + 1, null, null),
+                Backend.CUDA, SIMULATOR, folder);
+        assertThat(more.finished()).as("it is to go on").isEmpty();
+    }
+
     @Test
     void whatIsAskedForCounts() throws InterruptedException, IOException {
         hold("creature-1/flex/seed-4", "config.json", "checkpoint.json", "best.json");
