@@ -33,6 +33,23 @@ class ViewControlsTest extends ViewBrowserTest {
         await("natator.scene().gait.frequency === 1.85");
     }
 
+    /** By as much more for each actuator, so that what an evolved gait has of its own stays; as far as the beat leaves room. */
+    @Test
+    void steeringBendsTheBodyBesideTheBeat() throws IOException {
+        openAtRest();
+        List<?> straight = pathOf(12);
+        get("steer").fill("0.5");
+        await("natator.scene().gait.offset?.every(one => one === 0.5)");
+        assertThat(pathOf(12)).isNotEqualTo(straight);
+        get("steer-number").fill("1.75");
+        get("steer-number").press("Enter");
+        await("natator.scene().gait.offset.every((one, i) => Math.abs(one + natator.scene().gait.amplitude[i] - 2) < 1e-9)");
+        get("steer-number").fill("3");
+        get("steer-number").press("Enter");
+        assertThat(get("steer-error")).hasText("Steer: 3 is not used; expected -2 to 2");
+        assertThat(gait().get("amplitude").get(1).asDouble()).isEqualTo(0.6);
+    }
+
     /** Where the body is after so many frames from the start. */
     private List<?> pathOf(int frames) {
         get("reset").click();

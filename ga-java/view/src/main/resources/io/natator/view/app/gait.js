@@ -1,4 +1,4 @@
-/** Controls of the gait: one frequency, amplitude and phase of each actuator. */
+/** Controls of the gait: one frequency, where it steers, amplitude and phase of each actuator. */
 
 import {byId, make} from './element.js';
 import {Slider, sliderRow} from './sliders.js';
@@ -6,6 +6,10 @@ import {Slider, sliderRow} from './sliders.js';
 /** Ranges in which gaits are looked for, and those that the simulator accepts. */
 const FREQUENCY = {id: 'frequency', label: 'Frequency', title: 'beats per second', unit: '/s', min: 0.5, max: 2, step: 0.01,
   accepts: [0.01, 60]};
+const STEER = {id: 'steer', label: 'Steer', title: 'bends the body beside the beat: above 0 to its left', min: -1, max: 1, step: 0.01,
+  accepts: [-2, 2]};
+/** What an actuator may be driven by at most, by beat and steering together. */
+const MOST_DRIVE = 2;
 
 /** A gait of any actuators that swims a little: a wave from head to tail. */
 export function waveGait(actuators) {
@@ -19,6 +23,26 @@ export function waveGait(actuators) {
 /** What drives each actuator beside the beat. */
 function offsets(gait) {
   return gait.offset ?? gait.amplitude.map(() => 0);
+}
+
+/** Numbers of the actuators of a scene (SCEN) that bend the body sideways. */
+function sidewaysActuators({actuators, muscles}) {
+  const upright = new Set(muscles.filter(muscle => muscle.bend === 'vertical').map(muscle => muscle.actuator));
+  return Array.from({length: actuators}, (_, i) => i).filter(i => !upright.has(i));
+}
+
+/** Mean offset of some of a gait's actuators. */
+export function steering(gait, sideways) {
+  return sideways.reduce((sum, i) => sum + offsets(gait)[i], 0) / sideways.length;
+}
+
+/** The offsets of a gait that steers by this mean: all of these actuators by as much more, as far as they can be driven. */
+export function steered(gait, sideways, mean) {
+  const more = mean - steering(gait, sideways);
+  return offsets(gait).map((offset, i) => {
+    const most = MOST_DRIVE - gait.amplitude[i];
+    return sideways.includes(i) ? Math.min(Math.max(offset + more, -most), most) : offset;
+  });
 }
 
 /** Whether a scene (SCEN) has muscles, and a gait that does not move them. */
@@ -73,6 +97,8 @@ export class GaitControls {
   #onChange;
   #actuators = -1;
   #frequency = null;
+  #steer = null;
+  #sideways = [];
   #amplitude = [];
   #phase = [];
   #gait = null;
@@ -84,13 +110,16 @@ export class GaitControls {
 
   /** Shows the gait of a scene (SCEN). */
   show(scene) {
-    if (scene.actuators !== this.#actuators) {
+    const sideways = sidewaysActuators(scene);
+    if (scene.actuators !== this.#actuators || String(sideways) !== String(this.#sideways)) {
+      this.#sideways = sideways;
       this.#build(scene.actuators);
     }
     const still = Array(scene.actuators).fill(0);
     const gait = scene.gait ?? {frequency: 1, amplitude: still, phase: still};
     this.#gait = gait;
     this.#frequency?.show(gait.frequency);
+    this.#steer?.show(steering(gait, sideways));
     this.#amplitude.forEach((slider, i) => slider.show(gait.amplitude[i] ?? 0));
     this.#phase.forEach((slider, i) => slider.show(gait.phase[i] ?? 0));
   }
@@ -100,16 +129,23 @@ export class GaitControls {
     this.#amplitude = [];
     this.#phase = [];
     this.#frequency = null;
+    this.#steer = null;
     if (actuators === 0) {
       this.#place.replaceChildren(make('p', {className: 'hint', textContent: 'No muscles in this scene.'}));
       return;
     }
     const {slider, row} = sliderRow(FREQUENCY, value => this.#send({frequency: value}));
     this.#frequency = slider;
+    const settings = [row];
+    if (this.#sideways.length > 0) {
+      const steer = sliderRow(STEER, value => this.#send({offset: steered(this.#gait, this.#sideways, value)}));
+      this.#steer = steer.slider;
+      settings.push(steer.row);
+    }
     const error = make('output', {className: 'error', role: 'alert', 'data-testid': 'actuator-error'});
     const rows = Array.from({length: actuators}, (_, i) => this.#actuatorRow(i, actuators, error));
     const head = make('tr', {}, ...['', 'Amplitude', 'Phase'].map(text => make('th', {scope: 'col', textContent: text})));
-    this.#place.replaceChildren(row, make('table', {className: 'actuators'},
+    this.#place.replaceChildren(...settings, make('table', {className: 'actuators'},
         make('caption', {className: 'hidden', textContent: 'Actuators from head to tail'}),
         make('thead', {}, head), make('tbody', {}, ...rows)), error);
   }
