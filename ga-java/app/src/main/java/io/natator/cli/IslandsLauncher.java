@@ -10,8 +10,6 @@ import io.natator.run.EvolutionRun;
 import io.natator.run.IslandsRun;
 import io.natator.simulator.Evaluator;
 import java.io.PrintWriter;
-import java.nio.file.Path;
-import java.util.List;
 
 /** Runs the evolutions of an archipelago for the command line: progress, an early stop, the report. */
 final class IslandsLauncher {
@@ -32,14 +30,12 @@ final class IslandsLauncher {
     void run(Archipelago archipelago, ExecutionSettings execution, Double stopAfter) throws InterruptedException {
         Archipelago.Plan plan = archipelago.plan();
         ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, plan.settings());
-        List<Path> begun = archipelago.folders();
-        long recorded = begun.stream().mapToLong(StoredRun::evaluated).sum();
+        long recorded = archipelago.folders().stream().mapToLong(folder -> StoredRun.recorded(folder).end()).sum();
         String how = "continue by: " + ProgramName.asCalled() + " resume " + ShellWord.of(archipelago.directory());
         boolean finished;
         try (Evaluator evaluator = EvolutionRun.open(limited);
                 ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter, () -> say("interrupted; " + how))) {
-            StudyProgress progress = new StudyProgress(plan.islands(),
-                    IslandsRun.finished(archipelago),
+            StudyProgress progress = new StudyProgress(plan.islands(), IslandsRun.finished(archipelago),
                     plan.islands() * expected(plan.settings()), recorded, err) {
                 @Override
                 public EvolutionListener forRun() {

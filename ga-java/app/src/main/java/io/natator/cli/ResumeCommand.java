@@ -11,7 +11,6 @@ import io.natator.config.InvalidInputException;
 import io.natator.evolution.EvolutionState;
 import io.natator.run.EvolutionRun;
 import io.natator.run.IslandsRun;
-import io.natator.run.PlannedRun;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -75,13 +74,13 @@ final class ResumeCommand implements Callable<Integer> {
         EvolutionSettings settings = StoredRun.settings(directory);
         EvolutionRun.checkAlone(directory, settings);
         Backend before = settings.backend();
+        // Asks the simulator, so that where there is none nothing is changed.
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
         RunFolder folder = RunFolder.open(directory);
         if (generations != null) {
             changeGenerations(folder, generations);
         }
-        boolean isFinished = new PlannedRun(folder.settings(), directory).isFinished();
-        if (isChanged(before, isFinished, options, spec)) {
+        if (isChanged(before, StoredRun.isFinished(directory), options, spec)) {
             folder.changeBackend(options.backend());
         }
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);

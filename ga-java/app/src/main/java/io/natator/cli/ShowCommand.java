@@ -105,7 +105,7 @@ final class ShowCommand implements Callable<Integer> {
             return "generation 0 under way: " + run.evaluations().size() + " evaluations";
         }
         GenerationSummary last = run.state().history().get(run.state().generation());
-        long more = Math.max(StoredRun.evaluated(run.directory()) - run.state().evaluations(), 0);
+        long more = Math.max(run.recorded().end() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
                         : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()

@@ -111,14 +111,14 @@ class EvolveBodiesTest {
     void whatIsNoBodyCostsNoSimulationAndSaysWhy() {
         assertThat(evolve("run", "--evolve", "both", "--population", "20", "--generations", "0")).as(err.toString()).isZero();
 
-        List<EvaluationRecord> refused = StoredRun.evaluations(folder.resolve("run")).stream()
+        List<EvaluationRecord> refused = StoredRun.recorded(folder.resolve("run")).rows().stream()
                 .filter(one -> one.result().status() == Status.REFUSED).toList();
         assertThat(refused).hasSizeBetween(1, 9).allSatisfy(one -> {
             assertThat(one.genes().get(16)).isBetween(1.8, 2.0);
             assertThat(one.result().error()).contains("creature.profile.length: the body does not fit into the tank");
             assertThat(one.result().fitness()).isZero();
         });
-        assertThat(StoredRun.evaluations(folder.resolve("run"))).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
+        assertThat(StoredRun.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
         natator("show", folder.resolve("run").toString());
         assertThat(out.toString()).contains(refused.size() + " of ", " bodies were refused, the last, ", "does not fit into the tank",
                 "early stop  0.0 % of the time: 0 of " + (20 - refused.size()) + " evaluations ended early, as if 0 had not");

@@ -147,7 +147,9 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
-        String lost = damage(directory, folder.checkpoint, folder.recorded().end());
+        String lost = folder.checkpoint != null && folder.checkpoint.population().isEmpty()
+                ? directory + " has no population any more, which it would go on from: an older program made it small"
+                : damage(directory, folder.checkpoint, folder.recorded().end());
         String damage = lost != null ? lost
                 : damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size());
         folder.refuse(damage);
@@ -168,9 +170,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * them, so there are never fewer of a sound run, also while it is written.
      */
     static String damage(Path directory, EvolutionState checkpoint, long recorded) {
-        if (checkpoint != null && checkpoint.population().isEmpty()) {
-            return directory + " has no population any more, which it would go on from: an older program made it small";
-        }
         return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
                 + " has " + recorded + " whole lines; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
     }

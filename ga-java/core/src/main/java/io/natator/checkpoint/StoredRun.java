@@ -11,6 +11,7 @@ import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Individual;
 import io.natator.evolution.ParetoRanking;
+import io.natator.evolution.Recorded;
 import io.natator.file.JsonLines;
 import io.natator.simulator.SimulationResult;
 import java.nio.file.Files;
@@ -30,18 +31,17 @@ import org.slf4j.LoggerFactory;
  * @param settings    of the run
  * @param state       after the last finished generation, or null
  * @param best        the best gait so far, or null
- * @param evaluations all, in the order of their ids; none of a run that was made small, which lacks the first of them
+ * @param recorded    its evaluations, without the first of them where it was made small
  * @param statistics     what it did not have to simulate, or null if that was not recorded
  * @param vacuum      best gaits that were run in vacuum
  */
 public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,
-        List<EvaluationRecord> evaluations, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
+        Recorded recorded, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
 
     private static final Logger LOG = LoggerFactory.getLogger(StoredRun.class);
 
-    /** Copies the lists. */
+    /** Copies the list. */
     public StoredRun {
-        evaluations = List.copyOf(evaluations);
         vacuum = List.copyOf(vacuum);
     }
 
@@ -60,20 +60,22 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
             LOG.warn("{}; shown without it", e.getMessage());
             statistics = null;
         }
-        List<EvaluationRecord> recorded = evaluations(directory);
-        boolean isWhole = recorded.isEmpty() || recorded.get(0).result().id() == 0;
-        return new StoredRun(directory, settings, state, best(directory, settings, state), isWhole ? recorded : List.of(), statistics,
-                vacuumRecords(directory));
+        return new StoredRun(directory, settings, state, best(directory, settings, state),
+                recorded(directory), statistics, vacuumRecords(directory));
+    }
+
+    /** All evaluations, in the order of their ids; none of a run that was made small, also if it has gone on since. */
+    public List<EvaluationRecord> evaluations() {
+        return recorded.first() == 0 ? recorded.rows() : List.of();
     }
 
     /**
-     * What of the run is lost though nobody trimmed it, in one line; null if nothing is. An older program trimmed it where there
-     * is no population either; {@link CompactRun}.
+     * What of the run is lost though nobody trimmed it, in one line; null if nothing is. It was trimmed where there is no
+     * population either; {@link CompactRun}.
      */
     public String damage() {
-        EvolutionState last = CompactRun.lastState(directory);
-        boolean compact = last != null && last.population().isEmpty() && evaluations.isEmpty();
-        String damage = compact ? null : RunFolder.damage(directory, last, evaluated(directory));
+        boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
+        String damage = compact ? null : RunFolder.damage(directory, state, recorded.end());
         return damage != null ? damage : RunFolder.damage(directory, settings.migration(), state, departures(directory).size());
     }
 
@@ -112,15 +114,10 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return state.best() == null || best != null && best.vacuum() != null;
     }
 
-    /** How many evaluations the run in a folder has behind it, also where it has dropped them since. */
-    public static long evaluated(Path directory) {
-        List<EvaluationRecord> recorded = evaluations(directory);
-        return CompactRun.dropped(directory, recorded) + recorded.size();
-    }
-
-    /** The evaluations that the run in a folder has recorded; of one that was made small, those since. */
-    public static List<EvaluationRecord> evaluations(Path directory) {
-        return JsonLines.read(directory.resolve(RunFolder.EVALUATIONS), EvaluationRecord.class);
+    /** The evaluations of the run in a folder; of one that was made small, those since. */
+    public static Recorded recorded(Path directory) {
+        List<EvaluationRecord> rows = JsonLines.read(directory.resolve(RunFolder.EVALUATIONS), EvaluationRecord.class);
+        return new Recorded(CompactRun.dropped(directory, rows), rows);
     }
 
     /** The gaits that have left the run in a folder for another island. */
@@ -170,7 +167,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     /** The best gait of all generations up to this one, the earliest of equals; null if none is recorded. */
     public JudgedGait bestUntil(int generation) {
         JudgedGaits gaits = new JudgedGaits(settings);
-        evaluations.stream().filter(one -> one.generation() <= generation).forEach(gaits::add);
+        evaluations().stream().filter(one -> one.generation() <= generation).forEach(gaits::add);
         return gaits.best();
     }
 
@@ -196,12 +193,13 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** The best gait up to each generation that any is recorded of, the earliest generation first. */
     public SortedMap<Integer, JudgedGait> bestsByGeneration() {
+        List<EvaluationRecord> all = evaluations();
         JudgedGaits gaits = new JudgedGaits(settings);
         SortedMap<Integer, JudgedGait> bests = new TreeMap<>();
-        for (int i = 0; i < evaluations.size(); i++) {
-            int generation = evaluations.get(i).generation();
-            gaits.add(evaluations.get(i));
-            boolean isLast = i + 1 == evaluations.size() || evaluations.get(i + 1).generation() != generation;
+        for (int i = 0; i < all.size(); i++) {
+            int generation = all.get(i).generation();
+            gaits.add(all.get(i));
+            boolean isLast = i + 1 == all.size() || all.get(i + 1).generation() != generation;
             if (isLast && gaits.best() != null) {
                 bests.put(generation, gaits.best());
             }
@@ -211,26 +209,27 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** All gaits, the best first. */
     public List<JudgedGait> gaits() {
-        return JudgedGaits.ranked(settings, evaluations);
+        return JudgedGaits.ranked(settings, evaluations());
     }
 
     /** Best fitness after each evaluation. */
     public double[] bestFitness() {
-        double[] best = new double[evaluations.size()];
+        double[] best = new double[evaluations().size()];
         leaders().forEach(one -> Arrays.fill(best, one.evaluation(), best.length, one.fitness()));
         return best;
     }
 
     /** The course of the run: whom it would have taken for its winner, the earliest first. */
     public List<Leader> leaders() {
+        List<EvaluationRecord> all = evaluations();
         JudgedGaits gaits = new JudgedGaits(settings);
         List<Leader> leaders = new ArrayList<>();
         JudgedGait before = null;
         double simulated = 0;
-        for (int i = 0; i < evaluations.size(); i++) {
-            gaits.add(evaluations.get(i));
+        for (int i = 0; i < all.size(); i++) {
+            gaits.add(all.get(i));
             if (statistics != null) {
-                simulated += evaluations.get(i).result().simulatedOf(statistics.duration());
+                simulated += all.get(i).result().simulatedOf(statistics.duration());
             }
             JudgedGait best = gaits.best();
             if (best != null && !best.equals(before)) {

@@ -46,6 +46,6 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
 
     /** How many of its evaluations are recorded. */
     public long recorded() {
-        return StoredRun.exists(directory) ? StoredRun.evaluated(directory) : 0;
+        return StoredRun.exists(directory) ? StoredRun.recorded(directory).end() : 0;
     }
 }

@@ -81,9 +81,9 @@ class CompactRunTest {
                         : List.of(new WeightedObjective(Objective.DISTANCE, null), new WeightedObjective(Objective.WORK, null)));
         Path parts = folder.resolve("parts");
         evolve(parts, settings.withSize(8, 2));
-        long dropped = StoredRun.evaluated(parts);
+        long dropped = StoredRun.recorded(parts).end();
         CompactRun.compact(parts);
-        assertThat(StoredRun.evaluated(parts)).isEqualTo(dropped);
+        assertThat(StoredRun.recorded(parts).end()).isEqualTo(dropped);
 
         evolve(parts, settings.withSize(8, 3));
         assertThat(StoredRun.in(parts).damage()).isNull();
@@ -98,7 +98,7 @@ class CompactRunTest {
         List<String> evaluations = Files.readAllLines(whole.resolve("evaluations.jsonl"));
         assertThat(Files.readAllLines(parts.resolve("evaluations.jsonl")))
                 .isEqualTo(evaluations.subList((int) dropped, evaluations.size()));
-        assertThat(StoredRun.evaluated(parts)).isEqualTo(evaluations.size());
+        assertThat(StoredRun.recorded(parts).end()).isEqualTo(evaluations.size());
         CompactRun.compact(parts);
         CompactRun.compact(whole);
         assertThat(parts.resolve("checkpoint.json.gz")).hasSameBinaryContentAs(whole.resolve("checkpoint.json.gz"));

@@ -211,7 +211,7 @@ class EvolutionRunTest {
     }
 
     private List<EvaluationRecord> evaluations(String name) {
-        return StoredRun.evaluations(folder.resolve(name));
+        return StoredRun.recorded(folder.resolve(name)).rows();
     }
 
     /** The toy swims best at f = 1.2, where it drifts 0.2 in vacuum: no more than what remains is to count. */

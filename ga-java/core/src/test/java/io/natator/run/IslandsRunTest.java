@@ -163,15 +163,15 @@ class IslandsRunTest {
         for (int i = 1; i <= 3; i++) {
             Path island = ring.folder(i);
             Path before = ring.folder(i == 1 ? 3 : i - 1);
-            List<EvaluationRecord> own = StoredRun.evaluations(island);
-            List<EvaluationRecord> plain = StoredRun.evaluations(alone.folder(i));
+            List<EvaluationRecord> own = StoredRun.recorded(island).rows();
+            List<EvaluationRecord> plain = StoredRun.recorded(alone.folder(i)).rows();
             int common = (int) plain.stream().filter(one -> one.generation() <= 4).count();
             assertThat(own.subList(0, common)).isEqualTo(plain.subList(0, common));
             assertThat(genes(own, 5)).isNotEqualTo(genes(plain, 5));
 
             List<Departure> left = StoredRun.departures(before);
             assertThat(left).extracting(Departure::generation).containsExactly(4, 8);
-            List<Double> best = StoredRun.evaluations(before).stream().filter(one -> one.generation() <= 4)
+            List<Double> best = StoredRun.recorded(before).rows().stream().filter(one -> one.generation() <= 4)
                     .map(one -> one.result().score()).sorted((a, b) -> Double.compare(b, a)).distinct().limit(2).toList();
             assertThat(left.get(0).migrants()).hasSize(3).extracting(one -> one.individual().score()).startsWith(best.toArray(Double[]::new));
             assertThat(left.get(0).migrants()).extracting(Migrant::born).containsOnly(i == 1 ? 3 : i - 1);
@@ -189,7 +189,7 @@ class IslandsRunTest {
     }
 
     private static int children(Path island, Set<Double> genes) {
-        return (int) StoredRun.evaluations(island).stream().filter(one -> one.generation() == 5
+        return (int) StoredRun.recorded(island).rows().stream().filter(one -> one.generation() == 5
                 && one.genes().stream().anyMatch(genes::contains)).count();
     }
 
@@ -318,7 +318,7 @@ class IslandsRunTest {
 
         assertSame(other, first);
         assertThat(first.folders().stream().map(one -> StoredRun.state(one).generation()).distinct().toList()).hasSizeGreaterThan(1);
-        assertThat(first.folders()).allMatch(one -> StoredRun.evaluations(one).size() == 600);
+        assertThat(first.folders()).allMatch(one -> StoredRun.recorded(one).rows().size() == 600);
     }
 
     @Test

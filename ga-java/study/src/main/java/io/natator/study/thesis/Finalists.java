@@ -9,6 +9,7 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.Recorded;
 import io.natator.file.AtomicFile;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -66,13 +67,13 @@ public record Finalists(@JsonProperty(required = true) List<Finalist> gaits,
         if (before != null && Objects.equals(before.generation, generation)) {
             return;
         }
-        List<EvaluationRecord> recorded = StoredRun.evaluations(run);
-        if (before != null && recorded.isEmpty()) {
+        Recorded recorded = StoredRun.recorded(run);
+        if (before != null && recorded.rows().isEmpty()) {
             return;
         }
-        boolean isWhole = before == null || recorded.get(0).result().id() == 0;
-        List<EvaluationRecord> since = isWhole || before.generation == null ? recorded
-                : recorded.stream().filter(one -> one.generation() > before.generation).toList();
+        boolean isWhole = before == null || recorded.first() == 0;
+        List<EvaluationRecord> since = isWhole || before.generation == null ? recorded.rows()
+                : recorded.rows().stream().filter(one -> one.generation() > before.generation).toList();
         List<Finalist> gaits = JudgedGaits.ranked(StoredRun.settings(run), since).stream().map(Finalist::of).toList();
         gaits = isWhole ? gaits : joined(before.gaits.stream().map(one -> one.with(since)).toList(), gaits);
         if (gaits.isEmpty()) {

@@ -9,6 +9,7 @@ import io.natator.config.Judge;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
+import io.natator.file.CompressedJson;
 import io.natator.simulator.SimulationResult;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -39,8 +40,11 @@ class FinalistsTest {
     /** Worth and number of runs of each, the best first, after this generation; the log begins with evaluation `from`. */
     private String kept(int generation, int from) throws IOException {
         Files.writeString(run.resolve("config.json"), Json.document(SETTINGS.withGenerations(generation)));
-        Files.writeString(run.resolve("checkpoint.json"),
-                Json.document(new EvolutionState(generation, evaluations.size(), List.of(), null, List.of())));
+        EvolutionState state = new EvolutionState(generation, evaluations.size(), List.of(), null, List.of());
+        Files.writeString(run.resolve("checkpoint.json"), Json.document(state));
+        if (from > 0) {
+            CompressedJson.write(run.resolve("checkpoint.json.gz"), state);
+        }
         Files.writeString(run.resolve("evaluations.jsonl"), evaluations.stream().skip(from).map(one -> Json.line(one) + "\n")
                 .collect(Collectors.joining()));
         Finalists.keep(run);

@@ -32,12 +32,12 @@ function sidewaysActuators({actuators, muscles}) {
 }
 
 /** Mean offset of some of a gait's actuators. */
-export function steering(gait, sideways) {
+function steering(gait, sideways) {
   return sideways.reduce((sum, i) => sum + offsets(gait)[i], 0) / sideways.length;
 }
 
 /** The offsets of a gait that steers by this mean: all of these actuators by as much more, as far as they can be driven. */
-export function steered(gait, sideways, mean) {
+function steered(gait, sideways, mean) {
   const more = mean - steering(gait, sideways);
   return offsets(gait).map((offset, i) => {
     const most = MOST_DRIVE - gait.amplitude[i];
