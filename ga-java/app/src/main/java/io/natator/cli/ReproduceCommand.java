@@ -38,6 +38,7 @@ final class ReproduceCommand implements Callable<Integer> {
     /** What is to be done. */
     enum Phase { EVOLVE, MEASURE, REPORT, REPEAT, ALL }
 
+    private static final List<Integer> CREATURES = List.of(1, 2, 3, 4);
     private static final double NANOSECONDS = 1e9;
     private static final List<String> WITHOUT_OUTCOME = List.of("--stop-after", "--simulator-path",
             "--simulator-command", "--master", "--workers", "--timeout", "--phase", "--runs-at-once", "--compact", "--device",
@@ -119,7 +120,8 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.OUTPUT)
     @Option(names = "--compact", description = "Drop the single evaluations of finished evolutions, some ten megabytes "
-            + "each, which the same seed gives again; the last population stays, so that they can go on to more generations.")
+            + "each, which the same seed gives again; the last population stays, so that they can go on to more generations. Of "
+            + "gaits that are finalists no more since, drop what was measured, once all of DIR is.")
     private boolean compact;
 
     @Section(Topic.OTHER)
@@ -174,7 +176,25 @@ final class ReproduceCommand implements Callable<Integer> {
                         study.portrayed().map(swim -> DrawnSwim.portrait(swim, simulator)).orElse(null)));
             }
         }
+        if (compact && phase != Phase.EVOLVE) {
+            dropOutdated(execution, err);
+        }
         return ExitCode.OK;
+    }
+
+    /** Of all evolutions in the folder, also those that were not asked for. */
+    private void dropOutdated(ExecutionSettings execution, PrintWriter err) throws InterruptedException {
+        EvolutionPlan all = new EvolutionPlan(CREATURES, List.of(Water.values()), null,
+                new EvolutionPlan.Size(population, null, starts, duration), execution.backend(), execution.simulator(), directory);
+        if (all.isAnyUnderWay()) {
+            return;
+        }
+        try (ThesisStudy study = new ThesisStudy(directory, all, runs, duration)) {
+            int dropped = study.dropOutdated();
+            if (dropped > 0) {
+                err.printf("dropped %d rows of gaits that are finalists no more%n", dropped);
+            }
+        }
     }
 
     /** What makes all that the page is of: where waters have not as many evolutions, one line for each and one for the page. */

@@ -5,12 +5,14 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
+import io.natator.encoding.Gait;
 import io.natator.simulator.ConvergeProgram;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
 import io.natator.study.KeyedLog;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Set;
 
 /** Gaits at half the spacing of all particles, the body and its motion kept; {@code convergence.jsonl}. */
 final class ConvergenceLog implements AutoCloseable {
@@ -74,6 +76,11 @@ final class ConvergenceLog implements AutoCloseable {
             }
         }
         return Double.NaN;
+    }
+
+    /** Drops the rows of other gaits, before any is added; returns how many. */
+    int keep(Set<Gait> gaits) {
+        return rows.keep(row -> gaits.contains(row.request().gait()));
     }
 
     int size() {

@@ -141,6 +141,11 @@ public final class EvolutionPlan {
         return runs.stream().filter(run -> run.plan().isFinished()).toList();
     }
 
+    /** Whether one is begun and has not come to its end. */
+    public boolean isAnyUnderWay() {
+        return runs.stream().anyMatch(run -> Files.isDirectory(run.plan().directory()) && !run.plan().isFinished());
+    }
+
     /** Those of the seeds that are there: up to the largest that is finished in a water, or all where none is. */
     public List<EvolvedRun> begun() {
         Map<Water, Extent> extents = extents();

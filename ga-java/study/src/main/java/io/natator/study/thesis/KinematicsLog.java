@@ -2,6 +2,7 @@ package io.natator.study.thesis;
 
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
+import io.natator.encoding.Gait;
 import io.natator.flow.Snapshot;
 import io.natator.flow.WaterLevel;
 import io.natator.kinematics.BodyPath;
@@ -16,6 +17,7 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Objects;
+import java.util.Set;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
@@ -102,6 +104,11 @@ final class KinematicsLog implements AutoCloseable {
         } catch (IOException e) {
             throw new UncheckedIOException("cannot record a run: " + e.getMessage(), e);
         }
+    }
+
+    /** Drops the rows of other gaits, before any is added; returns how many. */
+    int keep(Set<Gait> gaits) {
+        return rows.keep(row -> gaits.contains(row.request().gait()));
     }
 
     int size() {

@@ -4,6 +4,7 @@ import io.natator.checkpoint.SwimSample;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
+import io.natator.encoding.Gait;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
@@ -15,6 +16,7 @@ import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
 import java.util.Objects;
+import java.util.Set;
 import java.util.function.IntConsumer;
 import java.util.function.Supplier;
 import java.util.function.ToDoubleFunction;
@@ -133,6 +135,11 @@ final class MeasurementLog implements AutoCloseable {
     List<String> programs() {
         return rows.rows().stream().map(row -> row.program().substring(0, 12) + "… on " + row.backend().argument())
                 .distinct().toList();
+    }
+
+    /** Drops the rows of other gaits, before any is added; returns how many. */
+    int keep(Set<Gait> gaits) {
+        return rows.keep(row -> gaits.contains(row.request().gait()));
     }
 
     Collection<Measurement> rows() {

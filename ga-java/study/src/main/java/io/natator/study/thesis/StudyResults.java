@@ -3,6 +3,7 @@ package io.natator.study.thesis;
 import io.natator.checkpoint.Controls;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.Json;
+import io.natator.encoding.Gait;
 import io.natator.kinematics.FishMode;
 import io.natator.kinematics.ModeFit;
 import io.natator.study.Sample;
@@ -17,7 +18,9 @@ import java.util.List;
 import java.util.Map;
 import java.util.Objects;
 import java.util.Optional;
+import java.util.Set;
 import java.util.function.Function;
+import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 import java.util.stream.Stream;
 
@@ -50,6 +53,11 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
         evolved().forEach(subject -> all.addAll(catalogue.all(subject)));
         Arrays.stream(Water.values()).flatMap(water -> studied(water).stream()).forEach(subject -> all.addAll(catalogue.studies(subject)));
         return all;
+    }
+
+    /** The gaits of all that. */
+    Set<Gait> gaits() {
+        return experiments().stream().map(one -> one.request().gait()).collect(Collectors.toSet());
     }
 
     /** What is measured on the processor too: bits that can be checked anywhere, and a second backend for the winners. */

@@ -5,6 +5,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
 import io.natator.config.Limits;
 import io.natator.config.SimulatorMode;
+import io.natator.encoding.Gait;
 import io.natator.file.GeneratedPage;
 import io.natator.report.FirstScreen;
 import io.natator.report.Recording;
@@ -17,6 +18,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 import java.util.function.IntConsumer;
 
 /**
@@ -112,6 +114,22 @@ public final class ThesisStudy implements AutoCloseable {
                 done.run();
             }
         }
+    }
+
+    /**
+     * Drops what was measured of gaits that the study has no more, as an evolution that went on has other finalists; nothing
+     * while anything is still to be measured, since what the study has is not known before. To be called before anything is
+     * added.
+     *
+     * @return how many rows were dropped
+     */
+    public int dropOutdated() {
+        if (missingMeasurements() + missingLevels() + missingRecordings() > 0) {
+            return 0;
+        }
+        Set<Gait> gaits = results.gaits();
+        return results.measurements().keep(gaits) + results.processor().keep(gaits) + results.convergence().keep(gaits)
+                + results.motions().keep(gaits);
     }
 
     private Path recording(String name) {

@@ -78,6 +78,42 @@ class ThesisStudyTest {
         assertThat(Files.readAllLines(file)).hasSize(all).containsExactlyInAnyOrderElementsOf(lines);
     }
 
+    /** The committed study has no row too many; of a gait that it does not have, one is dropped, but not while anything is missing. */
+    @Test
+    void whatWasMeasuredOfGaitsThatAreNoMoreIsDropped() throws IOException, InterruptedException {
+        Path committed = Path.of("../../results/thesis");
+        try (Stream<Path> files = Files.walk(committed)) {
+            for (Path file : files.filter(one -> one.toString().matches(".*(jsonl|/(config|checkpoint|best|finalists)\\.json|recordings/.*)")).toList()) {
+                Path copy = folder.resolve(committed.relativize(file));
+                Files.createDirectories(copy.getParent());
+                Files.copy(file, copy);
+            }
+        }
+        Path file = folder.resolve("processor.jsonl");
+        String rows = Files.readString(file);
+        String outdated = rows.lines().findFirst().orElseThrow().replaceFirst("\"frequency\":", "\"frequency\":1");
+        assertThat(dropped()).isZero();
+        Files.writeString(file, outdated + "\n" + rows);
+        Path recording = folder.resolve("recordings/thesis-1.json.gz");
+        Files.move(recording, folder.resolve("away"));
+        assertThat(dropped()).isZero();
+        Files.move(folder.resolve("away"), recording);
+
+        assertThat(dropped()).isEqualTo(1);
+
+        assertThat(file).hasContent(rows);
+    }
+
+    private int dropped() throws InterruptedException {
+        EvolutionPlan all = new EvolutionPlan(List.of(1, 2, 3, 4), List.of(Water.values()), null, new EvolutionPlan.Size(null, null, null, null),
+                Backend.CPU, SIMULATOR, folder);
+        assertThat(all.isAnyUnderWay()).isFalse();
+        assertThat(all.finished()).hasSizeGreaterThan(30);
+        try (ThesisStudy study = new ThesisStudy(folder, all, 8, null)) {
+            return study.dropOutdated();
+        }
+    }
+
     /** What is recorded is what the simulator does; the report has it, and leaves out what is not there. */
     @Test
     void reportsOnWhatIsThere() throws IOException, InterruptedException {
