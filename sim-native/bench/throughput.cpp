@@ -15,7 +15,7 @@
 #include "natator/gpu_solver.h"
 #include "natator/model_builder.h"
 #include "scene/scene_json.h"
-#include "solver/cuda/large/evaluate_large.h"
+#include "solver/cuda/way.h"
 #include "timed_batch.h"
 
 namespace natator::bench {
@@ -32,10 +32,10 @@ Scene scene_of(const std::array<int, 3>& count) {
     return load_scene("thesis/creature-1", overrides);
 }
 
-/// Mean over the fluid, by the path that is timed.
+/// Mean over the fluid.
 template <class Real>
-double mean_neighbours(const Scene& scene, const Model& model, int device, bool whole_gpu) {
-    GpuSolver<Real> solver(model, {.device = device, .path = whole_gpu ? GpuPath::whole_gpu : GpuPath::block});
+double mean_neighbours(const Scene& scene, const Model& model, const ThroughputStudy& study) {
+    GpuSolver<Real> solver(model, {.device = study.device, .path = study.whole_gpu ? GpuPath::whole_gpu : GpuPath::by_size});
     State<Real> state = initial_state<Real>(model);
     settle(scene.settling, solver, state);
     solver.update(state, model.time_step, model.parameters.substeps);
@@ -54,7 +54,6 @@ public:
         scene_.scheme = scheme;
         model_ = build_model(scene_);
         fluid_ = fluid_particles(model_);
-        whole_gpu_ = cuda::by_whole_gpu(scene_, model_, study.whole_gpu);
     }
 
     Row key(int batch, const std::string& device) const {
@@ -63,15 +62,14 @@ public:
                 std::to_string(fluid_),
                 std::to_string(batch),
                 device,
-                whole_gpu_ ? "whole GPU" : "block"};
+                cuda::by_whole_gpu(scene_, model_, batch, options()) ? "whole GPU" : "block"};
     }
 
     /// What stands behind the key, or why nothing does.
     std::variant<Row, std::string> measure(int batch) {
         const int frames = study_.quick ? 2 : throughput_frames(scene_.scheme, particles_, batch);
         scene_.duration = frames * scene_.time_step;
-        const BatchOptions options{.precision = precision_, .device = study_.device, .whole_gpu = study_.whole_gpu};
-        const TimedBatch timed = time_batch(scene_, batch_members(scene_, batch), options, study_.repeats);
+        const TimedBatch timed = time_batch(scene_, batch_members(scene_, batch), options(), study_.repeats);
         if (timed.instability) return "becomes unstable at " + number_text(timed.instability->time) + " s";
         const int substeps = model_.parameters.substeps, iterations = model_.parameters.numIterations;
         const double particle_substeps = static_cast<double>(batch) * fluid_ * frames * substeps;
@@ -94,10 +92,13 @@ public:
     }
 
 private:
+    BatchOptions options() const {
+        return {.precision = precision_, .device = study_.device, .whole_gpu = study_.whole_gpu};
+    }
     double neighbours() {
         if (!neighbours_)
             neighbours_ = in_precision(precision_, [&](auto real) {
-                return mean_neighbours<decltype(real)>(scene_, model_, study_.device, whole_gpu_);
+                return mean_neighbours<decltype(real)>(scene_, model_, study_);
             });
         return *neighbours_;
     }
@@ -108,7 +109,6 @@ private:
     Scene scene_;
     Model model_;
     int fluid_ = 0;
-    bool whole_gpu_ = false;
     std::optional<double> neighbours_;
 };
 

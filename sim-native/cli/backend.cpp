@@ -22,8 +22,8 @@ void add_gpu_options(CLI::App* command, BackendChoice& choice) {
         ->capture_default_str();
     command->add_flag(
         "--whole-gpu", choice.whole_gpu,
-        "Compute by kernels of the whole GPU, however small the scene, with bits of its own: what scheme conserving and scenes "
-        "of more than 20 000 particles always do. Slower for most others.");
+        "Compute by kernels of the whole GPU, however small the scene, whose last digits may differ: what scheme conserving always "
+        "does, and scenes of more than 20 000 particles where that is faster. Slower for most others.");
 }
 
 void refuse_gpu_options_for_cpu(const BackendChoice& choice) {

@@ -102,7 +102,7 @@ TEST_P(GpuBatch, ArrangementsOfTheWaterShareABatch) {
     }
 }
 
-/// Of more particles than a block takes, in sizes whose tables end in a part of a tile: streams and members side by side.
+/// Of so many particles that few are computed otherwise than many, in sizes whose tables end in a part of a tile.
 TEST_P(GpuBatch, MembersOfLargeScenesGiveTheBitsThatTheyGiveAlone) {
     for (const std::array<int, 3>& count : {std::array{80, 11, 27}, std::array{100, 14, 34}, std::array{112, 15, 36}}) {
         scene = tank_of(count, scene.scheme);

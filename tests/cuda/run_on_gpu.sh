@@ -78,7 +78,7 @@ suite() {
 suite conformance '*GpuMicro*:*GpuOneFrame*:*GpuEffects*'
 suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
 suite laws-of-conserving 'Gpu/Laws*:GpuParticles*:*GpuWater*:GpuPeriodic*'
-suite same-bits-in-any-batch '*GpuBatch*:*GpuTeams*'
+suite same-bits-in-any-batch '*GpuBatch*:*GpuTeams*:*EitherWay*'
 suite one-scene-by-the-whole-GPU '*WholeGpu*:GpuRoof*'
 $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
 

@@ -1,6 +1,8 @@
 // A State computed by the whole GPU: against the CPU, and against itself.
 #include <cmath>
 #include <iostream>
+#include <map>
+#include <string>
 
 #include "../native/bare_particles.h"
 #include "evaluate/settle.h"
@@ -11,6 +13,7 @@
 #include "natator/model_builder.h"
 #include "natator/momentum.h"
 #include "solver/cuda/large/fetch_roof.h"
+#include "solver/cuda/way.h"
 
 namespace natator::test {
 namespace {
@@ -139,6 +142,56 @@ TEST_P(WholeGpu, AStateMayTakeMoreThanTwoGibibytes) {
     const int middle = (across / 2 * across + across / 2) * across + across / 2;
     EXPECT_EQ(gpu.neighbour_counts()[middle], GetParam() == Scheme::flex ? 18 : 80);
 }
+
+/// Scenes that batches compute by blocks or by the whole GPU, as suits them.
+class EitherWay : public OnGpu<testing::TestWithParam<const char*>> {
+protected:
+    Scene scene() const {
+        Scene scene = tank_of({80, 11, 27}, Scheme::flex);
+        const nlohmann::json changes = nlohmann::json::parse(GetParam());
+        for (const auto& [key, value] : changes.items()) scene.solver.*numbers.at(key) = value.get<double>();
+        scene.duration = 0.15;
+        scene.stopping.no_progress_after = 0.1;
+        return scene;
+    }
+    static inline const std::map<std::string, double SolverParameters::*> numbers{
+        {"cohesion", &SolverParameters::cohesion},   {"solidPressure", &SolverParameters::solidPressure},
+        {"viscosity", &SolverParameters::viscosity}, {"maxAcceleration", &SolverParameters::maxAcceleration},
+        {"damping", &SolverParameters::damping}};
+};
+
+TEST_P(EitherWay, GivesTheSameBits) {
+    const Scene scene = this->scene();
+    std::vector<BatchMember> members;
+    for (int k = 0; k < 6; ++k) members.push_back({wave(scene, 10 * k), {k % 2 * 1e-6, 1}});
+    members[1].gait.power = 2.5;
+    members[2].gait.offset.assign(members[2].gait.amplitude.size(), 0.1);
+    const Model model = build_model(scene);
+    ASSERT_FALSE(cuda::by_whole_gpu(scene, model, 6, {}));
+    ASSERT_TRUE(cuda::by_whole_gpu(scene, model, 1, {}));
+    ASSERT_TRUE(cuda::by_whole_gpu(scene, model, 6, {.precision = Precision::double_precision}));
+    Scene with_effect = scene;
+    with_effect.solver.surfaceTension = 0.5;
+    ASSERT_TRUE(cuda::by_whole_gpu(with_effect, build_model(with_effect), 6, {}));
+    const std::vector<Evaluation> blocks = evaluate_on_gpu(scene, members),
+                                  whole = evaluate_on_gpu(scene, members, {.whole_gpu = true});
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        EXPECT_EQ(blocks[k].hash, whole[k].hash) << k;
+        EXPECT_EQ(blocks[k].distance, whole[k].distance) << k;
+        EXPECT_EQ(blocks[k].frames, whole[k].frames) << k;
+        EXPECT_EQ(blocks[k].stopped, whole[k].stopped) << k;
+        EXPECT_EQ(blocks[k].errors.density_error_mean, whole[k].errors.density_error_mean) << k;
+        EXPECT_FALSE(blocks[k].swimming || whole[k].swimming) << k;
+        ASSERT_TRUE(blocks[k].course && whole[k].course) << k;
+        EXPECT_EQ(blocks[k].course->forward, whole[k].course->forward) << k;
+    }
+    EXPECT_NE(blocks[0].hash, blocks[4].hash);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EitherWay,
+                         testing::Values("{}", R"({"cohesion": 0.01})", R"({"solidPressure": 0.5})",
+                                         R"({"viscosity": 0, "maxAcceleration": 50, "damping": 0})"),
+                         [](const auto& test) { return "Case" + std::to_string(test.index); });
 
 TEST(GpuRoof, FetchesThePairsOfAllStates) {
     if (cuda_devices().empty()) GTEST_SKIP() << "no GPU here";

@@ -46,13 +46,13 @@ struct BatchTimes {
 struct BatchOptions {
     Precision precision = Precision::single_precision;
     int device = 0;               ///< number of the GPU, see cuda_devices
-    bool whole_gpu = false;       ///< members by kernels of the whole GPU, some side by side; has bits of its own
+    bool whole_gpu = false;       ///< members by kernels of the whole GPU, some side by side; up to 20 000 particles with bits of its own
     BatchTimes* times = nullptr;  ///< gets the batch's times added, if there is one
 };
 
 /// Evaluates gaits in one scene on a GPU: each by a block of threads, or where members are few by a cluster of blocks; or, in
-/// scenes of more than 20 000 particles, in scheme `conserving` and with `options.whole_gpu`, side by side by kernels of the
-/// whole GPU. Member k of the result belongs to member k. The result of a member is the same, bit by bit, whatever the others
+/// scheme `conserving`, with `options.whole_gpu`, for few members of more than 20 000 particles and for any of more than 65 535, side
+/// by side by kernels of the whole GPU. Member k of the result belongs to member k. The result of a member is the same, bit by bit, whatever the others
 /// and their number. A batch that does not fit into the device's memory is computed in parts. Of an unstable member the CPU does the last substep
 /// again, to name its stage. Throws InputError when a gait does not fit the scene or the scene needs what the GPU's
 /// stages do not do, NoDevice without that GPU or if this library was built without CUDA.

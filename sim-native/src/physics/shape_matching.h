@@ -74,11 +74,13 @@ NATATOR_HD void turn(double q[4], const Vec3<double>& omega, double angle) {
 /// Turns q towards the rotation closest to a covariance by at most `steps` steps of Müller, Bender, Chentanez,
 /// Macklin: A Robust Method to Extract the Rotational Part of Deformations (2016), algorithm 1:
 ///   omega = sum of r_k x a_k / (|sum of r_k . a_k| + epsilon), k over the columns.
-NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], int steps) {
+/// matrix_of(q, r) is rotation_matrix, or the same with products rounded its own way.
+template <class MatrixOf>
+NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], int steps, const MatrixOf& matrix_of) {
     const double* const a = covariance.entry;
     for (int step = 0; step < steps; ++step) {
         double r[9];
-        rotation_matrix(q, r);
+        matrix_of(q, r);
         Vec3<double> omega{};
         for (int k = 0; k < 3; ++k)
             omega += cross(Vec3<double>{r[k], r[3 + k], r[6 + k]}, Vec3<double>{a[k], a[3 + k], a[6 + k]});
@@ -91,6 +93,10 @@ NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], int step
         if (angle < fit_epsilon) return;
         turn(q, omega, angle);
     }
+}
+
+NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], int steps) {
+    fit_rotation(covariance, q, steps, [](const double from[4], double matrix[9]) { rotation_matrix(from, matrix); });
 }
 
 /// Scheme `flex`: a component of the stored centre takes the new mean only where the two differ by more than the dead

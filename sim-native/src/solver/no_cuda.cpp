@@ -3,6 +3,7 @@
 #include "natator/error.h"
 #include "natator/gpu_solver.h"
 #include "solver/cuda/large/fetch_roof.h"
+#include "solver/cuda/way.h"
 
 namespace natator {
 namespace {
@@ -31,6 +32,9 @@ FetchRoof measure_fetch_roof(const Scene&, const std::vector<Gait>&, int, int) {
     refuse();
 }
 double measure_copy_bandwidth(int) {
+    refuse();
+}
+bool by_whole_gpu(const Scene&, const Model&, int, const BatchOptions&) {
     refuse();
 }
 

@@ -40,6 +40,8 @@ struct BatchView {
     const Real* rest_length;  ///< of the springs: [state * springs + spring]; null: the Model's
     Progress* progress;
     GaitView gait;
+    /// Of the muscles, as the host set them: [(state * updates + update) * muscles + muscle]; null: by the gaits.
+    const Real* muscle_length;
     double* path;       ///< mean x of the body: [state * (updates + 1) + frame]
     Real* density;      ///< after the last update: [state * fluid + particle]; null if nobody asks
     int* neighbours;    ///< of each particle in the last substep: [state * particles + particle]; likewise

@@ -11,6 +11,7 @@
 #include "solver/cpu/cell_grid.h"
 #include "solver/cpu/conserving/solids.h"
 #include "solver/cpu/substep.h"
+#include "way.h"
 
 namespace natator::cuda {
 namespace {
@@ -18,6 +19,11 @@ namespace {
 template <class Real>
 Vec3<Real> vec3(const Eigen::Vector3d& v) {
     return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+}
+
+/// Cells of about the search distance / 4, as on the CPU: memory is not short there.
+int cells_off_chip(const Model& model) {
+    return 4096 + 16 * model.particles();
 }
 
 /// Particles listed by kind: position k of the result is what stands at `begin[k]` to `begin[k + 1]` of `shares`.
@@ -36,7 +42,7 @@ struct Lists {
 }  // namespace
 
 template <class Real>
-DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
+DeviceModel<Real>::DeviceModel(const Model& model, bool whole_gpu) {
     const cpu::Constants<Real> constants(model.parameters);
     const SolverParameters& p = model.parameters;
     view_.plan = make_plan(model);
@@ -107,8 +113,9 @@ DeviceModel<Real>::DeviceModel(const Model& model, int most_cells) {
     view_.rest_position = keep(rest_position_, rest);
     if (model.scheme != Scheme::flex) set_conserving(model);
     upload_solids(model);
-    view_.grid = grid_over(model, view_.search_distance, 0, most_cells > 0 ? most_cells : cells_on_chip(model));
-    if (view_.plan.water) set_water(model, most_cells);
+    const bool many = whole_gpu || goes_either_way(model);
+    view_.grid = grid_over(model, view_.search_distance, 0, many ? cells_off_chip(model) : cells_on_chip(model));
+    if (view_.plan.water) set_water(model);
 }
 
 namespace {
@@ -140,7 +147,7 @@ GhostMap<Real> through(const GhostMap<Real>& first, const physics::Border<Real>&
 }  // namespace
 
 template <class Real>
-void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
+void DeviceModel<Real>::set_water(const Model& model) {
     WaterModel<Real>& water = view_.water;
     const double radius = support(model), spacing = model.parameters.fluidRestDistance;
     const std::vector<double> volumes = particle_volumes(model);
@@ -188,7 +195,7 @@ void DeviceModel<Real>::set_water(const Model& model, int most_cells) {
         }
         if (!faces) water.most_copies *= 2;
     }
-    water.grid = grid_over(model, water.radius, water.radius, most_cells);
+    water.grid = grid_over(model, water.radius, water.radius, cells_off_chip(model));
 }
 
 template <class Real>

@@ -12,9 +12,9 @@ namespace natator::cuda {
 template <class Real>
 class DeviceModel {
 public:
-    /// At most `most_planes` planes; `most_cells` of the grid, 0 for as many as suit a block.
-    /// Throws InputError for springs or clusters of fluid, std::bad_alloc without memory.
-    explicit DeviceModel(const Model& model, int most_cells = 0);
+    /// At most `most_planes` planes; a grid of at most so many cells as suit blocks, or, with `whole_gpu` and for what goes either
+    /// way, the whole GPU. Throws InputError for springs or clusters of fluid, std::bad_alloc without memory.
+    explicit DeviceModel(const Model& model, bool whole_gpu = false);
 
     const ModelView<Real>& view() const { return view_; }
     /// Device number of each particle of the Model.
@@ -30,7 +30,7 @@ private:
     }
     void set_conserving(const Model& model);
     void upload_solids(const Model& model);
-    void set_water(const Model& model, int most_cells);
+    void set_water(const Model& model);
     /// Over the box of the start positions, extended to the planes that face an axis, and by `margin` then; along a periodic
     /// axis over the tank.
     GridView<Real> grid_over(const Model& model, Real distance, Real margin, int most_cells) const;

@@ -11,6 +11,7 @@
 #include "natator/actuate.h"
 #include "natator/batch.h"
 #include "natator/model_builder.h"
+#include "way.h"
 
 namespace natator {
 namespace cuda {
@@ -130,6 +131,8 @@ private:
         batch.substeps = model_.parameters.substeps;
         batch.gait = {frequencies.data(), powers.data(), amplitudes.data(), phases.data(),
                       steers ? offsets.data() : nullptr};
+        const DeviceBuffer<Real> lengths(goes_either_way(model_) ? muscle_lengths(members, frames) : std::vector<Real>{});
+        if (goes_either_way(model_)) batch.muscle_length = lengths.data();
         batch.density = density.data();
         batch.stop_at_planes = scene_.stopping.plane_contact;
         batch.no_progress_frames =
@@ -162,6 +165,22 @@ private:
         return evaluations;
     }
 
+    /// Of the muscles, by member and frame, as the whole GPU has them.
+    std::vector<Real> muscle_lengths(const std::vector<BatchMember>& members, int frames) const {
+        const std::size_t muscles = model_.muscles.size(), of_member = frames * muscles;
+        std::vector<Real> lengths(members.size() * of_member);
+        side_by_side(members.size(), [&](std::size_t k) {
+            State<Real> state;
+            state.spring_rest_length.resize(model_.springs.size());
+            Real* to = lengths.data() + k * of_member;
+            for (int frame = 0; frame < frames; ++frame) {
+                actuate(model_, members[k].gait, frame * scene_.time_step, state);
+                for (const Muscle& muscle : model_.muscles) *to++ = state.spring_rest_length[muscle.spring];
+            }
+        });
+        return lengths;
+    }
+
     const Scene& scene_;
     const Model& model_;
     BatchTimes* times_;
@@ -186,7 +205,8 @@ std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<
 template <class Real>
 std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                  const BatchOptions& options) {
-    if (by_whole_gpu(scene, model, options.whole_gpu)) return evaluate_large<Real>(scene, model, members, options.times);
+    if (by_whole_gpu(scene, model, static_cast<int>(members.size()), options))
+        return evaluate_large<Real>(scene, model, members, options.times);
     Batch<Real> batch(scene, model, options.times);
     return evaluate_in_parts(batch, members);
 }

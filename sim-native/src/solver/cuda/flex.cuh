@@ -21,6 +21,32 @@ __device__ Real compression_of(const ModelView<Real>& model, const Team& team, i
     return fluid.density(model.solid_pressure * solids.sum, model.density_scale) - 1;
 }
 
+/// The product rounded by itself, as if it were stored: never fused with what it is added to.
+__device__ inline float rounded_product(float a, float b) {
+    return __fmul_rn(a, b);
+}
+__device__ inline double rounded_product(double a, double b) {
+    return __dmul_rn(a, b);
+}
+
+/// physics::rotation_matrix with its products rounded in the same places in every kernel. Which of two products a sum is fused
+/// with is else the compiler's choice, and another one in a block of a State's own than on the whole GPU.
+template <class T>
+__device__ void rotation_matrix(const T q[4], T m[9]) {
+    const T x = q[0], y = q[1], z = q[2], w = q[3];
+    const T xx = rounded_product(x, x), yy = rounded_product(y, y), xz = rounded_product(x, z);
+    const T zw = rounded_product(z, w), xw = rounded_product(x, w);
+    m[0] = 1 - 2 * fma(z, z, yy);
+    m[1] = 2 * fma(x, y, -zw);
+    m[2] = 2 * fma(y, w, xz);
+    m[3] = 2 * fma(x, y, zw);
+    m[4] = 1 - 2 * fma(z, z, xx);
+    m[5] = 2 * fma(y, z, -xw);
+    m[6] = 2 * fma(-y, w, xz);
+    m[7] = 2 * fma(y, z, xw);
+    m[8] = 1 - 2 * fma(y, y, xx);
+}
+
 /// Fits the rotation and centre of a cluster of `count` members, by one warp: place(m) is where member m is, offset(m) its
 /// rest offset.
 template <class Real, class Place, class Offset>
@@ -36,10 +62,11 @@ __device__ void fit_members(int count, ClusterFit<Real>& fit, const Place& place
 
     double q[4] = {fit.rotation[0], fit.rotation[1], fit.rotation[2], fit.rotation[3]};
     __syncwarp();
-    physics::fit_rotation(covariance, q, physics::flex_fit_steps);
+    physics::fit_rotation(covariance, q, physics::flex_fit_steps,
+                          [](const double from[4], double matrix[9]) { rotation_matrix(from, matrix); });
     if (lane == 0) {
         for (int e = 0; e < 4; ++e) fit.rotation[e] = static_cast<Real>(q[e]);
-        physics::rotation_matrix(fit.rotation, fit.matrix);
+        rotation_matrix(fit.rotation, fit.matrix);
         fit.centre = with_dead_band(fit.centre, mean);
     }
     __syncwarp();
@@ -274,14 +301,6 @@ __device__ void apply_corrections(const ModelView<Real>& model, Team& team) {
         const int s = fluid_slot(unit - of_solids, of_fluid);
         if (s < model.fluid) correct_fluid(model, team, s);
     });
-}
-
-/// The product rounded by itself, as if it were stored: never fused with what it is added to.
-__device__ inline float rounded_product(float a, float b) {
-    return __fmul_rn(a, b);
-}
-__device__ inline double rounded_product(double a, double b) {
-    return __dmul_rn(a, b);
 }
 
 /// What slot s moved by per second.

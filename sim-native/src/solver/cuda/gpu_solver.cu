@@ -1,9 +1,12 @@
 #include "natator/gpu_solver.h"
 
+#include <utility>
+
 #include "batch_runner.h"
-#include "large/evaluate_large.h"
 #include "large/large_runner.h"
+#include "natator/actuate.h"
 #include "natator/batch.h"
+#include "way.h"
 
 namespace natator {
 namespace cuda {
@@ -112,7 +115,9 @@ private:
     cuda::Progress run(State<Real>& state, double time_step, int substeps, const Gait* gait,
                        const cuda::Trace<Real>& trace) override {
         const cuda::ModelView<Real>& view = runner_.model().view();
-        states_.upload({state});
+        State<Real> begin = state;
+        if (gait && cuda::goes_either_way(this->model_)) actuate(this->model_, *std::exchange(gait, nullptr), state.time, begin);
+        states_.upload({begin});
         const auto row = [](double value) { return std::vector<double>{value}; };
         using Numbers = cuda::DeviceBuffer<double>;
         const Numbers frequency(row(gait ? gait->frequency : 0)), power(row(gait ? gait->power : 1)),
@@ -197,14 +202,15 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     cuda::choose_device(options.device);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
-    const bool small = model.particles() <= cuda::most_particles_of_a_block && model.companions.empty();
-    if (path == GpuPath::by_size)
-        path = model.scheme == Scheme::flex && small ? GpuPath::block : GpuPath::whole_gpu;
+    if (path == GpuPath::by_size) {
+        const bool blocks = model.scheme == Scheme::flex && model.companions.empty() && !cuda::goes_either_way(model);
+        path = blocks ? GpuPath::block : GpuPath::whole_gpu;
+    }
     if (path == GpuPath::block && model.scheme != Scheme::flex)
         throw InputError("backend cuda: scheme conserving by blocks; must be on the whole GPU");
-    if (path == GpuPath::block && model.particles() > 65535)
-        throw InputError("backend cuda: " + std::to_string(model.particles()) +
-                         " particles by blocks; must be at most 65535");
+    if (path == GpuPath::block && model.particles() > cuda::most_particles_of_a_block)
+        throw InputError("backend cuda: " + std::to_string(model.particles()) + " particles by blocks; must be at most " +
+                         std::to_string(cuda::most_particles_of_a_block));
     if (path == GpuPath::block)
         implementation_ = std::make_unique<ByBlock>(model);
     else

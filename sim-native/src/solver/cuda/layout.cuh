@@ -28,10 +28,12 @@ private:
     std::size_t used_ = 0;
 };
 
-/// Has one of so many blocks the solids? Where it has a thread for each, and the others are enough for the fluid.
+/// Has one of so many blocks the solids? Where it has a thread for each, and the others are enough for the fluid, of which
+/// none has so much that all had better share it.
 template <class Real>
 bool splits_solids(const ModelView<Real>& model, int blocks) {
-    constexpr int most_solids = threads / 2, fewest_blocks = 8;
+    constexpr int most_solids = threads / 2, fewest_blocks = 8, most_fluid = 3000;
+    if (model.fluid > most_fluid * blocks) return false;
     constexpr std::size_t most_bytes = 64 << 10;
     const std::size_t bytes = model.solids * sizeof(Quad<Real>) + 2 * model.springs * sizeof(ChipSpring<Real>) +
                               model.members * (sizeof(Share) + sizeof(Quad<Real>));

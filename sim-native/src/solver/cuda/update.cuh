@@ -21,12 +21,19 @@ __device__ void rest(const BatchView<Real>& batch, int state, Team& team) {
     team.barrier();
 }
 
-/// Ends with a barrier.
+/// Sets the muscles for update `number`. Ends with a barrier.
 template <class Real, class Team>
-__device__ void actuate(const ModelView<Real>& model, const GaitView& gait, int state, double time, Team& team) {
-    if (!gait.frequency) return;
+__device__ void actuate(const BatchView<Real>& batch, int state, int number, double time, Team& team) {
+    const ModelView<Real>& model = batch.model;
+    const GaitView& gait = batch.gait;
+    if (!gait.frequency && !batch.muscle_length) return;
     for (int m = team.thread(); m < model.muscles; m += team.size()) {
         const MuscleView muscle = model.muscle[m];
+        if (batch.muscle_length) {
+            const std::size_t row = static_cast<std::size_t>(state) * batch.updates + number;
+            team.rest_length()[muscle.spring] = batch.muscle_length[row * model.muscles + m];
+            continue;
+        }
         const int a = state * model.actuators + muscle.actuator;
         const double activation =
             physics::activation(gait.frequency[state], gait.power[state], gait.phase[a], time);
@@ -247,7 +254,7 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Team
     const Trace<Real> trace = last ? batch.trace : Trace<Real>{};
     const double time = batch.start_time + (batch.settling ? 0 : number * batch.time_step);
     rest(batch, state, team);
-    actuate(model, batch.gait, state, time, team);
+    actuate(batch, state, number, time, team);
     if constexpr (Team::of_several_blocks) load_constraints_of_solids(model, team);
     if (!batch.settling && number == 0)
         measure_path(model, team, batch.path + static_cast<std::size_t>(state) * (batch.updates + 1));

@@ -23,11 +23,6 @@ struct LargeRunner<Real>::Graph {
 
 namespace {
 
-/// Cells of about the search distance / 4, as on the CPU: memory is not short here.
-int most_cells(const Model& model) {
-    return 4096 + 16 * model.particles();
-}
-
 constexpr int usual_neighbours = 32;      // of fluid in scheme flex: a lattice has 18, and it packs closer by half
 constexpr int fluid_around_a_solid = 32;  // that has room for lists of contacts
 
@@ -43,7 +38,7 @@ Real as_quad_number(int i) {
 
 template <class Real>
 LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room, bool keeps_forces)
-    : host_model_(model), device_model_(model, most_cells(model)), muscles_(states), idle_(states, 0), end_(states) {
+    : host_model_(model), device_model_(model, true), muscles_(states), idle_(states, 0), end_(states) {
     base_.model = device_model_.view();
     base_.states = states;
     base_.slots.room = room;
