@@ -31,8 +31,8 @@ void wait(const std::atomic<T>& value, T old) {
 
 }  // namespace
 
-ThreadTeam::ThreadTeam(int threads) : inside_(closed) {
-    for (int k = 1; k < threads; ++k) helpers_.emplace_back([this] { help(); });
+ThreadTeam::ThreadTeam(int threads) : shares_(std::max(1, threads)), inside_(closed) {
+    for (int k = 1; k < threads; ++k) helpers_.emplace_back([this, k] { help(k); });
 }
 
 ThreadTeam::~ThreadTeam() {
@@ -42,13 +42,15 @@ ThreadTeam::~ThreadTeam() {
     for (std::thread& helper : helpers_) helper.join();
 }
 
-void ThreadTeam::take_parts() {
-    const int parts = static_cast<int>(thrown_.size());
-    for (int part = next_++; part < parts; part = next_++) {
-        try {
-            (*work_)(part);
-        } catch (...) {
-            thrown_[part] = std::current_exception();
+void ThreadTeam::take_parts(int number) {
+    for (int k = 0; k < size(); ++k) {
+        Share& share = shares_[(number + k) % size()];
+        for (int part = share.next++; part < share.end; part = share.next++) {
+            try {
+                (*work_)(part);
+            } catch (...) {
+                thrown_[part] = std::current_exception();
+            }
         }
     }
 }
@@ -60,13 +62,13 @@ bool ThreadTeam::enter() {
     return false;
 }
 
-void ThreadTeam::help() {
+void ThreadTeam::help(int number) {
     for (unsigned seen = 0;;) {
         wait(call_, seen);
         seen = call_;
         if (over_) return;
         if (!enter()) continue;
-        take_parts();
+        take_parts(number);
         if (--inside_ == 0) inside_.notify_one();
     }
 }
@@ -74,11 +76,14 @@ void ThreadTeam::help() {
 void ThreadTeam::run(int parts, const std::function<void(int)>& work) {
     work_ = &work;
     thrown_.assign(parts, nullptr);
-    next_ = 0;
+    for (int k = 0; k < size(); ++k) {
+        shares_[k].next = cut(parts, k, size());
+        shares_[k].end = cut(parts, k + 1, size());
+    }
     inside_ = 0;
     ++call_;
     call_.notify_all();
-    take_parts();
+    take_parts(0);
     for (int inside = 0; !inside_.compare_exchange_strong(inside, closed); inside = 0) wait(inside_, inside);
     for (const std::exception_ptr& thrown : thrown_)
         if (thrown) std::rethrow_exception(thrown);

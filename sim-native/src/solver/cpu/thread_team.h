@@ -29,7 +29,8 @@ public:
     /// only one, so short loops run as if alone. Throws what the first part in order threw.
     template <class Work>
     void for_parts(int count, int grain, const Work& work) {
-        const int parts = std::max(1, std::min(most_parts(), count / grain));
+        int parts = std::max(1, std::min(most_parts(), count / grain));
+        if (parts > size()) parts -= parts % size();  // as many for each thread
         if (parts == 1) return work(0, 0, count);
         run(parts, [&](int part) { work(part, cut(count, part, parts), cut(count, part + 1, parts)); });
     }
@@ -47,16 +48,21 @@ private:
         return static_cast<int>(static_cast<long long>(count) * part / parts);
     }
     void run(int parts, const std::function<void(int)>& work);
-    void help();
+    void help(int number);
     bool enter();
-    void take_parts();
+    void take_parts(int number);
 
     std::vector<std::thread> helpers_;
     const std::function<void(int)>* work_ = nullptr;
     std::vector<std::exception_ptr> thrown_;  ///< by part
     std::atomic<bool> over_{false};           ///< no more work will come
     std::atomic<unsigned> call_{0};           ///< counts the calls of run
-    std::atomic<int> next_{0};                ///< first part that nobody has taken
+    /// Parts of one thread that nobody has taken: it begins with those, so that it finds in its cache what it left there.
+    struct alignas(64) Share {
+        std::atomic<int> next{0};
+        int end = 0;
+    };
+    std::vector<Share> shares_;               ///< by thread
     std::atomic<int> inside_;                 ///< helpers in the present call; -1: none may enter
 };
 
