@@ -38,7 +38,9 @@ bool on_gpu(const BackendChoice& choice, const Scene& scene) {
     if (choice.name == "cuda") {
         if (choice.device < devices) return true;
         throw NoDevice("backend = \"cuda\", device " + std::to_string(choice.device) +
-                       ": no such device here; must be one that natator-sim info lists, or backend \"cpu\"");
+                       ": no such device here; " +
+                       (devices == 0 ? "there is none, or this program was built without CUDA: must be backend \"cpu\""
+                                     : "must be one that natator-sim info lists, or backend \"cpu\""));
     }
     std::optional<std::string> reason = "no GPU here";
     if (choice.device < devices) reason = gpu_refusal(scene);

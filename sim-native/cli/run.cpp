@@ -135,7 +135,7 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
         text << "speed      " << without_sign_of_zero(speed) << " units/s";
         if (length > 0) text << ", " << without_sign_of_zero(speed / length) << " body lengths/s";
         text << "\n";
-        if (result.swimming) text << swimming_line(*result.swimming);
+        if (result.swimming && !options.gait.empty()) text << swimming_line(*result.swimming);  // a resting tail has no beat
         for (const GoalResult& goal : result.goals) text << goal_line(goal);
         for (const CompanionResult& one : result.companions)
             text << "beside it  " << one.creature << ", " << without_sign_of_zero(one.distance) << " units\n";

@@ -10,7 +10,7 @@ from natator.simulator import make_request
 options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
 options.add_argument("--scene", default="pool/creature-1")
 options.add_argument("--duration", type=float, default=2.0, help="s")
-options.add_argument("--evaluations", type=int, default=48)
+options.add_argument("--evaluations", type=int, default=48, help="at least; whole generations are finished")
 options.add_argument("--workers", type=int, help="programs side by side (default: one for each processor)")
 options.add_argument("--seed", type=int, default=1)
 options = options.parse_args()

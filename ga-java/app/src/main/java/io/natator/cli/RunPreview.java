@@ -90,7 +90,7 @@ final class RunPreview {
         int together = execution.trials(settings.population());
         try (Evaluator evaluator = EvolutionRun.telling(settings, Evaluator.open(limited.withCache(null)), scene)) {
             double whole = new EvaluationTime(settings, evaluator).of(together, duration);
-            out.printf(Locale.ROOT, "  time        at most %s: %d evaluations take %.2f s, if none ends early%n",
+            out.printf(Locale.ROOT, "  time        about %s if no evaluation ends early: %d take %.2f s%n",
                     ProgressEstimate.readable(Math.round(Math.ceil((double) evaluations / together) * whole)),
                     together, whole);
         }

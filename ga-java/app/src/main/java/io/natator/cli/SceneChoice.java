@@ -14,8 +14,8 @@ import picocli.CommandLine.ParameterException;
 @Section(Topic.SCENE)
 final class SceneChoice {
 
-    @Option(names = "--creature", paramLabel = "1..4|NAME", description = "Creature of the thesis, or another bundled body "
-            + "in open water: eel, ray, tadpole, tuna. Default: 1.")
+    @Option(names = "--creature", paramLabel = "1..4|NAME", description = "Creature of the thesis, or another bundled body: "
+            + "eel, ray, tadpole, tuna. Default: 1.")
     private String creature;
 
     @Option(names = "--scene", paramLabel = "NAME|FILE", description = "Default: thesis/creature-N; of evolve the preset's.")

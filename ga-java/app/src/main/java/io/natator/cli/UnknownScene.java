@@ -33,7 +33,7 @@ final class UnknownScene {
     static InvalidInputException scene(String option, String scene, RefusedSceneException refusal, Path simulator) throws InterruptedException {
         List<String> known = known(simulator);
         return isKnown(scene, known) ? refusal : new InvalidInputException(option + " is " + scene
-                + "; expected a named scene (natator-sim info lists them) or a file" + Closest.scenes(scene, known), refusal);
+                + "; expected a named scene (natator-sim info lists them) or a file NAME.json" + Closest.scenes(scene, known), refusal);
     }
 
     /**

@@ -68,6 +68,7 @@ class EvaluateCommandTest extends FakeSimulatorTest {
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
         "thesis/creature-1|1.5 0.1 0.2|3 genes given; expected 4",
         "thesis/creature-1|1.5 0.1 zero 0.3|gene 3 is 'zero'; expected a number",
+        "thesis/creature-1|best.json --duraton 2|Unknown option: '--duraton'",
         "thesis/creature-1|2.5 0.1 0.2 0.3|gene 1 (frequency) is 2.5; expected a number from 0.5 to 2.0",
         "thesis/creature-1|NaN 0.1 0.2 0.3|gene 1 (frequency) is NaN",
         "thesis/creature-1|no-such.json|no-such.json does not exist",

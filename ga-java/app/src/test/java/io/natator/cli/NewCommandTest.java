@@ -123,8 +123,8 @@ class NewCommandTest {
         "scene x --output x.txt|--output is x.txt; expected a name that ends in .json",
         "scene x --output TAKEN|taken.json is already there; expected a new file",
         "scene x --output FOLDER/none/x.json|no such file or folder",
-        "scene x --like no/such|--like is no/such; expected a named scene (natator-sim info lists them) or a file",
-        "creature x --like poool/eel|--like is poool/eel; expected a named scene (natator-sim info lists them) or a file; did you mean pool/eel, ",
+        "scene x --like no/such|--like is no/such; expected a named scene (natator-sim info lists them) or a file NAME.json",
+        "creature x --like poool/eel|--like is poool/eel; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/eel, ",
         "gait x --like no.json|--like is no.json; expected a named scene or an existing file",
         "gait x --like pool/water|has no muscles to drive: it has no creature",
         "creature x --like pool/water|--like is pool/water, which has no creature"})

@@ -32,9 +32,9 @@ class UnknownSceneTest {
         "evolve --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
         "evolve --creature tadpol --preset thesis|--creature is tadpol; expected 1, 2, 3, 4, eel, ray, tadpole or tuna; did you mean tadpole?",
         "view --creature minnow|--creature is minnow; expected 1, 2, 3, 4, eel, ray, tadpole or tuna",
-        "evaluate --scene pool/tunaa --gait 1|--scene is pool/tunaa; expected a named scene (natator-sim info lists them) or a file; did you mean pool/tuna "
+        "evaluate --scene pool/tunaa --gait 1|--scene is pool/tunaa; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/tuna "
             + "or open-water/tuna?",
-        "evolve --scene pool/eal|--scene is pool/eal; expected a named scene (natator-sim info lists them) or a file; did you mean pool/eel, "
+        "evolve --scene pool/eal|--scene is pool/eal; expected a named scene (natator-sim info lists them) or a file NAME.json; did you mean pool/eel, "
             + "endless/eel or open-water/eel?"})
     void onlyWhatIsNearIsNamed(String arguments, String message) {
         StringWriter err = new StringWriter();
