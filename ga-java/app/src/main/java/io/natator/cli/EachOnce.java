@@ -17,9 +17,12 @@ final class EachOnce {
      *
      * @param option its name
      * @param text   how a value was given
-     * @throws InvalidInputException naming the first value that stands there again
+     * @throws InvalidInputException naming the first value that stands there again, or if there is none
      */
     static <T> void check(String option, List<T> values, Function<T, String> text) {
+        if (values.isEmpty()) {
+            throw new InvalidInputException(option + " is empty; expected at least one value");
+        }
         Set<T> before = new HashSet<>();
         values.stream().filter(one -> !before.add(one)).findFirst().ifPresent(one -> {
             throw new InvalidInputException(option + " has " + text.apply(one) + " twice; expected each once");

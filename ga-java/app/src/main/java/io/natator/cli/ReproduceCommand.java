@@ -3,6 +3,7 @@ package io.natator.cli;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Limits;
 import io.natator.file.ShellWord;
@@ -131,6 +132,7 @@ final class ReproduceCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         Double stopAfter = queueOptions.stopAfter();
+        Limits.checkCount("--runs", runs, Limits.REPETITIONS);
         EachOnce.check("--creature", creatures, String::valueOf);
         EachOnce.check("--water", waters, EnumNames::of);
         ExecutionSettings execution = executionOptions.execution(Backend.CPU);
@@ -184,11 +186,11 @@ final class ReproduceCommand implements Callable<Integer> {
 
     /** Of all evolutions in the folder, also those that were not asked for. */
     private void dropOutdated(ExecutionSettings execution, PrintWriter err) throws InterruptedException {
-        EvolutionPlan all = new EvolutionPlan(CREATURES, List.of(Water.values()), null,
-                new EvolutionPlan.Size(population, null, starts, duration), execution.backend(), execution.simulator(), directory);
-        if (all.isAnyUnderWay()) {
+        if (EvolutionPlan.isAnyUnderWay(directory)) {
             return;
         }
+        EvolutionPlan all = new EvolutionPlan(CREATURES, List.of(Water.values()), null,
+                new EvolutionPlan.Size(population, null, starts, duration), execution.backend(), execution.simulator(), directory);
         try (ThesisStudy study = new ThesisStudy(directory, all, runs, duration)) {
             int dropped = study.dropOutdated();
             if (dropped > 0) {
@@ -222,11 +224,14 @@ final class ReproduceCommand implements Callable<Integer> {
         Limits.checkCount("--sample", sample, Limits.REPETITIONS);
         try (ThesisStudy study = new ThesisStudy(directory, plan, runs, duration)) {
             List<Repeated> repeated = study.repeat(waters, sample, sampleSeed, execution);
+            if (repeated.isEmpty()) {
+                throw new InvalidInputException(directory + " holds no runs to do again; expected what --phase measure keeps in processor.jsonl");
+            }
             repeated.stream().filter(one -> !one.isSame()).forEach(one -> out.println("differs: " + Json.line(one.request()) + " ended as "
                     + one.stored() + ", now as " + one.now()));
             long same = repeated.stream().filter(Repeated::isSame).count();
             out.printf("%d of %d runs end with the same bits%n", same, repeated.size());
-            return same == repeated.size() && same > 0 ? ExitCode.OK : ExitCode.SOFTWARE;
+            return same == repeated.size() ? ExitCode.OK : ExitCode.SOFTWARE;
         }
     }
 }

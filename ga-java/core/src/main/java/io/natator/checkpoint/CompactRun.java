@@ -48,7 +48,8 @@ public final class CompactRun {
     /** The state after the last finished generation, with its population unless an older program dropped that; or null. */
     static EvolutionState lastState(Path directory) {
         EvolutionState state = StoredRun.state(directory);
-        return state != null && state.population().isEmpty() && Files.exists(directory.resolve(WHOLE)) ? whole(directory) : state;
+        boolean isWhole = state != null && !state.population().isEmpty();
+        return !isWhole && Files.exists(directory.resolve(WHOLE)) ? whole(directory) : state;
     }
 
     /** How many of the first evaluations are not recorded any more, beside those that are. */

@@ -89,6 +89,10 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         try {
             Files.createDirectories(directory);
             AtomicFile.deleteUnfinished(directory.resolve(name));
+            boolean isRun = Files.exists(directory.resolve(CHECKPOINT)) || Files.exists(directory.resolve(EVALUATIONS));
+            if (isRun && !Files.exists(directory.resolve(name))) {
+                throw new InvalidInputException(directory + " is damaged: it has no " + name);
+            }
             if (isOccupied(directory)) {
                 throw new InvalidInputException("output folder " + directory + " is not empty; choose another by "
                         + "--output-dir, or continue the run in it by --resume " + directory);
@@ -148,7 +152,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
         String lost = folder.checkpoint != null && folder.checkpoint.population().isEmpty()
-                ? directory + " has no population any more, which it would go on from: an older program made it small"
+                ? directory + " has no population any more, which it would go on from: it lacks " + CompactRun.WHOLE
                 : damage(directory, folder.checkpoint, folder.recorded().end());
         String damage = lost != null ? lost
                 : damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size());

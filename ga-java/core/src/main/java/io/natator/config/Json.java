@@ -13,6 +13,7 @@ import com.fasterxml.jackson.databind.exc.MismatchedInputException;
 import com.fasterxml.jackson.databind.json.JsonMapper;
 import com.fasterxml.jackson.databind.type.LogicalType;
 import java.io.IOException;
+import java.nio.charset.CharacterCodingException;
 import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
@@ -96,6 +97,8 @@ public final class Json {
             throw new InvalidInputException(what + " " + file + " does not exist", e);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException(what + " " + file + ": " + reason(e), e);
+        } catch (CharacterCodingException e) {
+            throw new InvalidInputException(what + " " + file + " is not UTF-8", e);
         } catch (IOException e) {
             throw new InvalidInputException(what + " " + file + " cannot be read: " + FileErrors.reason(file, e), e);
         }

@@ -5,6 +5,7 @@ import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import java.io.ByteArrayOutputStream;
+import java.io.EOFException;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
@@ -41,6 +42,8 @@ public final class CompressedJson {
             return Json.parse(new String(in.readAllBytes(), StandardCharsets.UTF_8), type);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException(what + " " + file + ": " + Json.reason(e), e);
+        } catch (EOFException e) {
+            throw new InvalidInputException(what + " " + file + " ends too early", e);
         } catch (IOException e) {
             throw new InvalidInputException(what + " " + file + " cannot be read: " + FileErrors.reason(file, e), e);
         }

@@ -125,13 +125,18 @@ public final class JsonLines<T> implements AutoCloseable {
     /** Opens for writing what was only read so far. */
     private void reopen() throws IOException {
         Files.createDirectories(file.toAbsolutePath().getParent());
+        openUnchanged();
+        dropFrom(size);
+    }
+
+    /** The same, as it is. */
+    private void openUnchanged() throws IOException {
         open();
         if (content.length() != length) {
             content.close();
             content = null;
             throw new InvalidInputException(file + " was changed by another run meanwhile");
         }
-        dropFrom(size);
     }
 
     /** The rows that were in the file when it was opened. */
@@ -149,6 +154,7 @@ public final class JsonLines<T> implements AutoCloseable {
      * for one that is not opened for writing yet.
      *
      * @return how many were left out
+     * @throws InvalidInputException if another process writes the file, or has since it was read
      */
     public int keep(Predicate<T> wanted) {
         if (content != null) {
@@ -158,12 +164,27 @@ public final class JsonLines<T> implements AutoCloseable {
         List<T> kept = rows.stream().filter(wanted).toList();
         if (kept.size() < before) {
             String text = kept.stream().map(row -> Json.line(row) + "\n").collect(Collectors.joining());
-            AtomicFile.write(file, text);
+            replace(text);
             starts.subList(1, starts.size()).clear();
             rows.clear();
             parse(text.getBytes(StandardCharsets.UTF_8));
         }
         return before - rows.size();
+    }
+
+    /** While it is locked, so that nobody goes on writing to what is no longer the file. */
+    private void replace(String text) {
+        try {
+            openUnchanged();
+            try {
+                AtomicFile.write(file, text);
+            } finally {
+                content.close();
+                content = null;
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot write " + AtomicFile.reason(file, e), e);
+        }
     }
 
     /** Forgets a row that was in the file when it was opened for writing, and all after it. */

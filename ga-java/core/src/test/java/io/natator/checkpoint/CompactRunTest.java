@@ -132,6 +132,20 @@ class CompactRunTest {
         }
     }
 
+    /** The compressed checkpoint is a whole one. */
+    @Test
+    void goesOnWithoutTheSmallCheckpoint() throws Exception {
+        EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 2);
+        Path run = folder.resolve("run");
+        Path whole = folder.resolve("whole");
+        evolve(run, settings);
+        CompactRun.compact(run);
+        Files.delete(run.resolve("checkpoint.json"));
+        evolve(run, settings.withSize(8, 3));
+        evolve(whole, settings.withSize(8, 3));
+        assertThat(run.resolve("checkpoint.json")).hasSameTextualContentAs(whole.resolve("checkpoint.json"));
+    }
+
     @Test
     void whatIsNeededToGoOnMayBeGone() throws Exception {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(8, 2);
@@ -140,7 +154,7 @@ class CompactRunTest {
         CompactRun.compact(old);
         Files.delete(old.resolve("checkpoint.json.gz"));
         assertThatThrownBy(() -> evolve(old, settings.withSize(8, 3))).isInstanceOf(InvalidInputException.class)
-                .hasMessage(old + " has no population any more, which it would go on from: an older program made it small");
+                .hasMessage(old + " has no population any more, which it would go on from: it lacks checkpoint.json.gz");
 
         Path strategy = folder.resolve("strategy");
         EvolutionSettings other = settings.withObjectives(OptimizerKind.CMA_ES, null);

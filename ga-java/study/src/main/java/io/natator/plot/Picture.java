@@ -1,6 +1,8 @@
 package io.natator.plot;
 
+import io.natator.file.AtomicFile;
 import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import org.knowm.xchart.BitmapEncoder;
@@ -13,7 +15,7 @@ public final class Picture {
     }
 
     /**
-     * Writes the file, and its folder where there is none.
+     * Writes the file, which is a whole one at every moment, and its folder where there is none.
      *
      * @param file path without extension
      * @return the PNG file
@@ -21,7 +23,13 @@ public final class Picture {
      */
     public static Path save(Chart<?, ?> chart, Path file) throws IOException {
         Files.createDirectories(file.toAbsolutePath().getParent());
-        BitmapEncoder.saveBitmap(chart, file.toString(), BitmapEncoder.BitmapFormat.PNG);
-        return file.resolveSibling(file.getFileName() + ".png");
+        Path picture = file.resolveSibling(file.getFileName() + ".png");
+        byte[] content = BitmapEncoder.getBitmapBytes(chart, BitmapEncoder.BitmapFormat.PNG);
+        try {
+            AtomicFile.write(picture, content);
+        } catch (UncheckedIOException e) {
+            throw e.getCause();
+        }
+        return picture;
     }
 }

@@ -30,6 +30,7 @@ public final class EvolutionPlan {
     /** Evolutions of each creature in each water where the folder does not hold more. */
     public static final int USUAL_SEEDS = 3;
 
+    private static final String RUNS = "runs";
     private static final String SEED = "seed-";
 
     private final List<EvolvedRun> runs = new ArrayList<>();
@@ -99,7 +100,7 @@ public final class EvolutionPlan {
     }
 
     private static Path seeds(int creature, Water water, Path directory) {
-        return directory.resolve("runs").resolve("creature-" + creature).resolve(water.label());
+        return directory.resolve(RUNS).resolve("creature-" + creature).resolve(water.label());
     }
 
     /** Generations of the evolution in a folder, else of the first seed beside it, else the usual number. */
@@ -141,9 +142,17 @@ public final class EvolutionPlan {
         return runs.stream().filter(run -> run.plan().isFinished()).toList();
     }
 
-    /** Whether one is begun and has not come to its end. */
-    public boolean isAnyUnderWay() {
-        return runs.stream().anyMatch(run -> Files.isDirectory(run.plan().directory()) && !run.plan().isFinished());
+    /** Whether any evolution in a study's folder, of whatever seed, is begun and has not come to its end. */
+    public static boolean isAnyUnderWay(Path directory) {
+        if (!Files.isDirectory(directory.resolve(RUNS))) {
+            return false;
+        }
+        try (Stream<Path> all = Files.find(directory.resolve(RUNS), 3, (path, attributes) -> attributes.isDirectory()
+                && path.getFileName().toString().startsWith(SEED))) {
+            return all.anyMatch(run -> !StoredRun.isFinished(run));
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot read " + directory + ": " + FileErrors.reason(directory, e), e);
+        }
     }
 
     /** Those of the seeds that are there: up to the largest that is finished in a water, or all where none is. */

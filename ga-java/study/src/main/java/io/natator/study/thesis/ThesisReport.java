@@ -2,6 +2,7 @@ package io.natator.study.thesis;
 
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.config.Json;
 import io.natator.file.GeneratedPage;
 import io.natator.file.ShellWord;
@@ -79,7 +80,7 @@ final class ThesisReport {
         try {
             Drawing.orWarn("pictures of the first screen", () -> drawFirstScreen(page, answers));
         } catch (IOException e) {
-            throw new UncheckedIOException("cannot draw: " + e.getMessage(), e);
+            throw new UncheckedIOException("cannot draw: " + FileErrors.reason(directory, e), e);
         }
     }
 
@@ -121,7 +122,7 @@ final class ThesisReport {
             // A Java without fonts still has the tables.
             Drawing.orWarn("pictures", () -> new ThesisFigures(directory, results, recordings).add(page));
         } catch (IOException e) {
-            throw new UncheckedIOException("cannot draw: " + e.getMessage(), e);
+            throw new UncheckedIOException("cannot draw: " + FileErrors.reason(directory, e), e);
         }
     }
 

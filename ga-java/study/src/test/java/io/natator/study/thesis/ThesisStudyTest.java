@@ -102,12 +102,14 @@ class ThesisStudyTest {
         assertThat(dropped()).isEqualTo(1);
 
         assertThat(file).hasContent(rows);
+        Files.createDirectories(folder.resolve("runs/creature-3/open-water/seed-17"));
+        assertThat(EvolutionPlan.isAnyUnderWay(folder)).as("of any seed").isTrue();
     }
 
     private int dropped() throws InterruptedException {
         EvolutionPlan all = new EvolutionPlan(List.of(1, 2, 3, 4), List.of(Water.values()), null, new EvolutionPlan.Size(null, null, null, null),
                 Backend.CPU, SIMULATOR, folder);
-        assertThat(all.isAnyUnderWay()).isFalse();
+        assertThat(EvolutionPlan.isAnyUnderWay(folder)).isFalse();
         assertThat(all.finished()).hasSizeGreaterThan(30);
         try (ThesisStudy study = new ThesisStudy(folder, all, 8, null)) {
             return study.dropOutdated();
