@@ -174,6 +174,9 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * them, so there are never fewer of a sound run, also while it is written.
      */
     static String damage(Path directory, EvolutionState checkpoint, long recorded) {
+        if (checkpoint != null && checkpoint.evaluations() < 0) {
+            return directory + " is damaged: evaluations of " + CHECKPOINT + " is " + checkpoint.evaluations() + "; expected at least 0";
+        }
         return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
                 + " has " + recorded + " whole lines; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
     }

@@ -46,6 +46,9 @@ public final class JsonLines<T> implements AutoCloseable {
      */
     public static <T> JsonLines<T> of(Path file, Class<T> type) {
         JsonLines<T> lines = new JsonLines<>(file, type);
+        if (Files.exists(file) && !Files.isRegularFile(file) && !Files.isDirectory(file)) {
+            throw new InvalidInputException(file + " is not a regular file");  // reading a pipe would wait for ever
+        }
         try {
             lines.parse(Files.exists(file) ? Files.readAllBytes(file) : new byte[0]);
         } catch (IOException e) {
