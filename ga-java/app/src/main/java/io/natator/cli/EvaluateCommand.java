@@ -128,9 +128,6 @@ final class EvaluateCommand implements Callable<Integer> {
 
     private List<Double> numbers() {
         List<Double> genes = new ArrayList<>();
-        gait.stream().filter(word -> word.startsWith("--")).findFirst().ifPresent(option -> {
-            throw new InvalidInputException("Unknown option: '" + option + "'");
-        });
         for (String gene : gait) {
             try {
                 genes.add(Double.parseDouble(gene));

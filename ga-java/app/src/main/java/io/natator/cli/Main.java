@@ -67,7 +67,7 @@ public final class Main implements Callable<Integer> {
 
     /** All commands. */
     public static CommandLine commandLine() {
-        CommandLine command = new CommandLine(new Main())
+        CommandLine command = new CommandLine(new Main()).setUnmatchedOptionsAllowedAsOptionParameters(false)
                 .setParameterExceptionHandler(OneLineErrors::badUsage)
                 .setExecutionExceptionHandler(OneLineErrors::failure);
         EnumNames.install(command);

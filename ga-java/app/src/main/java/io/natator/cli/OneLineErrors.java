@@ -22,7 +22,8 @@ final class OneLineErrors {
 
     static int badUsage(ParameterException error, String[] arguments) {
         CommandLine command = error.getCommandLine();
-        String what = error instanceof UnmatchedArgumentException unmatched
+        // What stands where an option's value should is told in the message alone.
+        String what = error instanceof UnmatchedArgumentException unmatched && !unmatched.getUnmatched().isEmpty()
                 ? unknown(unmatched.getUnmatched().get(0), command, error.getMessage()) : error.getMessage();
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
         return ExitCode.USAGE;
