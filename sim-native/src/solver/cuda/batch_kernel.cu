@@ -16,13 +16,6 @@ const void* kernel(const ModelView<Real>& model, bool on_chip) {
     return model.plan.effects() ? batch_kernel<Real, true>(on_chip) : batch_kernel<Real, false>(on_chip);
 }
 
-int device_attribute(cudaDeviceAttr what) {
-    int device = 0, value = 0;
-    check(cudaGetDevice(&device), "current device");
-    check(cudaDeviceGetAttribute(&value, what, device), "attribute of the device");
-    return value;
-}
-
 /// What a launch of so many teams is asked with; `cluster` is part of it.
 cudaLaunchConfig_t configuration(const Teams& teams, int count, cudaLaunchAttribute& cluster) {
     cluster.id = cudaLaunchAttributeClusterDimension;

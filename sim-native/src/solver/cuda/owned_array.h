@@ -16,6 +16,14 @@ inline void check(cudaError_t status, const char* doing) {
         throw std::runtime_error(std::string("cuda: ") + doing + ": " + cudaGetErrorString(status));
 }
 
+/// Of the current device.
+inline int device_attribute(cudaDeviceAttr what) {
+    int device = 0, value = 0;
+    check(cudaGetDevice(&device), "current device");
+    check(cudaDeviceGetAttribute(&value, what, device), "attribute of the device");
+    return value;
+}
+
 /// An array in memory that Memory allocates and frees. Throws std::bad_alloc when there is none left.
 template <class T, class Memory>
 class OwnedArray {

@@ -15,13 +15,6 @@ bool has_room_by_blocks(const Model& model) {
     return particles <= most_particles_of_a_block && 2 * solids * (particles + fluid) <= most_bytes;
 }
 
-bool has_clusters_of_blocks() {
-    int device = 0, has = 0;
-    check(cudaGetDevice(&device), "current device");
-    check(cudaDeviceGetAttribute(&has, cudaDevAttrClusterLaunch, device), "attribute of the device");
-    return has != 0;
-}
-
 /// By clusters of 16 blocks a few States take 0.26 ms + 20 ns a particle for a frame of 4 substeps, all at once; by the whole GPU
 /// 0.5 ms + 3.2 ns a particle of each: measured on an H100 in float, with 22 000 to 64 000 particles.
 bool are_blocks_faster(int particles, int members) {
@@ -38,7 +31,7 @@ bool by_whole_gpu(const Scene& scene, const Model& model, int members, const Bat
     if (options.whole_gpu || model.scheme != Scheme::flex || !scene.goals.empty() || !scene.companions.empty()) return true;
     if (!goes_either_way(model)) return false;
     if (options.precision != Precision::single_precision || make_plan(model).effects()) return true;
-    return !has_room_by_blocks(model) || !has_clusters_of_blocks() || !are_blocks_faster(model.particles(), members);
+    return !has_room_by_blocks(model) || device_attribute(cudaDevAttrClusterLaunch) == 0 || !are_blocks_faster(model.particles(), members);
 }
 
 }  // namespace natator::cuda
