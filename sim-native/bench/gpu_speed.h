@@ -11,7 +11,7 @@ namespace natator::bench {
 
 /// Run time of batches of evaluations on a GPU: as many different gaits in one scene.
 struct GpuSpeedStudy {
-    std::vector<std::string> scenes;  ///< speed_scene_names()
+    std::vector<std::string> scenes;  ///< see speed_scene
     std::vector<Scheme> schemes;
     std::vector<Precision> precisions;
     std::vector<int> batches{1, 150};  ///< evaluations per launch

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 
 #include "evaluate/settle.h"
 #include "in_precision.h"
+#include "io/strict_json.h"
+#include "natator/error.h"
 #include "natator/momentum.h"
 #include "natator/measure.h"
 
@@ -105,6 +108,18 @@ double path_error(const PathRun::Places& places, const PathRun::Places& referenc
     double squares = 0;
     for (std::size_t i = 0; i < places.size(); ++i) squares += (places[i] - reference[i]).squaredNorm();
     return places.empty() ? 0 : std::sqrt(squares / static_cast<double>(places.size()));
+}
+
+Steps steps_of(const std::string& text) {
+    Steps steps{};
+    std::istringstream parts(text);
+    char cross = 0;
+    parts >> steps.substeps >> cross >> steps.iterations;
+    const bool fits = parts && parts.eof() && cross == 'x';
+    const auto allowed = [](int count) { return 1 <= count && count <= 1000; };
+    if (!fits || !allowed(steps.substeps) || !allowed(steps.iterations))
+        throw InputError("--setting " + quoted(text) + ": must be SUBSTEPSxITERATIONS, such as 8x4");
+    return steps;
 }
 
 }  // namespace natator::bench

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bench_scenes.h"
@@ -18,6 +19,12 @@ struct Setting {
     int substeps = 4;
     int iterations = 4;
 };
+
+/// The steps of "8x4": 8 substeps of 4 iterations. Throws InputError, which names option --setting, for anything else.
+struct Steps {
+    int substeps, iterations;
+};
+Steps steps_of(const std::string& text);
 
 /// Times at which paths are compared, s. Later ones mean little: neighbouring paths part exponentially.
 inline constexpr std::array<double, 2> path_times{0.1, 0.25};

@@ -12,6 +12,7 @@
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/model_builder.h"
+#include "path_run.h"
 #include "scene/scene_json.h"
 #include "statistics.h"
 
@@ -53,8 +54,23 @@ const NamedScene& find_scene(const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> speed_scenes_at(const std::vector<std::string>& scenes, const std::vector<std::string>& settings) {
+    if (settings.empty()) return scenes;
+    for (const std::string& setting : settings) steps_of(setting);
+    std::vector<std::string> names;
+    for (const std::string& scene : scenes)
+        for (const std::string& setting : settings) names.push_back(scene + ' ' + setting);
+    return names;
+}
+
 Scene speed_scene(const std::string& name, bool quick) {
-    return make_scene(find_scene(name), quick);
+    const std::size_t space = name.find(' ');
+    Scene scene = make_scene(find_scene(name.substr(0, space)), quick);
+    if (space == std::string::npos) return scene;
+    const Steps steps = steps_of(name.substr(space + 1));
+    scene.solver.substeps = steps.substeps;
+    scene.solver.numIterations = steps.iterations;
+    return scene;
 }
 
 Gait speed_gait(const Scene& scene) {

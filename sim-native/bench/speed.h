@@ -11,7 +11,7 @@ namespace natator::bench {
 
 /// Run time of whole evaluations: settling, neighbours and all.
 struct SpeedStudy {
-    std::vector<std::string> scenes;  ///< speed_scene_names()
+    std::vector<std::string> scenes;  ///< see speed_scene
     std::vector<Scheme> schemes;
     std::vector<Precision> precisions;
     std::vector<int> threads{1};
@@ -22,6 +22,10 @@ struct SpeedStudy {
 /// The thesis' creatures in their tank, 4 s each, creature 1 in vacuum, its tank with 8 and 64 times the fluid, and creature 2 in
 /// open water.
 std::vector<std::string> speed_scene_names();
+/// The names of these scenes at each of these settings, "creature-1 2x4"; without settings as they are. Throws InputError for what is
+/// no setting.
+std::vector<std::string> speed_scenes_at(const std::vector<std::string>& scenes, const std::vector<std::string>& settings);
+/// `name`: of speed_scene_names, or of one of them at a setting.
 Scene speed_scene(const std::string& name, bool quick);
 /// The thesis' gait where it found one, else all muscles in a travelling wave.
 Gait speed_gait(const Scene& scene);

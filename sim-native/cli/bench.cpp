@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 #include "backend.h"
 #include "commands.h"
@@ -206,15 +205,8 @@ std::vector<Setting> settings_of(const Common& common, const std::vector<std::st
     for (const Scheme scheme : common.chosen_schemes())
         for (const Precision precision : common.chosen_precisions())
             for (const std::string& text : texts) {
-                Setting setting{scheme, precision, 0, 0};
-                std::istringstream parts(text);
-                char cross = 0;
-                parts >> setting.substeps >> cross >> setting.iterations;
-                const bool fits = parts && parts.eof() && cross == 'x';
-                const auto allowed = [](int count) { return 1 <= count && count <= 1000; };
-                if (!fits || !allowed(setting.substeps) || !allowed(setting.iterations))
-                    throw InputError("--setting " + quoted(text) + ": must be SUBSTEPSxITERATIONS, such as 8x4");
-                settings.push_back(setting);
+                const Steps steps = steps_of(text);
+                settings.push_back({scheme, precision, steps.substeps, steps.iterations});
             }
     return settings;
 }
@@ -318,6 +310,7 @@ void add_speed(CLI::App* bench, int& status) {
         std::vector<int> threads{1};
         BackendChoice backend;
         std::vector<int> batches{1, 150};
+        std::vector<std::string> settings;
         int repeats = 3;
     };
     const auto options = std::make_shared<Options>();
@@ -334,12 +327,15 @@ void add_speed(CLI::App* bench, int& status) {
     command->add_option("--threads", options->threads, "Threads inside one evaluation.")
         ->check(whole_number_in(1, 1024))
         ->capture_default_str();
+    command->add_option("--setting", options->settings,
+                        "Substeps and iterations, such as 2x4, instead of the scene's; rows name them behind the scene.");
     add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const Common& common = options->common;
+        const std::vector<std::string> scenes = speed_scenes_at(options->scenes, options->settings);
         refuse_gpu_options_for_cpu(options->backend);
         if (on_gpu(options->backend, {})) {
-            const GpuSpeedStudy study{options->scenes,  common.chosen_schemes(),   common.chosen_precisions(),
+            const GpuSpeedStudy study{scenes,            common.chosen_schemes(),   common.chosen_precisions(),
                                       options->batches, options->backend.device,   options->repeats,
                                       common.quick,     options->backend.whole_gpu};
             ResultTable table(common.output, gpu_speed_columns(), gpu_speed_key_columns);
@@ -349,7 +345,7 @@ void add_speed(CLI::App* bench, int& status) {
             status = ok;
             return;
         }
-        const SpeedStudy study{options->scenes,  common.chosen_schemes(), common.chosen_precisions(),
+        const SpeedStudy study{scenes,           common.chosen_schemes(), common.chosen_precisions(),
                                options->threads, options->repeats,        common.quick};
         ResultTable table(common.output, speed_columns(), speed_key_columns);
         ResultTable profile = table_beside(common, "profile", speed_profile_columns(), speed_key_columns);

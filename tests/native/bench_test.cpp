@@ -213,6 +213,17 @@ TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
     EXPECT_NE(table.rows()[0][15], table.rows()[1][15]);
 }
 
+TEST(SpeedTest, ASettingTakesThePlaceOfTheScenesSteps) {
+    const std::vector<std::string> names = speed_scenes_at({"creature-1", "vacuum"}, {"1x4", "2x3"});
+    EXPECT_EQ(names, (std::vector<std::string>{"creature-1 1x4", "creature-1 2x3", "vacuum 1x4", "vacuum 2x3"}));
+    const Scene scene = speed_scene(names[1], true);
+    EXPECT_EQ(scene.solver.substeps, 2);
+    EXPECT_EQ(scene.solver.numIterations, 3);
+    EXPECT_EQ(speed_scene("creature-1", true).solver.substeps, 4);
+    EXPECT_EQ(speed_scenes_at({"vacuum"}, {}), std::vector<std::string>{"vacuum"});
+    EXPECT_THROW(speed_scenes_at({"vacuum"}, {"2x4", "2"}), InputError);
+}
+
 TEST(SpeedTest, ProfilingChangesNoBit) {
     Scene scene = load_scene("thesis/creature-1", nlohmann::json{{"duration", 0.02}});
     StageProfile profile;
