@@ -105,7 +105,7 @@ template <class Real>
 void LargeRunner<Real>::make_room_in_water(int neighbours) {
     neighbours = (neighbours + pair_lanes - 1) / pair_lanes * pair_lanes;
     WaterArrays<Real>& water = base_.slots.water;
-    const std::size_t slots = static_cast<std::size_t>(blocks_for(base_.model.particles, slots_of_warp)) * slots_of_warp;
+    const std::size_t slots = static_cast<std::size_t>(blocks_for(base_.model.particles, slots_of_row)) * slots_of_row;
     const std::size_t of_state = slots * neighbours;
     const std::size_t entries = of_state * base_.states;
     graphs_.clear();  // they know the old place

@@ -36,15 +36,27 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         launch.template each_slot<work, pair_lanes>(model.solids);
     }
     template <Pass which>
-    void pass() const {
-        each_pair<water_impulses<which, Real>, 6>();
-        each_pair<push_water_apart<which, Real>, 8>();
+    void impulses() const {
+        each_pair_by_lanes<water_impulses<which, few_lanes, Real>, 3, water_impulses<which, many_lanes, Real>, 6>();
+    }
+    template <Pass which>
+    void push_apart() const {
+        each_pair_by_lanes<push_water_apart<which, few_lanes, Real>, 4, push_water_apart<which, many_lanes, Real>, 8>();
+    }
+    /// By few threads for a slot where that is enough to fill the GPU. Each with its own least blocks.
+    template <auto by_few, int few_at_once, auto by_many, int many_at_once>
+    void each_pair_by_lanes() const {
+        constexpr std::size_t filling = 50'000;  // slots: with fewer, many threads are faster
+        if (std::size_t(model.particles) * launch.states > filling)
+            launch.template each_slot<by_few, few_lanes, large_threads, least_blocks<few_at_once>>(model.particles);
+        else
+            launch.template each_slot<by_many, many_lanes, large_threads, least_blocks<many_at_once>>(model.particles);
     }
     /// Of the passes that most substeps need not: few blocks, as those that find nothing to do cost time, too.
     template <Pass which>
     void seldom_pass() const {
-        launch.template each_slot_in_turn<water_impulses<which, Real>, pair_lanes>(model.particles);
-        launch.template each_slot_in_turn<push_water_apart<which, Real>, pair_lanes>(model.particles);
+        launch.template each_slot_in_turn<water_impulses<which, many_lanes, Real>, many_lanes>(model.particles);
+        launch.template each_slot_in_turn<push_water_apart<which, many_lanes, Real>, many_lanes>(model.particles);
     }
 
     void find_water_neighbours() const {
@@ -65,7 +77,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     void solve_divergence() const {
         seldom_pass<Pass::first_parting>();
         for (int k = 1; k < physics::parting_passes; ++k) seldom_pass<Pass::parting>();
-        each_pair<push_water_apart<Pass::divergence, Real>, 8>();
+        push_apart<Pass::divergence>();
     }
     void add_viscosity() const {
         each_pair<water_viscosity<Real>>();
@@ -84,7 +96,10 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         launch.template each_state<begin_large<Real>>(blocks);
         Base::begin_iterations();
     }
-    void solve_density_constraint() const { pass<Pass::density>(); }
+    void solve_density_constraint() const {
+        impulses<Pass::density>();
+        push_apart<Pass::density>();
+    }
     void solve_solids_together() const {
         if (model.solids > 2 * few_threads)
             launch.template each_state<solids_large<Real>, threads>(1);

@@ -44,8 +44,22 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
 
 #define NATATOR_STATE_ARRAYS(X) NATATOR_CHIP_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_LARGE_ARRAYS(X)
 
-// The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise. An entry is a slot
-// with the set of borders that it is the ghost of: borders << most_slot_bits | slot.
+// The neighbours of a slot of the water are dealt out to lists: neighbour k is entry k / water_lists of list k % water_lists. A row is
+// such an entry of all lists of some slots.
+inline constexpr int water_lists = pair_lanes, slots_of_row = 16, water_row = slots_of_row * water_lists;
+/// Where a list's entry lies in its slot's part of a row, and which list lies there: bits reversed. A thread that has several lists, side
+/// by side, then adds up what threads with one list each would add up first.
+__host__ __device__ constexpr int reversed_list(int list) {
+    static_assert(water_lists == 8);
+    return (list & 1) << 2 | (list & 2) | list >> 2;
+}
+/// Of a neighbour, from its slot's part of the first row on.
+__device__ inline int place_of(unsigned neighbour) {
+    return static_cast<int>(neighbour / water_lists * water_row) + reversed_list(static_cast<int>(neighbour % water_lists));
+}
+
+// The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise: first the slots of the
+// fluid. An entry is a slot with the set of borders that it is the ghost of: borders << most_slot_bits | slot.
 #define NATATOR_WATER_ARRAYS(X)                                                                                       \
     /* Ends of the cells; of particles and ghosts, cell by cell: borders << 58 | number << 32 | slot; their */        \
     /* positions, w: the entry as an integer. */                                                                      \
@@ -59,13 +73,15 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Quad<Real>, correction, water) /* L: xx, yy, zz, xy */                                                          \
     X(Quad<Real>, shear, water)      /* xz, yz; mobility, see physics::mobility; 1 for solids */                      \
     X(Quad<Real>, parting, water)    /* velocities that part overlaps; w: inverse mass, 0 for solids */               \
-    X(Quad<Real>, crowding, water)   /* w: largest |v_j - v_i|^2 */                                                   \
+    X(Quad<Real>, crowding, water)                                                                                    \
     X(Quad<Real>, zeroth, water)     /* sum of G_ij; w: physics::relief */                                            \
     X(Quad<Real>, relief, water)     /* E_j times its relief_share; w: impulse_sum */                                                 \
     X(Quad<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */      \
     X(Quad<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                     \
     X(Real, density, water)                                                                                           \
+    X(Real, fastest_square, water) /* largest |v_j - v_i|^2 */                                                        \
     X(Real, response, water)                                                                                          \
+    X(Real, volume, water)                                                                                            \
     X(Real, impulse_sum, water) /* of the substep so far */                                                           \
     X(Real, impulse, water)                                                                                           \
     X(Real, density_of, water) /* by number */                                                                        \
@@ -86,7 +102,7 @@ struct StateArrays {
 template <class Real>
 struct WaterArrays {
     NATATOR_WATER_ARRAYS(NATATOR_MEMBER)
-    // Of neighbour k of slot s at [Slots::water_place(s, k)]; by themselves, as their room may grow.
+    // Of neighbour k of slot s at [Slots::water_place(s) + place_of(k)]; by themselves, as their room may grow.
     unsigned* neighbour = nullptr;  ///< entries
     PairGradient<Real>* pair = nullptr;
 };
@@ -154,10 +170,10 @@ public:
         return reinterpret_cast<unsigned*>(chunk)[k % 4];
     }
 
-    /// Of an entry of the water's lists: those that the threads of a warp read at once lie side by side.
-    __device__ std::size_t water_place(int s, int k) const {
-        const std::size_t rows = water_neighbours / pair_lanes, row = s / slots_of_warp * rows + k / pair_lanes;
-        return row * 32 + s % slots_of_warp * pair_lanes + k % pair_lanes;
+    /// Of slot s in the first row of the water's lists; its part of the next one is water_row further on.
+    __device__ std::size_t water_place(int s) const {
+        const std::size_t rows = water_neighbours / water_lists;
+        return s / slots_of_row * rows * water_row + s % slots_of_row * water_lists;
     }
 
     /// Nothing that is not finite goes through further substeps: its cells would hold too many particles.

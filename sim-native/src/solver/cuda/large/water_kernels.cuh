@@ -1,9 +1,9 @@
 #pragma once
 
-// The water of scheme conserving: a kernel per sum over neighbours, which pair_lanes threads share. See
+// The water of scheme conserving: a kernel per sum over neighbours, which several threads share. See
 // cpu/conserving/water.h.
 #include "body_momentum.cuh"
-#include "pair_gradient.cuh"
+#include "pass_lists.cuh"
 #include "water_cells.cuh"
 #include "water_neighbours.cuh"
 
@@ -41,7 +41,9 @@ __device__ void water_moments(const ModelView<Real>& model, const Slots<Real>& s
     water.correction[s] = {l.xx, l.yy, l.zz, l.xy};
     const Real solid = number_in(slots.at.state_velocity[s].w) < model.fluid ? Real(0) : Real(1);
     water.shear[s] = {l.xz, l.yz, physics::mobility(moves.w, here.w, model.water.density), solid};
-    water.crowding[s] = quad(sums.crowding, sums.fastest_square);
+    water.crowding[s] = quad(sums.crowding, Real(0));
+    water.fastest_square[s] = sums.fastest_square;
+    water.volume[s] = here.w;
     if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
 }
 
@@ -95,23 +97,24 @@ constexpr bool parts(Pass pass) {
     return pass == Pass::first_parting || pass == Pass::parting;
 }
 
-/// The impulses of a Jacobi pass.
-template <Pass pass, class Real>
+/// The impulses of a Jacobi pass. `lanes` threads share a slot.
+template <Pass pass, int lanes, class Real>
 __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (parts(pass) && !slots.shared().high) return;
     const WaterArrays<Real>& water = slots.water;
-    Real rate = 0;
-    if (pass != Pass::first_parting) {
+    const Real density = water.density[s];
+    ListSums<lanes, Real> rates;
+    if (pass != Pass::first_parting && density > Real(physics::wet_density)) {  // else it has no impulse
         const Quad<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
         const Vec3<Real> v = xyz(velocity[s]);
-        const auto add = [&](const Vec3<Real>& gradient, int, unsigned borders, const Quad<Real>& u) {
-            rate += dot(xyz(seen(model, u, borders)) - v, gradient);
+        const auto add = [&](int list, const Vec3<Real>& gradient, unsigned borders, const Quad<Real>& u) {
+            rates[list] += dot(xyz(seen(model, u, borders)) - v, gradient);
         };
-        for_each_water_pair<2>(slots, s, add, velocity);
-        rate = sum_of_lanes(rate);
+        for_each_pass_pair<lanes, rows_of_velocities<lanes>>(slots, s, add, velocity);
     }
-    if (own_lane() != 0) return;
-    const Real volume = water.position[s].w, density = water.density[s];
+    const Real rate = rates.total();
+    if (!rates.first_lane()) return;
+    const Real volume = water.volume[s];
     const Real most = physics::velocity_limit(slots.h, model.water.fastest_expansion);
     Real target = 0;
     if (parts(pass)) target = physics::parting_target(volume, density, most, slots.h);
@@ -128,27 +131,33 @@ __device__ Vec3<Real> relieve(const ModelView<Real>& model, const Slots<Real>& s
     const Quad<Real> zeroth = water.zeroth[s];
     const Real strength = physics::kept_strength(slots.h, model.water.density);
     const Real now = physics::relief(water.density[s], water.impulse_sum[s],
-                                     physics::kept_impulse(water.crowding[s].w, strength));
+                                     physics::kept_impulse(water.fastest_square[s], strength));
     water.zeroth[s].w = now;
     return (now - zeroth.w) * xyz(zeroth);
 }
 
-/// v_i -= w_i sum (impulse_i + impulse_j) G_ij, and relief.
-template <Pass pass, class Real>
+/// Moves the solid in slot s of the water's.
+template <class Real>
+__device__ void move_solid(const ModelView<Real>& model, const Slots<Real>& slots, int s, const Vec3<Real>& by) {
+    move(slots, slots.slot_of_solid()[number_in(slots.at.state_velocity[s].w) - model.fluid], by);
+}
+
+/// v_i -= w_i sum (impulse_i + impulse_j) G_ij, and relief. `lanes` threads share a slot.
+template <Pass pass, int lanes, class Real>
 __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     if (parts(pass) && !slots.shared().high) return;
     const WaterArrays<Real>& water = slots.water;
     const Real* const impulse = pass == Pass::divergence ? water.impulse_sum : water.impulse;
     const Real own = impulse[s];
-    Vec3<Real> sum{0, 0, 0};
-    const auto add = [&](const Vec3<Real>& gradient, int, unsigned, Real its) { sum += (own + its) * gradient; };
-    for_each_water_pair(slots, s, add, impulse);
-    sum = sum_of_lanes(sum);
-    if (own_lane() != 0) return;
-    const int number = number_in(slots.at.state_velocity[s].w);
+    ListSums<lanes, Vec3<Real>> sums;
+    const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, Real its) { sums[list] += (own + its) * gradient; };
+    for_each_pass_pair<lanes, rows_of_impulses<lanes>>(slots, s, add, impulse);
+    const Vec3<Real> sum = sums.total();
+    if (!sums.first_lane()) return;
+    const bool fluid = s < model.fluid;
     const Quad<Real> v = water.velocity[s];
     if constexpr (parts(pass)) {
-        const Real w = number < model.fluid ? v.w : Real(0);  // to push a body's particles would bend it
+        const Real w = fluid ? v.w : Real(0);  // to push a body's particles would bend it
         const Vec3<Real> before = pass == Pass::parting ? xyz(water.parting[s]) : Vec3<Real>{0, 0, 0};
         water.parting[s] = quad(before - w * sum, w);
         return;
@@ -156,8 +165,7 @@ __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>
     Vec3<Real> push = -v.w * sum;
     if (v.w > 0) push += v.w * relieve(model, slots, s);
     water.velocity[s] = quad(xyz(v) + push, v.w);
-    if (pass == Pass::density && number >= model.fluid && v.w > 0)
-        move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
+    if (pass == Pass::density && !fluid && v.w > 0) move_solid(model, slots, s, slots.h * push);
 }
 
 /// Viscous impulses on one slot by its neighbours, see physics::ViscousSums: what water_viscosity and add_viscous_forces share.
@@ -227,7 +235,7 @@ __device__ Quad<Real> pushed_by_forces(const ModelView<Real>& model, const Water
 template <class Real>
 __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> x = slots.at.state_position[s], crowding = water.crowding[s];
+    const Quad<Real> x = slots.at.state_position[s];
     const Real number = slots.at.state_velocity[s].w;
     const bool fluid = number_in(number) < model.fluid;
     const Quad<Real> pushed = pushed_by_forces(model, water, s, fluid);
@@ -237,7 +245,7 @@ __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>
     water.velocity[s] = quad(fluid ? with_gravity : v, pushed.w);
     Vec3<Real> there = xyz(x) + slots.h * v;
     if (fluid)
-        there += physics::shift_of(water.density[s], xyz(crowding), crowding.w, model.water.radius,
+        there += physics::shift_of(water.density[s], xyz(water.crowding[s]), water.fastest_square[s], model.water.radius,
                                    model.water.spacing, slots.h);
     if (slots.shared().high)
         there += clamped(slots.h * xyz(water.parting[s]), Real(physics::longest_parting) * model.water.spacing);
@@ -279,8 +287,7 @@ __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>
     const Quad<Real> v = water.velocity[s];
     const Vec3<Real> push = (-v.w * here.w) * given_back;
     water.velocity[s] = quad(xyz(v) + push - v.w * weight, v.w);
-    const int number = number_in(slots.at.state_velocity[s].w);
-    if (number >= model.fluid && v.w > 0) move(slots, slots.slot_of_solid()[number - model.fluid], slots.h * push);
+    if (s >= model.fluid && v.w > 0) move_solid(model, slots, s, slots.h * push);
 }
 
 /// The fluid goes where its velocities take it.

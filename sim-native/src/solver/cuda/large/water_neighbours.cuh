@@ -40,7 +40,7 @@ __device__ void find_water_neighbours_large(const ModelView<Real>& model, const 
     const Vec3<Real> x = xyz(water.position[s]);
     const Real distance_squared = model.water.radius * model.water.radius;
     const int room = slots.water_neighbours;
-    unsigned* const list = water.neighbour + slots.water_place(s, 0);
+    unsigned* const list = water.neighbour + slots.water_place(s);
     const unsigned lanes_before = (1u << lane) - 1;
     const int cx = grid.coordinate(x.x, 0), cy = grid.coordinate(x.y, 1), cz = grid.coordinate(x.z, 2);
     const int low = max(cx - grid.reach_x, 0), high = min(cx + grid.reach_x, grid.count[0] - 1);
@@ -65,7 +65,7 @@ __device__ void find_water_neighbours_large(const ModelView<Real>& model, const 
             }
             const unsigned found = __ballot_sync(0xffffffff, near) >> first_lane & ((1u << pair_lanes) - 1);
             const int at = n + __popc(found & lanes_before);
-            if (near && at < room) list[at / pair_lanes * 32 + at % pair_lanes] = static_cast<unsigned>(number_in(other.w));
+            if (near && at < room) list[place_of(at)] = static_cast<unsigned>(number_in(other.w));
             n += __popc(found);
         }
     }
@@ -101,7 +101,7 @@ __device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& 
 template <int batch, class Real, class OwnAt, class Visit, class... Value>
 __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnAt& own_at, const Visit& visit,
                                      const Value*... array) {
-    const std::size_t first = slots.water_place(s, own_lane());
+    const std::size_t first = slots.water_place(s) + reversed_list(own_lane());
     const int count = own_neighbours(slots, s);
     for (int begin = 0; begin < count; begin += batch) {
         unsigned entry[batch];
@@ -109,7 +109,7 @@ __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnA
         ::cuda::std::tuple<Value...> there[batch];
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
-            const std::size_t place = first + 32 * min(begin + k, count - 1);
+            const std::size_t place = first + water_row * min(begin + k, count - 1);
             entry[k] = read_once(slots.water.neighbour + place);
             own[k] = own_at(place);
         }
@@ -119,7 +119,7 @@ __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnA
         for (int k = 0; k < batch; ++k) {
             if (begin + k >= count) break;
             visit_entry(entry[k], there[k], [&](int slot, unsigned borders, const Value&... value) {
-                visit(first + 32 * (begin + k), own[k], slot, borders, value...);
+                visit(first + water_row * (begin + k), own[k], slot, borders, value...);
             });
         }
     }

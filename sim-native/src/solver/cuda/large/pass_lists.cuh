@@ -1,0 +1,121 @@
+#pragma once
+
+// How the passes of the water go through its lists: with as many threads for a slot as there is work for.
+#include "water_neighbours.cuh"
+
+namespace natator::cuda {
+
+/// So many threads share a slot where slots do not fill the GPU, and else so few: what each begins with takes time, too. The sums are
+/// the same to the last bit.
+inline constexpr int many_lanes = water_lists, few_lanes = 2;
+
+/// Values that lie side by side.
+template <class T, int count>
+struct Several {
+    T of[count];
+};
+
+// Read at once, and but once in a kernel: see read_once.
+template <int count, class T>
+__device__ Several<T, count> read_several(const T* place) {
+    Several<T, count> values;
+    for (int k = 0; k < count; ++k) values.of[k] = read_once(place + k);
+    return values;
+}
+template <>
+__device__ inline Several<unsigned, 4> read_several<4>(const unsigned* place) {
+    const uint4 four = __ldcs(reinterpret_cast<const uint4*>(place));
+    return {four.x, four.y, four.z, four.w};
+}
+template <>
+__device__ inline Several<PairGradient<float>, 4> read_several<4>(const PairGradient<float>* place) {
+    const auto* const two = reinterpret_cast<const uint4*>(place);
+    const uint4 first = __ldcs(two), second = __ldcs(two + 1);
+    Several<PairGradient<float>, 4> gradients;
+    gradients.of[0].kept = {first.x, first.y};
+    gradients.of[1].kept = {first.z, first.w};
+    gradients.of[2].kept = {second.x, second.y};
+    gradients.of[3].kept = {second.z, second.w};
+    return gradients;
+}
+
+/// What the thread `step` further on has, of those that share a slot.
+template <class Real>
+__device__ Real of_lane(Real value, int step) {
+    return __shfl_xor_sync(0xffffffff, value, step);
+}
+template <class Real>
+__device__ Vec3<Real> of_lane(const Vec3<Real>& v, int step) {
+    return {of_lane(v.x, step), of_lane(v.y, step), of_lane(v.z, step)};
+}
+
+/// A sum over the neighbours of a slot that `lanes` threads share, by list of this thread. The total is added up in the order of
+/// sum_of_lanes, however many lists a thread has: reversed_list sees to that.
+template <int lanes, class Sum>
+class ListSums {
+public:
+    __device__ Sum& operator[](int list) { return of_[list]; }
+    __device__ Sum total() const {
+        static_assert(own == 1 || own == 4);
+        Sum sum = of_[0];
+        if constexpr (own == 4) sum = (sum + of_[1]) + (of_[2] + of_[3]);
+        for (int step = 1; step < lanes; step *= 2) sum = sum + of_lane(sum, step);
+        return sum;
+    }
+    /// Is this the thread that speaks for the slot?
+    __device__ static bool first_lane() { return threadIdx.x % lanes == 0; }
+
+private:
+    static constexpr int own = water_lists / lanes;
+    Sum of_[own]{};
+};
+
+/// Calls visit(list, G_ij, borders, value) for the neighbours of slot s in the lists of this thread, which are numbered from 0, once
+/// gradients are known; `value` is what is in `array` at the neighbour's slot. `rows` of the lists are under way
+/// at a time.
+template <int lanes, int rows, class Real, class Visit, class Value>
+__device__ void for_each_pass_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value* array) {
+    constexpr int own = water_lists / lanes;
+    const int lane = static_cast<int>(threadIdx.x) % lanes, count = slots.water.count[s];
+    const int first_list = reversed_list(own * lane);
+    const std::size_t first = slots.water_place(s) + own * lane;
+    const int own_rows = (count - first_list + water_lists - 1) / water_lists;
+    const auto has = [&](int row, int list) {
+        return list == 0 || row * water_lists + first_list + reversed_list(list) < count;
+    };
+    for (int begin = 0; begin < own_rows; begin += rows) {
+        Several<unsigned, own> entry[rows];
+        Several<PairGradient<Real>, own> gradient[rows];
+        Several<Value, own> there[rows];
+#pragma unroll
+        for (int r = 0; r < rows; ++r) {
+            const int row = min(begin + r, own_rows - 1);
+            const std::size_t place = first + water_row * row;
+            entry[r] = read_several<own>(slots.water.neighbour + place);
+            gradient[r] = read_several<own>(slots.water.pair + place);
+#pragma unroll
+            for (int list = 1; list < own; ++list)
+                if (!has(row, list)) entry[r].of[list] = entry[r].of[0];  // what stands there means nothing
+        }
+#pragma unroll
+        for (int r = 0; r < rows; ++r)
+#pragma unroll
+            for (int list = 0; list < own; ++list) there[r].of[list] = array[entry[r].of[list] & slot_mask];
+#pragma unroll
+        for (int r = 0; r < rows; ++r) {
+            if (begin + r >= own_rows) break;
+#pragma unroll
+            for (int list = 0; list < own; ++list)
+                if (has(begin + r, list))
+                    visit(list, gradient[r].of[list].value(), entry[r].of[list] >> most_slot_bits, there[r].of[list]);
+        }
+    }
+}
+
+// Rows that are under way at a time, by what is fetched of each neighbour.
+template <int lanes>
+inline constexpr int rows_of_velocities = lanes == many_lanes ? 2 : 1;
+template <int lanes>
+inline constexpr int rows_of_impulses = lanes == many_lanes ? 4 : 2;
+
+}  // namespace natator::cuda
