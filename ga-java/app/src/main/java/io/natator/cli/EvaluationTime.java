@@ -11,7 +11,7 @@ import java.util.stream.LongStream;
 /** How long evaluations take, judged by a few short ones of the swimmer in the middle of all ranges. */
 final class EvaluationTime {
 
-    /** Simulated seconds of the trials; their difference leaves out what every evaluation costs once. */
+    /** Simulated seconds of the trials, at most; their difference leaves out what every evaluation costs once. */
     private static final double SHORT_TRIAL = 0.05;
     private static final double LONG_TRIAL = 0.25;
     private static final double NANOSECONDS = 1e9;
@@ -26,17 +26,21 @@ final class EvaluationTime {
     }
 
     /**
-     * Seconds that evaluations take together.
+     * Seconds that evaluations take together. No trial is longer than they are, so that what is too short is refused here.
      *
      * @param together how many, at least 1
      * @param duration simulated seconds of each
      */
     double of(int together, double duration) throws InterruptedException {
-        seconds(1, SHORT_TRIAL);
-        double small = seconds(together, SHORT_TRIAL);
+        double trial = Math.min(SHORT_TRIAL, duration);
+        seconds(1, trial);
+        double small = seconds(together, trial);
+        if (duration <= SHORT_TRIAL) {
+            return small;
+        }
         double large = seconds(together, LONG_TRIAL);
         double perSecond = Math.max(large - small, 0) / (LONG_TRIAL - SHORT_TRIAL);
-        return small + Math.max(duration - SHORT_TRIAL, 0) * perSecond;
+        return small + (duration - SHORT_TRIAL) * perSecond;
     }
 
     private double seconds(int count, double duration) throws InterruptedException {

@@ -19,6 +19,7 @@ import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
 import io.natator.config.WeightedObjective;
 import io.natator.simulator.RefusedSceneException;
+import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.SceneInfo;
 import java.io.IOException;
 import java.nio.file.FileAlreadyExistsException;
@@ -189,22 +190,31 @@ final class EvolveCommand implements Callable<Integer> {
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());
         if (islands != null) {
-            Archipelago archipelago = Archipelago.create(directory, islands);
-            preview.printAnyway(directory, spec.commandLine().getOut());
-            new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
-            return ExitCode.OK;
+            begin(Archipelago.create(directory, islands), preview, execution);
+        } else {
+            begin(RunFolder.create(directory, settings), preview, execution);
         }
-        begin(RunFolder.create(directory, settings), preview, execution);
         return ExitCode.OK;
     }
 
     /** Evolves; what is refused with the first evaluation leaves no folder that would be in the way of the corrected command. */
     private void begin(RunFolder folder, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
-        preview.print(folder, spec.commandLine().getOut());
-        try {
+        try (folder) {
+            preview.printAnyway(folder.directory(), spec.commandLine().getOut());
             new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
-        } catch (InvalidInputException e) {
+        } catch (InvalidInputException | RequestRejectedException e) {
             RunFolder.deleteUnlessBegun(folder.directory());
+            throw e;
+        }
+    }
+
+    /** The same of islands. */
+    private void begin(Archipelago archipelago, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
+        try {
+            preview.printAnyway(archipelago.directory(), spec.commandLine().getOut());
+            new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
+        } catch (InvalidInputException | RequestRejectedException e) {
+            archipelago.deleteUnlessBegun();
             throw e;
         }
     }

@@ -1,7 +1,6 @@
 package io.natator.cli;
 
 import io.natator.checkpoint.Archipelago;
-import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
@@ -61,21 +60,7 @@ final class RunPreview {
         out.flush();
     }
 
-    /**
-     * The same before a run that is to begin whatever comes of it: what fails here will say why when it fails there.
-     *
-     * @param folder closed if this is interrupted
-     */
-    void print(RunFolder folder, PrintWriter out) throws InterruptedException {
-        try {
-            printAnyway(folder.directory(), out);
-        } catch (InterruptedException e) {
-            folder.close();
-            throw e;
-        }
-    }
-
-    /** The same of islands, which have no open folder yet. */
+    /** The same before a run that is to begin whatever comes of it: what fails here will say why when it fails there. */
     void printAnyway(Path folder, PrintWriter out) throws InterruptedException {
         try {
             print(folder, out);

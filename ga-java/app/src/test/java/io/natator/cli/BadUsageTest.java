@@ -22,6 +22,7 @@ class BadUsageTest extends FakeSimulatorTest {
     void aMissingGpuIsOneLine() {
         assertThat(evolve("run", "--backend", "cuda")).isEqualTo(1);
         assertThat(err.toString().strip()).isEqualTo("natator evolve: simulator: no such device here");
+        assertThat(folder.resolve("run")).doesNotExist();
     }
 
     @ParameterizedTest
@@ -134,6 +135,19 @@ class BadUsageTest extends FakeSimulatorTest {
 
         assertThat(err.toString().lines()).hasSize(1);
         assertThat(err.toString()).startsWith("natator evolve: objective goals: the scene has none");
+        assertThat(folder.resolve("run")).doesNotExist();
+    }
+
+    /** Neither the run's folder nor those of islands are in the way of the corrected command. */
+    @ParameterizedTest
+    @ValueSource(strings = {"", "--dry-run", "--islands 2 --migrate-every 1"})
+    void whatTheSimulatorRefusesLeavesNoFolder(String options) {
+        List<String> all = new ArrayList<>(List.of("--scene", "fault/rejected"));
+        all.addAll(Stream.of(options.split(" ")).filter(one -> !one.isEmpty()).toList());
+
+        assertThat(evolve("run", all.toArray(String[]::new))).isEqualTo(2);
+
+        assertThat(err.toString().strip()).isEqualTo("natator evolve: simulator: gait.frequency is 70; expected a number up to 60");
         assertThat(folder.resolve("run")).doesNotExist();
     }
 

@@ -73,6 +73,17 @@ class RealSimulatorTest {
         assertThat(again.get("distance")).isEqualTo(best.get("distance"));
     }
 
+    @ParameterizedTest
+    @ValueSource(strings = {"--dry-run", "--stop-after=60"})
+    void aDurationBelowOneTimeStepIsRefused(String option) {
+        Path run = folder.resolve("run");
+
+        assertThat(natator("evolve", "--scene", SMALL, "--duration", "0.0001", "--output-dir", run.toString(), option)).isEqualTo(2);
+
+        assertThat(err.toString()).contains("duration = 0.0001: must be at least one timeStep").hasLineCount(1);
+        assertThat(run).doesNotExist();
+    }
+
     @Test
     void commandsSwimAsTheProgramDoesOrAreRefused() throws InterruptedException {
         String[] swim = {"evaluate", "--scene", "pool/creature-1", "--duration", "0.1", "--gait", "1.5", "0.6", "0.69", "0.5"};

@@ -78,6 +78,14 @@ public record Archipelago(Path directory, Plan plan) {
         return new Archipelago(directory, plan);
     }
 
+    /** Removes the folders of islands that have recorded no evaluation, and that of all if there is no other. */
+    public void deleteUnlessBegun() {
+        folders().forEach(RunFolder::deleteUnlessBegun);
+        if (folders().isEmpty()) {
+            RunFolder.delete(directory, List.of(PLAN, "."));
+        }
+    }
+
     /** Whether there is one in this folder. */
     public static boolean exists(Path directory) {
         return Files.isRegularFile(directory.resolve(PLAN));

@@ -110,8 +110,13 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
 
     /** Removes what a run wrote, and its folder unless there is something else in it. Can be done again after a kill. */
     public static void delete(Path directory) {
+        delete(directory, FILES);
+    }
+
+    /** Removes these files, and of these folders those that have nothing else in them. */
+    static void delete(Path directory, List<String> names) {
         try {
-            for (String name : FILES) {
+            for (String name : names) {
                 Path file = directory.resolve(name).normalize();
                 if (!Files.isDirectory(file) || !isOccupied(file)) {
                     Files.deleteIfExists(file);
