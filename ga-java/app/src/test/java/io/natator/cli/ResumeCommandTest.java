@@ -3,11 +3,17 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.checkpoint.CompactRun;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.Json;
 import java.io.IOException;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 
 /** {@code natator resume}: a run that was stopped, moved or damaged goes on. */
@@ -149,6 +155,32 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(natator("evolve", "--resume", folder.resolve("run").toString(), "--workers", "3")).isZero();
         assertThat(file("run", "generations.csv") + file("run", "best.json") + file("run", "evaluations.jsonl"))
                 .isEqualTo(before);
+    }
+
+    /** Neither an idle resume changes anything, nor one that is refused, nor one whose simulator would refuse. */
+    @Test
+    void aCompactRunStaysAsItIs() throws IOException {
+        assertThat(evolve("run")).isZero();
+        CompactRun.compact(folder.resolve("run"));
+        Map<String, String> before = files();
+        String run = folder.resolve("run").toString();
+
+        assertThat(natator("resume", run)).as(err.toString()).isZero();
+        assertThat(files()).isEqualTo(before);
+        assertThat(natator("resume", run, "--generations", "2")).isEqualTo(2);
+        assertThat(files()).isEqualTo(before);
+        assertThat(natator("resume", run, "--backend", "cuda")).as(err.toString()).isZero();
+        assertThat(files()).isEqualTo(before);
+    }
+
+    private Map<String, String> files() throws IOException {
+        Map<String, String> content = new TreeMap<>();
+        try (Stream<Path> all = Files.list(folder.resolve("run"))) {
+            for (Path file : all.filter(Files::isRegularFile).toList()) {
+                content.put(file.getFileName().toString(), new String(Files.readAllBytes(file), StandardCharsets.ISO_8859_1));
+            }
+        }
+        return content;
     }
 
     /** What was computed on the processor is not said to be of another backend because somebody looked at it again. */

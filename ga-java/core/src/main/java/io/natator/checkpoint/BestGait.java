@@ -55,6 +55,12 @@ public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode bod
                 again);
     }
 
+    /** Whether this is an individual of a run with all that is found out at the end. */
+    public boolean isExamined(Individual best) {
+        return fresh != null && vacuum != null && vacuum.status() == SimulationResult.Status.OK && genes.equals(best.genes())
+                && Double.valueOf(best.score()).equals(selected) && Integer.valueOf(best.runs()).equals(runs);
+    }
+
     /** What swam. */
     public Swimmer swimmer() {
         return new Swimmer(gait, body);

@@ -309,13 +309,18 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      * @return the best gait, or null if there is none
      */
     public BestGait writeResults(EvolutionState state) {
-        AtomicFile.write(directory.resolve(GENERATIONS), GenerationTable.csv(state.history()));
+        writeTable(state);
         if (state.best() == null) {
             return null;
         }
         BestGait best = BestGait.of(settings.scene(), state.best(), genome.decode(state.best().genes()));
         write(best);
         return best;
+    }
+
+    /** Writes every generation's figures. */
+    public void writeTable(EvolutionState state) {
+        AtomicFile.write(directory.resolve(GENERATIONS), GenerationTable.csv(state.history()));
     }
 
     /** Writes the best gait. */

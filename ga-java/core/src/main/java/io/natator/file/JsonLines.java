@@ -19,7 +19,7 @@ import java.util.stream.Collectors;
 /**
  * Rows in a file, one JSON value a line, each handed to the operating system as soon as it is appended. A last line that
  * was cut short when its writer was killed is no row; the next row takes its place. While one process writes, no other
- * can.
+ * can. A file that was made for no row is removed again.
  */
 public final class JsonLines<T> implements AutoCloseable {
 
@@ -31,6 +31,8 @@ public final class JsonLines<T> implements AutoCloseable {
     /** Of the file when it was read, with what was cut short. */
     private long length;
     private int size;
+    /** Whether it was not there before it was opened for writing. */
+    private boolean isNew;
     /** Null until it is written. No channel: that would be closed by an interrupt of the thread that writes. */
     private RandomAccessFile content;
 
@@ -111,6 +113,7 @@ public final class JsonLines<T> implements AutoCloseable {
     }
 
     private void open() throws IOException {
+        isNew = !Files.exists(file);
         RandomAccessFile opened = new RandomAccessFile(file.toFile(), "rw");
         FileLock lock;
         try {
@@ -118,7 +121,7 @@ public final class JsonLines<T> implements AutoCloseable {
         } catch (OverlappingFileLockException e) {
             lock = null;
         }
-        if (lock == null) {
+        if (lock == null || !Files.exists(file)) {  // who had it locked may have removed it
             opened.close();
             throw new InvalidInputException(file + " is in use by another run");
         }
@@ -228,6 +231,10 @@ public final class JsonLines<T> implements AutoCloseable {
     public void close() {
         try {
             if (content != null) {
+                if (isNew && size == 0) {
+                    Files.deleteIfExists(file);  // while it is locked
+                }
+                isNew = false;
                 content.close();
             }
         } catch (IOException e) {

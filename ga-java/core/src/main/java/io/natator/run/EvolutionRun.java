@@ -152,6 +152,11 @@ public final class EvolutionRun {
         EvolutionState state = new Evolution(settings, measuring(settings, rewarding(settings, checked), scene), all, folder.recorded(),
                 exchange).run(folder.checkpoint());
         counter.generationFinished(state);  // a kill may have come between the last checkpoint and its count
+        BestGait known = StoredRun.best(folder.directory());
+        if (known != null && state.best() != null && known.isExamined(state.best())) {
+            folder.writeTable(state);
+            return new Outcome(state, known);
+        }
         BestGait best = folder.writeResults(state);
         if (best != null) {
             best = examined(best, state.best(), new FreshStarts(settings, evaluator, execution.simulator()), evaluator,

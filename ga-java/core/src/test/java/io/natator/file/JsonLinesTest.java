@@ -102,6 +102,20 @@ class JsonLinesTest {
     }
 
     @Test
+    void whatWasMadeForNoRowIsRemoved() throws IOException {
+        Files.createDirectories(file.getParent());
+        JsonLines<Row> lines = JsonLines.locked(file, Row.class);
+        assertThat(file).as("its lock keeps others out").exists();
+        lines.close();
+        assertThat(file).doesNotExist();
+
+        Files.createFile(file);
+        lines.close();
+        JsonLines.locked(file, Row.class).close();
+        assertThat(file).as("somebody else's").exists();
+    }
+
+    @Test
     void rowsThatAreNotKeptLeaveTheFile() {
         write(new Row(1, "öö"), new Row(2, "b"), new Row(3, "c"));
         try (JsonLines<Row> lines = lines()) {
