@@ -12,8 +12,6 @@ import io.natator.evolution.EvolutionState;
 import io.natator.run.EvolutionRun;
 import io.natator.run.IslandsRun;
 import java.nio.file.Path;
-import java.util.ArrayList;
-import java.util.List;
 import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
@@ -80,9 +78,11 @@ final class ResumeCommand implements Callable<Integer> {
         if (generations != null) {
             changeGenerations(folder, generations);
         }
-        if (isChanged(before, StoredRun.isFinished(directory), options, spec)) {
+        boolean isFinished = StoredRun.isFinished(directory);
+        if (isChanged(before, isFinished, options)) {
             folder.changeBackend(options.backend());
         }
+        tell(before, isFinished, options, spec);
         new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
     }
 
@@ -106,39 +106,40 @@ final class ResumeCommand implements Callable<Integer> {
         EvolutionSettings settings = stored.plan().settings();
         Backend before = settings.backend();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
-        Archipelago extended = generations == null || generations == settings.generations() ? stored : extended(stored, generations);
+        Archipelago extended = generations == null ? stored : extended(stored, generations);
         boolean isFinished = extended.plan().islands() == IslandsRun.finished(extended);
-        Archipelago archipelago = isChanged(before, isFinished, options, spec) ? extended.changeBackend(options.backend()) : extended;
+        Archipelago archipelago = isChanged(before, isFinished, options) ? extended.withBackend(options.backend()) : extended;
+        if (!archipelago.equals(stored)) {
+            IslandsRun.change(archipelago);
+        }
+        tell(before, isFinished, options, spec);
         new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
     }
 
-    /** While no other process computes any of them. */
     private static Archipelago extended(Archipelago stored, int generations) {
         int before = stored.plan().settings().generations();
         if (generations < before) {
             throw new InvalidInputException("--generations is " + generations + "; expected at least the " + before + " of all islands");
         }
-        List<RunFolder> islands = new ArrayList<>();
-        try {
-            stored.folders().forEach(folder -> islands.add(RunFolder.open(folder)));
-            return stored.extend(generations);
-        } finally {
-            islands.forEach(RunFolder::close);
-        }
+        return stored.withGenerations(generations);
     }
 
-    /** Whether another backend is asked for, which is told of; what is finished keeps the one that it was computed on. */
-    private static boolean isChanged(Backend before, boolean isFinished, ExecutionOptions options, CommandSpec spec) {
-        boolean isOther = options.backend() != null && options.backend() != before;
-        boolean changed = isOther && !isFinished;
-        if (isOther && isFinished) {
-            spec.commandLine().getErr().println("finished on backend " + before.argument() + "; nothing is left to compute on "
-                    + options.backend().argument());
+    /** Whether the run goes on on another backend; what is finished keeps the one that it was computed on. */
+    private static boolean isChanged(Backend before, boolean isFinished, ExecutionOptions options) {
+        return isOther(before, options) && !isFinished;
+    }
+
+    private static boolean isOther(Backend before, ExecutionOptions options) {
+        return options.backend() != null && options.backend() != before;
+    }
+
+    /** Tells of another backend that is asked for. */
+    private static void tell(Backend before, boolean isFinished, ExecutionOptions options, CommandSpec spec) {
+        if (isOther(before, options)) {
+            spec.commandLine().getErr().println(isFinished
+                    ? "finished on backend " + before.argument() + "; nothing is left to compute on " + options.backend().argument()
+                    : "backend was " + before.argument() + ", is now " + options.backend().argument()
+                            + ": last digits, and with them gaits, will differ from those of a run that kept it");
         }
-        if (changed) {
-            spec.commandLine().getErr().println("backend was " + before.argument() + ", is now " + options.backend().argument()
-                    + ": last digits, and with them gaits, will differ from those of a run that kept it");
-        }
-        return changed;
     }
 }

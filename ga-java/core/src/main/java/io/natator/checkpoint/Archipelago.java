@@ -110,20 +110,23 @@ public record Archipelago(Path directory, Plan plan) {
         return IntStream.rangeClosed(1, plan.islands()).mapToObj(this::folder).filter(StoredRun::exists).toList();
     }
 
-    /** The same archipelago, from here on on another backend. */
-    public Archipelago changeBackend(Backend backend) {
+    /** The same archipelago on another backend, once that is written. */
+    public Archipelago withBackend(Backend backend) {
         return with(plan.settings.withBackend(backend));
     }
 
-    /** The same archipelago, from here on of so many generations, which are more than before. */
-    public Archipelago extend(int generations) {
+    /** The same archipelago of so many generations, which are no fewer than before, once that is written. */
+    public Archipelago withGenerations(int generations) {
         return with(plan.settings.withGenerations(generations));
     }
 
     private Archipelago with(EvolutionSettings settings) {
-        Plan changed = new Plan(settings, plan.islands, plan.every, plan.migrants);
-        AtomicFile.write(directory.resolve(PLAN), Json.document(changed));
-        return new Archipelago(directory, changed);
+        return new Archipelago(directory, new Plan(settings, plan.islands, plan.every, plan.migrants));
+    }
+
+    /** Writes what the islands have in common. */
+    public void write() {
+        AtomicFile.write(directory.resolve(PLAN), Json.document(plan));
     }
 
     /**

@@ -233,14 +233,23 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     }
 
     /**
+     * Refuses a run that cannot have more generations.
+     *
+     * @throws InvalidInputException after the folder is closed
+     */
+    public void checkMoreGenerations() {
+        if (dropped > 0 && settings.optimizer() == OptimizerKind.CMA_ES) {
+            refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
+        }
+    }
+
+    /**
      * From here on the run has so many generations, at least those that are done.
      *
      * @throws InvalidInputException if it was made small and lacks what it would go on from; the folder is closed then
      */
     public void changeGenerations(int generations) {
-        if (dropped > 0 && settings.optimizer() == OptimizerKind.CMA_ES) {
-            refuse(directory + " has not all of its evaluations any more, which cma-es would go on from");
-        }
+        checkMoreGenerations();
         settings = settings.withGenerations(generations);
         AtomicFile.write(directory.resolve(CONFIG), Json.document(settings));
     }

@@ -3,6 +3,7 @@ package io.natator.run;
 import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
+import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Migration;
 import io.natator.evolution.Departure;
@@ -10,6 +11,7 @@ import io.natator.evolution.Exchange;
 import io.natator.simulator.Evaluator;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.function.Consumer;
 import java.util.stream.IntStream;
 
 /** Carries out the evolutions of all islands at the same time, from wherever they stand to their end. */
@@ -33,6 +35,27 @@ public final class IslandsRun {
     }
 
     /**
+     * Writes what the islands are to have in common from here on, while nobody computes any of them.
+     *
+     * @throws io.natator.config.InvalidInputException if one of them cannot go on by that; nothing is written then
+     */
+    public static void change(Archipelago planned) {
+        withUnfinished(islands(planned), folders -> planned.write());
+    }
+
+    /** Does something with the folders of all islands that have begun and not ended, if each can go on. */
+    private static void withUnfinished(List<PlannedRun> islands, Consumer<List<RunFolder>> what) {
+        List<RunFolder> folders = new ArrayList<>();
+        try {
+            islands.stream().filter(run -> StoredRun.exists(run.directory()) && !run.isFinished())
+                    .forEach(run -> folders.add(run.openAsItIs()));
+            what.accept(folders);
+        } finally {
+            folders.forEach(RunFolder::close);
+        }
+    }
+
+    /**
      * Carries out what is missing. The outcome depends on the settings alone, not on which thread is faster.
      *
      * @param execution how the evaluator works, for the record
@@ -41,7 +64,7 @@ public final class IslandsRun {
      * @throws InterruptedException if the calling thread is interrupted
      */
     public boolean run(ExecutionSettings execution, Evaluator evaluator, RunQueue.Watcher watcher) throws InterruptedException {
-        islands.forEach(IslandsRun::takeOverBackend);
+        withUnfinished(islands, folders -> folders.forEach(this::takeOverBackend));
         Ring ring = new Ring(islands.size());
         List<List<Departure>> departures = islands.stream().map(run -> StoredRun.departures(run.directory())).toList();
         List<Lanes.Work> all = new ArrayList<>();
@@ -56,12 +79,10 @@ public final class IslandsRun {
     }
 
     /** An island that is not finished computes as all do, also where a change of the backend was interrupted. */
-    private static void takeOverBackend(PlannedRun run) {
-        if (StoredRun.exists(run.directory()) && !run.isFinished()
-                && StoredRun.settings(run.directory()).backend() != run.settings().backend()) {
-            try (RunFolder folder = RunFolder.open(run.directory())) {
-                folder.changeBackend(run.settings().backend());
-            }
+    private void takeOverBackend(RunFolder folder) {
+        Backend backend = islands.get(0).settings().backend();
+        if (folder.settings().backend() != backend) {
+            folder.changeBackend(backend);
         }
     }
 

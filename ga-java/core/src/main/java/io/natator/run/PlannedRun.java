@@ -24,15 +24,30 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
             return RunFolder.create(directory, settings);
         }
         RunFolder folder = RunFolder.open(directory);
-        if (isShorter(folder.settings()) && folder.settings().withGenerations(settings.generations()).equals(settings)) {
+        check(folder, settings);
+        if (isShorter(folder.settings())) {
             folder.changeGenerations(settings.generations());
         }
-        if (!folder.settings().equals(settings)) {
+        return folder;
+    }
+
+    /** Opens its folder, which is there, if the run can go on by the settings, and leaves it as it is; its backend may be another one. */
+    RunFolder openAsItIs() {
+        RunFolder folder = RunFolder.open(directory);
+        check(folder, settings.withBackend(folder.settings().backend()));
+        return folder;
+    }
+
+    private void check(RunFolder folder, EvolutionSettings wanted) {
+        EvolutionSettings stored = folder.settings();
+        if (!(isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored).equals(wanted)) {
             folder.close();
             throw new InvalidInputException(directory + " was begun with other settings; choose another --output-dir, "
                     + "or the options that it was begun with");
         }
-        return folder;
+        if (isShorter(stored)) {
+            folder.checkMoreGenerations();
+        }
     }
 
     /** Whether it has come to its end; one of fewer generations than this has not. */

@@ -7,6 +7,7 @@ import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.Leader;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
+import io.natator.config.Backend;
 import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
@@ -327,6 +328,25 @@ class IslandsRunTest {
         try (RunFolder island = RunFolder.open(ring.folder(2)); Evaluator evaluator = new WorkerPool(new ToySimulator(), 1)) {
             assertThatThrownBy(() -> new EvolutionRun(island).run(execution, evaluator)).isInstanceOf(InvalidInputException.class)
                     .hasMessage(ring.folder(2) + " is one of 3 islands, which go on together; expected the folder that they are in");
+        }
+    }
+
+    /** What the third cannot do leaves the first two as they are. */
+    @Test
+    void allAreCheckedBeforeOneIsChanged() throws InterruptedException, IOException {
+        Archipelago archipelago = whole("run", new Archipelago.Plan(SETTINGS.withSize(8, 2), 3, 1, 1));
+        Path third = archipelago.folder(3).resolve("config.json");
+        Files.writeString(third, Files.readString(third).replace("\"seed\" : 5", "\"seed\" : 55"));
+        Archipelago extended = archipelago.withGenerations(4);
+
+        assertThatThrownBy(() -> IslandsRun.change(extended)).isInstanceOf(InvalidInputException.class)
+                .hasMessageStartingWith(archipelago.folder(3) + " was begun with other settings");
+        assertThat(Archipelago.in(archipelago.directory())).isEqualTo(archipelago);
+        extended.withBackend(Backend.AUTO).write();
+        assertThatThrownBy(() -> run(Archipelago.in(archipelago.directory()), new WorkerPool(new ToySimulator(), 2)))
+                .isInstanceOf(InvalidInputException.class);
+        for (int i = 1; i <= 2; i++) {
+            assertThat(StoredRun.settings(archipelago.folder(i))).isEqualTo(archipelago.plan().settings(i));
         }
     }
 
