@@ -139,6 +139,11 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
     }
 
+    /** Refuses a pipe, or the like, in place of a file that a run writes. */
+    static void checkRegular(Path directory) {
+        FILES.forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
+    }
+
     /** Whether there is anything at this path but an empty folder. */
     public static boolean isOccupied(Path directory) throws IOException {
         if (!Files.isDirectory(directory)) {

@@ -2,6 +2,7 @@ package io.natator.checkpoint;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
@@ -79,8 +80,13 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return damage != null ? damage : RunFolder.damage(directory, settings.migration(), state, departures(directory).size());
     }
 
-    /** The settings of the run in a folder. */
+    /**
+     * The settings of the run in a folder.
+     *
+     * @throws InvalidInputException if it is not that of a run, the settings are damaged, or any file of it is no regular one
+     */
     public static EvolutionSettings settings(Path directory) {
+        RunFolder.checkRegular(directory);
         if (!exists(directory)) {
             throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
         }
@@ -89,6 +95,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     private static <T> T optional(Path directory, String name, Class<T> type) {
         Path file = directory.resolve(name);
+        FileErrors.checkRegular(file);
         return Files.exists(file) ? Json.read(file, type, name.replace(".json", "")) : null;
     }
 

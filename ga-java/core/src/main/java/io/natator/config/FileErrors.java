@@ -4,6 +4,7 @@ import java.io.IOException;
 import java.nio.file.AccessDeniedException;
 import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.FileSystemException;
+import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
 
@@ -11,6 +12,17 @@ import java.nio.file.Path;
 public final class FileErrors {
 
     private FileErrors() {
+    }
+
+    /**
+     * Refuses what is there and is neither a file nor a folder: reading a pipe would wait for ever.
+     *
+     * @throws InvalidInputException naming it
+     */
+    public static void checkRegular(Path file) {
+        if (Files.exists(file) && !Files.isRegularFile(file) && !Files.isDirectory(file)) {
+            throw new InvalidInputException(file + " is not a regular file");
+        }
     }
 
     /** Why, without the file's name where the error is about the file itself. */

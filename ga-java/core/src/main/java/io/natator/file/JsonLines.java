@@ -1,6 +1,7 @@
 package io.natator.file;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import java.io.IOException;
@@ -48,9 +49,7 @@ public final class JsonLines<T> implements AutoCloseable {
      */
     public static <T> JsonLines<T> of(Path file, Class<T> type) {
         JsonLines<T> lines = new JsonLines<>(file, type);
-        if (Files.exists(file) && !Files.isRegularFile(file) && !Files.isDirectory(file)) {
-            throw new InvalidInputException(file + " is not a regular file");  // reading a pipe would wait for ever
-        }
+        FileErrors.checkRegular(file);
         try {
             lines.parse(Files.exists(file) ? Files.readAllBytes(file) : new byte[0]);
         } catch (IOException e) {

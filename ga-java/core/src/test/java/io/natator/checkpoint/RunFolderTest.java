@@ -28,12 +28,15 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 import java.util.TreeMap;
+import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.EnumSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 class RunFolderTest {
 
@@ -62,6 +65,20 @@ class RunFolderTest {
             folder.writeResults(end);
         }
         return simulator;
+    }
+
+    /** Whoever reads it would wait for ever. */
+    @ParameterizedTest
+    @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "savings.json", "check.json", "evaluations.jsonl", "timings.csv"})
+    @Timeout(value = 1, unit = TimeUnit.MINUTES, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
+    void aPipeInPlaceOfAFileIsRefused(String name) throws IOException, InterruptedException {
+        RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
+        assertThat(new ProcessBuilder("mkfifo", run.resolve(name).toString()).start().waitFor()).isZero();
+
+        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+                .hasMessage(run.resolve(name) + " is not a regular file");
+        assertThatThrownBy(() -> StoredRun.in(run)).isInstanceOf(InvalidInputException.class)
+                .hasMessage(run.resolve(name) + " is not a regular file");
     }
 
     @Test
