@@ -16,11 +16,15 @@ class ControlVerdictTest {
 
     /** Of two runs, so far from their mean. */
     private static SwimSample sample(double mean, double from) {
-        return SwimSample.of(List.of(result(mean - from), result(mean + from)), 4, GAIT, 4.0, 1.25);
+        return sample(mean, from, "completed");
     }
 
-    private static SimulationResult result(double distance) {
-        return new SimulationResult(0L, SimulationResult.Status.OK, distance, "completed", 4.0, 240, "flex", "float", null,
+    private static SwimSample sample(double mean, double from, String stopped) {
+        return SwimSample.of(List.of(result(mean - from, stopped), result(mean + from, stopped)), 4, GAIT, 4.0, 1.25);
+    }
+
+    private static SimulationResult result(double distance, String stopped) {
+        return new SimulationResult(0L, SimulationResult.Status.OK, distance, stopped, 4.0, 240, "flex", "float", null,
                 null, null);
     }
 
@@ -66,6 +70,21 @@ class ControlVerdictTest {
                 sample(clampOff, clampOffFrom), sample(0.7, 0), sample(0.74, 0), null, null, 0.9);
 
         assertThat(ControlVerdict.of(controls).text()).isEqualTo(text);
+        assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
+    }
+
+    /** As the verdict on a run by itself does; 0.5 body lengths are 0.625. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "0.74|completed|SWIMS|swims: 0.15 ± 0.00 body lengths/s more than a resting body, not in vacuum",
+        "0.74|touched-plane|SWIMS|swims: 0.15 ± 0.00 body lengths/s more than a resting body, until it touches a wall, not in vacuum",
+        "0.60|touched-plane|UNPROVEN|may swim: 0.12 ± 0.00 body lengths/s more than a resting body, until it touches a wall; but the wall is "
+            + "nearer than 0.5 body lengths"})
+    void aWallIsTold(double way, String stopped, Verdict.Kind kind, String text) {
+        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.25, sample(way, 0.01, stopped), sample(-0.01, 0), sample(0, 0), null,
+                sample(way, 0), sample(way, 0), null, null, 0.9);
+
+        assertThat(ControlVerdict.of(controls).text()).startsWith(text);
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
     }
 
