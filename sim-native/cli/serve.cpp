@@ -15,6 +15,7 @@
 #include "natator/error.h"
 #include "natator/limits.h"
 #include "options.h"
+#include "scene/field.h"
 
 namespace natator::cli {
 namespace {
@@ -79,7 +80,7 @@ void evaluate_group(const std::vector<SharedJob>& group) {
 /// Groups that are computed at a time, so that the host's work for one goes on beside the kernels of others. More gain nothing.
 constexpr std::size_t groups_at_a_time = 4;
 
-/// The jobs of a batch of requests, each once however many requests ask for it: all but their ids is the same. Lines
+/// The jobs of a batch of requests, each once however many requests ask for it: all that counts but their ids is the same. Lines
 /// that are no request are answered at once.
 std::vector<SharedJob> read_jobs(const std::vector<std::string>& lines, const BackendChoice& backend) {
     std::vector<SharedJob> jobs;
@@ -94,6 +95,7 @@ std::vector<SharedJob> read_jobs(const std::vector<std::string>& lines, const Ba
             id = request_id(value);
             const Job job = read_job(value, backend);
             value.erase("id");
+            value.erase(fields::schema_key);
             const std::string all_else = value.dump();
             if (!by_request.contains(all_else)) {
                 jobs.push_back({job, {}});

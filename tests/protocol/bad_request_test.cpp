@@ -55,6 +55,7 @@ const BadRequest bad_requests[] = {
     {request_with("scene", "\"thesis/craeture-4\""), "unknown scene \"thesis/craeture-4\"; did you mean thesis/creature-4?"},
     {request_with("scene", "\"no\\nsuch.json\""), "cannot be read"},
     {request_with("gaits", "1"), "gaits: unknown key (= 1); did you mean gait?"},
+    {request_with("$schema", "3"), "$schema = 3: must be a string"},
     {request_with("gait", ""), "gait: missing"},
     {request_with("gait", "3"), "gait = 3: must be an object"},
     {request_with("gait", R"({"amplitude":[1,1],"phase":[0,0]})"), "gait.frequency: missing"},

@@ -71,6 +71,13 @@ TEST(EvaluateProtocolTest, TheSameRequestGivesTheSameAnswer) {
     EXPECT_EQ(result_of(asked), result_of(asked));
 }
 
+TEST(EvaluateProtocolTest, WhereAnEditorFindsTheSchemaHasNoEffect) {
+    json asked = request("thesis/creature-1-vacuum", 0.05);
+    const json plain = result_of(asked);
+    asked["$schema"] = "request.schema.json";
+    EXPECT_EQ(result_of(asked), plain);
+}
+
 TEST(EvaluateProtocolTest, EveryOptionalFieldHasItsEffect) {
     const json plain = request("thesis/creature-1-vacuum", 0.5);
     const json base = result_of(plain);

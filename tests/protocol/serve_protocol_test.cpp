@@ -59,7 +59,7 @@ TEST(ServeProtocolTest, RequestsThatDifferInTheirIdsOnlyAreEvaluatedOnce) {
     const std::string same = R"(,"scene":"thesis/creature-1-vacuum","duration":0.1,"gait":{"frequency":1,)"
                              R"("amplitude":[0.5,0.5],"phase":[0,0.25]}})";
     const std::string other_order = R"({"duration":0.1,"gait":{"phase":[0,0.25],"amplitude":[0.5,0.5],"frequency":1},)"
-                                    R"("scene":"thesis/creature-1-vacuum","id":3})";
+                                    R"("scene":"thesis/creature-1-vacuum","id":3,"$schema":"request.schema.json"})";
     const Outcome served = run_simulator(
         {"serve", "--summary"}, "{\"id\":1" + same + "\n{\"id\":2" + same + "\n" + other_order + "\n" + request(4));
     EXPECT_EQ(served.err, "natator-sim: 4 requests, 2 evaluations\n");

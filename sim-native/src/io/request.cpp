@@ -75,7 +75,9 @@ Request parse_request(const json& value) {
     const Place place{"request", ""};
     fields::check_keys(
         value, place,
-        {"id", "scene", "gait", "duration", "scheme", "backend", "precision", "perturbation", "start", "overrides"});
+        {"id", "scene", "gait", "duration", "scheme", "backend", "precision", "perturbation", "start", "overrides",
+         fields::schema_key});
+    fields::check_schema_key(value, place);
     Request request;
     request.id = fields::required(value, place, "id");
     if (!request.id.is_number_unsigned()) fields::refuse(place.key("id"), request.id, "a whole number >= 0");

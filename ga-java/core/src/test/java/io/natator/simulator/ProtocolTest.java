@@ -60,6 +60,7 @@ class ProtocolTest {
         for (SimulationRequest request : requests) {
             assertThat(check("request.schema.json", Json.line(request))).as(Json.line(request)).isEmpty();
         }
+        assertThat(check("request.schema.json", "{\"$schema\":\"request.schema.json\",\"id\":1,\"scene\":\"a\"}")).isEmpty();
     }
 
     @ParameterizedTest
@@ -68,6 +69,7 @@ class ProtocolTest {
         "{\"id\":1," + GAIT + "}",
         "{\"id\":-1,\"scene\":\"a\"}",
         "{\"id\":1,\"scene\":\"a\",\"durations\":4}",
+        "{\"id\":1,\"scene\":\"a\",\"$schema\":4}",
         "{\"id\":1,\"scene\":\"a\",\"duration\":0}",
         "{\"id\":1,\"scene\":\"a\",\"scheme\":\"FLEX\"}",
         "{\"id\":1,\"scene\":\"a\",\"gait\":{\"frequency\":61,\"amplitude\":[],\"phase\":[]}}",
