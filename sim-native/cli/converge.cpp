@@ -70,17 +70,14 @@ struct LevelRuns {
     int unstable_runs() const { return static_cast<int>(results.size() - values([](const json&) { return 0; }).size()); }
 };
 
-json read_converge_request(const std::string& argument) {
-    if (argument.empty() || argument == "-") return parse_json(read_all(stdin, "request"), "request");
-    return read_json_argument(argument, "request");
-}
-
 /// Reads a level's request and refuses what would cost too much.
-LevelRuns read_level(const Level& level, const json& request, const BackendChoice& backend) {
-    LevelRuns runs{.level = level, .request = request, .job = read_job(request, backend), .results = {}};
+LevelRuns read_level(const Level& level, const json& request, const ConvergeOptions& options) {
+    const std::string document = request_name(options.request);
+    const Job job = read_job(request, options.backend, document);
+    LevelRuns runs{.level = level, .request = request, .job = job, .results = {}};
     refuse_gpu_options_for_cpu(runs.job.backend);
     if (!runs.job.scene.creature)
-        throw InputError("request: scene " + natator::quoted(runs.job.request.scene) + ": has no creature; must have one that swims");
+        throw InputError(document + ": scene " + natator::quoted(runs.job.request.scene) + ": has no creature; must have one that swims");
     const Model model = build_model(runs.job.scene);
     check_gait(runs.job.gait, runs.job.scene.creature->actuators());
     check_evaluation_cost(runs.job.scene, model);
@@ -97,9 +94,10 @@ const LevelRuns* find_level(const std::vector<LevelRuns>& levels, const std::str
 }
 
 std::vector<LevelRuns> read_levels(json request, const ConvergeOptions& options) {
-    if (!request.is_object()) throw InputError("request: must be an object");
-    if (request.contains("start")) throw InputError("request: start: must not be given, converge has starts of its own");
-    std::vector<LevelRuns> levels{read_level(Level::named("base"), request, options.backend)};
+    const std::string document = request_name(options.request);
+    if (!request.is_object()) throw InputError(document + ": must be an object");
+    if (request.contains("start")) throw InputError(document + ": start: must not be given, converge has starts of its own");
+    std::vector<LevelRuns> levels{read_level(Level::named("base"), request, options)};
     Perturbation perturbation = levels.front().job.request.perturbation;
     const Scene scene = levels.front().job.scene;
     if (perturbation.amplitude == 0) perturbation.amplitude = usual_perturbation * scene.solver.fluidRestDistance;
@@ -111,7 +109,7 @@ std::vector<LevelRuns> read_levels(json request, const ConvergeOptions& options)
         json finer = request;
         const json own = request.contains("overrides") ? request.at("overrides") : json::object();
         finer["overrides"] = merge_patches(own, refined(scene, level, levels.front().substeps));
-        levels.push_back(read_level(level, finer, options.backend));
+        levels.push_back(read_level(level, finer, options));
         levels.back().job.request.perturbation = perturbation;
     }
     return levels;
@@ -290,7 +288,7 @@ std::string convergence_table(const std::vector<LevelRuns>& levels, const std::o
 
 int run_converge(ConvergeOptions& options) {
     RunRecord record(options.output);
-    std::vector<LevelRuns> levels = read_levels(read_converge_request(options.request), options);
+    std::vector<LevelRuns> levels = read_levels(read_request(options.request), options);
     bool all_stable = true;
     for (LevelRuns& runs : levels) {
         run_level(runs, options, options.execution.execution(), record);

@@ -1,10 +1,9 @@
-#include <cstdio>
 #include <iostream>
 #include <memory>
 
 #include "commands.h"
-#include "io/strict_json.h"
 #include "job.h"
+#include "json_argument.h"
 
 namespace natator::cli {
 namespace {
@@ -12,16 +11,17 @@ namespace {
 using nlohmann::json;
 
 struct EvaluateOptions {
+    std::string request;
     BackendChoice backend;
     ExecutionOptions execution;
     bool plain = false;
 };
 
-/// Evaluates one request. Sets `id` as soon as it is known, for messages.
-int evaluate_request(const std::string& text, EvaluateOptions& options, json& id) {
-    const json value = parse_json(text, "request");
+/// Evaluates the request. Sets `id` as soon as it is known, for messages.
+int evaluate_request(EvaluateOptions& options, json& id) {
+    const json value = read_request(options.request);
     id = request_id(value);
-    const Job job = read_job(value, options.backend);
+    const Job job = read_job(value, options.backend, request_name(options.request));
     refuse_gpu_options_for_cpu(job.backend);
     const Evaluation evaluation = evaluate_job(job, options.execution.execution());
     const auto result = result_json(id, evaluation, job.scene.scheme, job.request.precision);
@@ -36,7 +36,7 @@ int evaluate_request(const std::string& text, EvaluateOptions& options, json& id
 int run_evaluate(EvaluateOptions& options) {
     json id;
     try {
-        return evaluate_request(read_all(stdin, "request"), options, id);
+        return evaluate_request(options, id);
     } catch (const std::exception& error) {
         // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code.
         if (!options.plain)
@@ -50,9 +50,11 @@ int run_evaluate(EvaluateOptions& options) {
 void add_evaluate(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand(
         "evaluate",
-        "Read one JSON request on standard input, write one JSON result on standard output. The request holds all that "
-        "`run` has options for: scene, gait, scheme, duration, overrides.");
+        "Read one JSON request, write one JSON result on standard output. The request holds all that `run` has options "
+        "for: scene, gait, scheme, duration, overrides.");
     const auto options = std::make_shared<EvaluateOptions>();
+    command->add_option("request", options->request,
+                        "File or JSON text: the request. Default, and -: standard input.");
     add_backend_options(command, options->backend);
     command->add_flag("--plain", options->plain, "Write only the fitness, as a number.");
     add_execution_options(command, options->execution);

@@ -10,22 +10,22 @@ namespace natator::cli {
 namespace {
 
 /// The request's gait; without one, of a scene that needs none, an empty gait.
-Gait gait_for(const Request& request, const Scene& scene) {
+Gait gait_for(const Request& request, const Scene& scene, const std::string& document) {
     if (request.gait) return *request.gait;
     const int actuators = scene.creature ? scene.creature->actuators() : 0;
     if (actuators == 0) return {};
-    throw InputError("request: gait: missing; must be given, the creature has " + std::to_string(actuators) +
+    throw InputError(document + ": gait: missing; must be given, the creature has " + std::to_string(actuators) +
                      " actuators");
 }
 
 }  // namespace
 
-Job read_job(const nlohmann::json& value, const BackendChoice& backend) {
-    Job job{.request = parse_request(value), .scene = {}, .gait = {}, .backend = backend};
+Job read_job(const nlohmann::json& value, const BackendChoice& backend, const std::string& document) {
+    Job job{.request = parse_request(value, document), .scene = {}, .gait = {}, .backend = backend};
     if (job.request.backend) job.backend.name = *job.request.backend;
     job.scene = load_scene(job.request.scene, job.request.overrides);
     if (job.request.start) job.request.perturbation = choose_start(*job.request.start, job.scene);
-    job.gait = gait_for(job.request, job.scene);
+    job.gait = gait_for(job.request, job.scene, document);
     return job;
 }
 

@@ -17,8 +17,8 @@ struct Job {
     BackendChoice backend;  ///< the request's, else the command's
 };
 
-/// Reads a request, one JSON object. Throws InputError.
-Job read_job(const nlohmann::json& value, const BackendChoice& backend);
+/// Reads a request, one JSON object; `document` is what messages call it. Throws InputError.
+Job read_job(const nlohmann::json& value, const BackendChoice& backend, const std::string& document = "request");
 
 /// How a command's evaluations are run, without a say in what comes out.
 struct ExecutionOptions {

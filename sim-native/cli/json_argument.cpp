@@ -1,5 +1,7 @@
 #include "json_argument.h"
 
+#include <cstdio>
+
 #include "io/strict_json.h"
 
 namespace natator::cli {
@@ -11,6 +13,8 @@ bool is_text(const std::string& argument) {
     return first != std::string::npos && argument[first] == '{';
 }
 
+bool is_standard_input(const std::string& argument) { return argument.empty() || argument == "-"; }
+
 }  // namespace
 
 std::string json_argument_name(const std::string& argument, const std::string& option) {
@@ -19,6 +23,15 @@ std::string json_argument_name(const std::string& argument, const std::string& o
 
 nlohmann::json read_json_argument(const std::string& argument, const std::string& name) {
     return is_text(argument) ? parse_json(argument, name) : read_json_file(argument);
+}
+
+std::string request_name(const std::string& argument) {
+    return is_standard_input(argument) ? "request" : json_argument_name(argument, "request");
+}
+
+nlohmann::json read_request(const std::string& argument) {
+    return is_standard_input(argument) ? parse_json(read_all(stdin, "request"), "request")
+                                       : read_json_argument(argument, "request");
 }
 
 }  // namespace natator::cli

@@ -1,7 +1,10 @@
 // natator-sim evaluate: what a caller on the other end of the pipes relies on.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -76,6 +79,38 @@ TEST(EvaluateProtocolTest, WhereAnEditorFindsTheSchemaHasNoEffect) {
     const json plain = result_of(asked);
     asked["$schema"] = "request.schema.json";
     EXPECT_EQ(result_of(asked), plain);
+}
+
+/// Messages about a file name it.
+TEST(EvaluateProtocolTest, ARequestMayBeAFileOrText) {
+    const json asked = request("thesis/creature-1-vacuum", 0.05), expected = result_of(asked);
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) / ("request-" + std::to_string(getpid()) + ".json");
+    const auto write = [&file](const std::string& text) { std::ofstream(file) << text; };
+    write(asked.dump(2));
+    for (const auto& [argument, input] :
+         {std::pair(file.string(), std::string("no request")), {asked.dump(), ""}, {"-", asked.dump()}}) {
+        const Outcome outcome = run_simulator({"evaluate", argument}, input);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(json::parse(outcome.out), expected);
+    }
+    const auto refused = [&file]() {
+        const Outcome outcome = run_simulator({"evaluate", file.string()});
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_EQ("natator-sim: " + json::parse(outcome.out).at("error").get<std::string>() + "\n", outcome.err);
+        return outcome.err;
+    };
+    json wrong = asked;
+    wrong.erase("gait");
+    write(wrong.dump());
+    EXPECT_EQ(refused().find("natator-sim: request " + file.string() + ": gait: missing"), 0u) << refused();
+    wrong["speed"] = 9;
+    write(wrong.dump());
+    EXPECT_EQ(refused().find("natator-sim: request " + file.string() + ": speed: unknown key"), 0u) << refused();
+    write("{");
+    EXPECT_EQ(refused().find("natator-sim: file \"" + file.string() + "\": not valid JSON"), 0u) << refused();
+    std::filesystem::remove(file);
+    EXPECT_EQ(refused(), "natator-sim: file \"" + file.string() + "\": cannot be read\n");
 }
 
 TEST(EvaluateProtocolTest, EveryOptionalFieldHasItsEffect) {

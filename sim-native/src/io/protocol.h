@@ -22,8 +22,8 @@ struct Request {
 };
 
 /// Reads a request. Throws InputError naming the field, its value and what is allowed. The scene and the ranges of the
-/// gait are checked when they are used.
-Request parse_request(const nlohmann::json& value);
+/// gait are checked when they are used. `document` is what messages call it.
+Request parse_request(const nlohmann::json& value, const std::string& document = "request");
 
 /// The request's id, or null if it has no usable one.
 nlohmann::json request_id(const nlohmann::json& value);

@@ -71,8 +71,8 @@ Gait parse_gait(const json& value, const std::string& document) {
     return read_gait(value, {document, ""});
 }
 
-Request parse_request(const json& value) {
-    const Place place{"request", ""};
+Request parse_request(const json& value, const std::string& document) {
+    const Place place{document, ""};
     fields::check_keys(
         value, place,
         {"id", "scene", "gait", "duration", "scheme", "backend", "precision", "perturbation", "start", "overrides",
