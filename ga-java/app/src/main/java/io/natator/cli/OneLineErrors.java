@@ -24,7 +24,8 @@ final class OneLineErrors {
         CommandLine command = error.getCommandLine();
         // What stands where an option's value should is told in the message alone.
         String what = error instanceof UnmatchedArgumentException unmatched && !unmatched.getUnmatched().isEmpty()
-                ? unknown(unmatched.getUnmatched().get(0), command, error.getMessage()) : error.getMessage();
+                ? unknown(unmatched.getUnmatched().get(0), command, error.getMessage())
+                : NumberValues.isNone(error) ? NumberValues.message(error) : error.getMessage();
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
         return ExitCode.USAGE;
     }

@@ -30,6 +30,7 @@ class BadUsageTest extends FakeSimulatorTest {
         "compare-optimizers --output-dir NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
         "compare-optimizers --output-dir NEVER --creatures 1,2,1|--creatures has 1 twice; expected each once",
         "compare-optimizers --output-dir NEVER --optimizers random,cma-es,RANDOM|--optimizers has random twice; expected each once",
+        "reproduce --output-dir NEVER --creature 2,x|--creature is x; expected a whole number",
         "reproduce --output-dir NEVER --creature 2,2|--creature has 2 twice; expected each once",
         "reproduce --output-dir NEVER --water flex,open-water,flex|--water has flex twice; expected each once",
         "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000",
@@ -65,7 +66,11 @@ class BadUsageTest extends FakeSimulatorTest {
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
         "--population 1|population is 1",
         "--generations -1|generations is -1",
-        "--generations many|'many' is not an int",
+        "--generations many|--generations is many; expected a whole number; see natator evolve --help",
+        "--seed 9223372036854775808|--seed is 9223372036854775808; expected a whole number from -9223372036854775808 to 9223372036854775807",
+        "--duration abc|--duration is abc; expected a number of seconds; see natator evolve --help",
+        "--timeout 2s|--timeout is 2s; expected a number of seconds",
+        "--gaussian-deviation little|--gaussian-deviation is little; expected a number; see",
         "--creature 5|--creature is 5; expected 1, 2, 3 or 4, or the name of a bundled body",
         "--creature ../eel|--creature is ../eel; expected 1, 2, 3 or 4, or the name",
         "--creature 1 --scene thesis/creature-2|exclude each other",
@@ -171,6 +176,7 @@ class BadUsageTest extends FakeSimulatorTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "evolve --scene EMPTY|natator evolve: --scene is empty", "evolve --scene=EMPTY|natator evolve: --scene is empty",
+        "evolve --seed=EMPTY|natator evolve: --seed is empty",
         "evolve --output-dir EMPTY|natator evolve: --output-dir is empty",
         "evaluate --scene pool/creature-1 --gait EMPTY|natator evaluate: --gait is empty",
         "show EMPTY|natator show: RUN is empty", "report EMPTY|natator report: RUN is empty",
