@@ -32,6 +32,24 @@ class DocumentsTest(unittest.TestCase):
             self.assertEqual(done.returncode, 0, command + done.stderr)
             self.assertGreater(len(done.stdout.splitlines()), 2, command)
 
+    def test_examples_refuse_in_one_line(self):
+        for command, message in [
+                ("steer.py --duration -1", "duration = -1.0: must be a number above 0 (s)"),
+                ("steer.py --duration nan", "duration = nan: must be a number above 0 (s)"),
+                ("steer.py --target 1 1 nan", "target[2] = nan: must be a finite number"),
+                ("steer.py --scene no/such", 'unknown scene "no/such": must be one of'),
+                ("evolve_gait.py --evaluations -5", "evaluations = -5: must be a whole number from 1 on"),
+                ("evolve_gait.py --workers -2", "workers = -2: must be a whole number from 1 on"),
+                ("evolve_gait.py --seed -3", "seed = -3: must be a whole number from 1 on"),
+                ("evolve_gait.py --seed 4294967296", "seed = 4294967296: must be below 2**32"),
+                ("evolve_gait.py --duration -1", "duration = -1.0: must be a number in (0, 1e+06]")]:
+            with self.subTest(command):
+                program, *options = command.split()
+                done = subprocess.run([sys.executable, PACKAGE / "examples" / program, *options], capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (2, "", 1), done.stderr)
+                self.assertTrue(done.stderr.startswith(f"{program}: "), done.stderr)
+                self.assertIn(message, done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
