@@ -89,13 +89,9 @@ final class ResumeCommand implements Callable<Integer> {
     private static void changeGenerations(RunFolder folder, int generations) {
         EvolutionState state = folder.checkpoint();
         int done = state == null ? 0 : state.generation();
-        String wrong = generations < done ? "--generations is " + generations + "; expected at least the " + done + " that are done"
+        folder.refuse(generations < done ? "--generations is " + generations + "; expected at least the " + done + " that are done"
                 : state != null && generations > done && state.isLastOf(folder.settings().withGenerations(generations))
-                ? folder.directory() + " ends after its " + state.evaluations() + " evaluations, however many --generations it may have" : null;
-        if (wrong != null) {
-            folder.close();
-            throw new InvalidInputException(wrong);
-        }
+                ? folder.directory() + " ends after its " + state.evaluations() + " evaluations, however many --generations it may have" : null);
         if (generations != folder.settings().generations()) {
             folder.changeGenerations(generations);
         }

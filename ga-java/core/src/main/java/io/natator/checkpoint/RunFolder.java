@@ -171,8 +171,13 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         return folder;
     }
 
-    /** Closes the folder if something is wrong with it; null if nothing is. */
-    private void refuse(String wrong) {
+    /**
+     * Closes the folder if something is wrong with it.
+     *
+     * @param wrong what, in one line; null if nothing is
+     * @throws InvalidInputException that says so
+     */
+    public void refuse(String wrong) {
         if (wrong != null) {
             close();
             throw new InvalidInputException(wrong);

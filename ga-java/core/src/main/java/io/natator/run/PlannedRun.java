@@ -3,7 +3,6 @@ package io.natator.run;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
-import io.natator.config.InvalidInputException;
 import java.nio.file.Path;
 
 /**
@@ -17,7 +16,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
     /**
      * Opens its folder, or makes it. A run of fewer generations goes on to those of the settings.
      *
-     * @throws InvalidInputException if there is a run of other settings in it
+     * @throws io.natator.config.InvalidInputException if there is a run of other settings in it
      */
     public RunFolder open() {
         if (!StoredRun.exists(directory)) {
@@ -40,11 +39,9 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
 
     private void check(RunFolder folder, EvolutionSettings wanted) {
         EvolutionSettings stored = folder.settings();
-        if (!(isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored).equals(wanted)) {
-            folder.close();
-            throw new InvalidInputException(directory + " was begun with other settings; choose another --output-dir, "
-                    + "or the options that it was begun with");
-        }
+        boolean isSame = (isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored).equals(wanted);
+        folder.refuse(isSame ? null : directory + " was begun with other settings; choose another --output-dir, "
+                + "or the options that it was begun with");
         if (isShorter(stored)) {
             folder.checkMoreGenerations();
         }

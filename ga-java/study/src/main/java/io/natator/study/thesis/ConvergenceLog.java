@@ -4,23 +4,17 @@ import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Json;
-import io.natator.encoding.Gait;
 import io.natator.simulator.ConvergeProgram;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
-import io.natator.study.KeyedLog;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.Set;
 
 /** Gaits at half the spacing of all particles, the body and its motion kept; {@code convergence.jsonl}. */
-final class ConvergenceLog implements AutoCloseable {
+final class ConvergenceLog extends RequestLog<ConvergenceLog.Row> {
 
     private static final String LEVEL = "spacing/2";
     private static final int STARTS = 3;
-
-    private final KeyedLog<Row> rows;
 
     /**
      * A line of the file.
@@ -31,21 +25,17 @@ final class ConvergenceLog implements AutoCloseable {
      * @param answer  of {@code natator-sim converge}
      */
     record Row(@JsonProperty(required = true) String program, @JsonProperty(required = true) Backend backend,
-            @JsonProperty(required = true) SimulationRequest request, @JsonProperty(required = true) JsonNode answer) {
+            @JsonProperty(required = true) SimulationRequest request, @JsonProperty(required = true) JsonNode answer) implements Answer {
     }
 
     /** That of a study. */
     ConvergenceLog(Path directory) {
-        rows = new KeyedLog<>(directory.resolve("convergence.jsonl"), Row.class, row -> key(row.request()));
-    }
-
-    private static String key(SimulationRequest request) {
-        return Json.line(request.withId(0L));
+        super(directory.resolve("convergence.jsonl"), Row.class);
     }
 
     /** Those that are not measured yet. */
     List<Experiment> missing(List<Experiment> experiments) {
-        return experiments.stream().filter(one -> rows.find(key(one.request())) == null).toList();
+        return experiments.stream().filter(one -> find(one.request()) == null).toList();
     }
 
     /**
@@ -58,14 +48,14 @@ final class ConvergenceLog implements AutoCloseable {
         String program = Sha256.of(execution.simulator());
         for (Experiment experiment : missing(experiments)) {
             JsonNode answer = new ConvergeProgram(execution).of(experiment.request(), STARTS, List.of(LEVEL));
-            rows.add(new Row(program, execution.backend(), experiment.request().withId(0L), answer));
+            add(new Row(program, execution.backend(), experiment.request().withId(0L), answer));
             done.run();
         }
     }
 
     /** Speed at half the spacing less that as it is, from the same starts; NaN if that was not measured or became unstable. */
     double change(Experiment experiment) {
-        Row row = rows.find(key(experiment.request()));
+        Row row = find(experiment.request());
         return row == null ? Double.NaN : speed(row, LEVEL) - speed(row, "base");
     }
 
@@ -76,19 +66,5 @@ final class ConvergenceLog implements AutoCloseable {
             }
         }
         return Double.NaN;
-    }
-
-    /** Drops the rows of other gaits, before any is added; returns how many. */
-    int keep(Set<Gait> gaits) {
-        return rows.keep(row -> gaits.contains(row.request().gait()));
-    }
-
-    int size() {
-        return rows.rows().size();
-    }
-
-    @Override
-    public void close() {
-        rows.close();
     }
 }

@@ -1,14 +1,11 @@
 package io.natator.study.thesis;
 
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Json;
-import io.natator.encoding.Gait;
 import io.natator.flow.Snapshot;
 import io.natator.flow.WaterLevel;
 import io.natator.kinematics.BodyPath;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
-import io.natator.study.KeyedLog;
 import io.natator.simulator.TrajectoryRecorder;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -17,16 +14,14 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Objects;
-import java.util.Set;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 import java.util.concurrent.Future;
 
 /** The recorded runs of the study, {@code motions.jsonl}: what was recorded and measured once stays. */
-final class KinematicsLog implements AutoCloseable {
+final class KinematicsLog extends RequestLog<SwimKinematics> {
 
-    private final KeyedLog<SwimKinematics> rows;
     private final int runs;
 
     /**
@@ -35,24 +30,19 @@ final class KinematicsLog implements AutoCloseable {
      * @param runs of every experiment, at least 1
      */
     KinematicsLog(Path directory, int runs) {
+        super(directory.resolve("motions.jsonl"), SwimKinematics.class);
         this.runs = runs;
-        this.rows = new KeyedLog<>(directory.resolve("motions.jsonl"), SwimKinematics.class,
-                row -> key(row.request()));
-    }
-
-    private static String key(SimulationRequest request) {
-        return Json.line(request.withId(0L));
     }
 
     /** The runs of these experiments that are not recorded yet, each once. */
     List<SimulationRequest> missing(List<Experiment> experiments) {
         return experiments.stream().flatMap(one -> one.recordings(runs).stream())
-                .filter(request -> rows.find(key(request)) == null).distinct().toList();
+                .filter(request -> find(request) == null).distinct().toList();
     }
 
     /** What came of the runs that are recorded. */
     List<SwimKinematics> of(Experiment experiment) {
-        return experiment.recordings(runs).stream().map(request -> rows.find(key(request)))
+        return experiment.recordings(runs).stream().map(request -> find(request))
                 .filter(Objects::nonNull).toList();
     }
 
@@ -72,7 +62,7 @@ final class KinematicsLog implements AutoCloseable {
                 recorded.add(workers.submit(() -> record(program, request, execution)));
             }
             for (Future<SwimKinematics> motion : recorded) {
-                rows.add(motion.get());
+                add(motion.get());
                 done.run();
             }
         } catch (ExecutionException e) {
@@ -104,19 +94,5 @@ final class KinematicsLog implements AutoCloseable {
         } catch (IOException e) {
             throw new UncheckedIOException("cannot record a run: " + e.getMessage(), e);
         }
-    }
-
-    /** Drops the rows of other gaits, before any is added; returns how many. */
-    int keep(Set<Gait> gaits) {
-        return rows.keep(row -> gaits.contains(row.request().gait()));
-    }
-
-    int size() {
-        return rows.rows().size();
-    }
-
-    @Override
-    public void close() {
-        rows.close();
     }
 }

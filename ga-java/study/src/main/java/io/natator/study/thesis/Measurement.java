@@ -15,5 +15,5 @@ import io.natator.simulator.SimulationResult;
  */
 record Measurement(@JsonProperty(required = true) String program, @JsonProperty(required = true) Backend backend,
         @JsonProperty(required = true) SimulationRequest request,
-        @JsonProperty(required = true) SimulationResult result) {
+        @JsonProperty(required = true) SimulationResult result) implements RequestLog.Answer {
 }

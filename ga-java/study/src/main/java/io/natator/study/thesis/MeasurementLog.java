@@ -3,20 +3,15 @@ package io.natator.study.thesis;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.Json;
-import io.natator.encoding.Gait;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
-import io.natator.study.KeyedLog;
 import io.natator.study.Sample;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.Collection;
 import java.util.List;
 import java.util.Objects;
-import java.util.Set;
 import java.util.function.IntConsumer;
 import java.util.function.Supplier;
 import java.util.function.ToDoubleFunction;
@@ -26,23 +21,17 @@ import java.util.stream.Stream;
  * Measured evaluations of the study. What was measured once stays, whatever program and
  * backend it was measured with, which each row names; delete the file to measure anew.
  */
-final class MeasurementLog implements AutoCloseable {
-
-    private final KeyedLog<Measurement> rows;
+final class MeasurementLog extends RequestLog<Measurement> {
 
     /** Those of a file of JSON lines, which is made with the first. */
     MeasurementLog(Path file) {
-        rows = new KeyedLog<>(file, Measurement.class, row -> key(row.request()));
-    }
-
-    private static String key(SimulationRequest request) {
-        return Json.line(request.withId(0L));
+        super(file, Measurement.class);
     }
 
     /** The runs of these experiments that are not measured yet, each once. */
     List<SimulationRequest> missing(List<Experiment> experiments) {
         return experiments.stream().flatMap(one -> one.runs().stream())
-                .filter(request -> rows.find(key(request)) == null).distinct().toList();
+                .filter(request -> find(request) == null).distinct().toList();
     }
 
     /**
@@ -59,7 +48,7 @@ final class MeasurementLog implements AutoCloseable {
         String program = Sha256.of(execution.simulator());
         evaluator.evaluateAll(numbered, result -> {
             if (result.status() != SimulationResult.Status.FAILED) {
-                rows.add(new Measurement(program, execution.backend(),
+                add(new Measurement(program, execution.backend(),
                         missing.get(result.id().intValue()), result.withId(0L)));
             }
             done.run();
@@ -96,7 +85,7 @@ final class MeasurementLog implements AutoCloseable {
     }
 
     private Stream<Measurement> measured(Experiment experiment) {
-        return experiment.runs().stream().map(request -> rows.find(key(request))).filter(Objects::nonNull);
+        return experiment.runs().stream().map(request -> find(request)).filter(Objects::nonNull);
     }
 
     /** Ways along x of the runs that stayed stable by the whole time, whether they lasted so long or not; scene units per second. */
@@ -133,21 +122,7 @@ final class MeasurementLog implements AutoCloseable {
 
     /** Digests of the programs that measured, with what they computed on, each once. */
     List<String> programs() {
-        return rows.rows().stream().map(row -> row.program().substring(0, 12) + "… on " + row.backend().argument())
+        return rows().stream().map(row -> row.program().substring(0, 12) + "… on " + row.backend().argument())
                 .distinct().toList();
-    }
-
-    /** Drops the rows of other gaits, before any is added; returns how many. */
-    int keep(Set<Gait> gaits) {
-        return rows.keep(row -> gaits.contains(row.request().gait()));
-    }
-
-    Collection<Measurement> rows() {
-        return rows.rows();
-    }
-
-    @Override
-    public void close() {
-        rows.close();
     }
 }

@@ -31,7 +31,7 @@ record SwimKinematics(@JsonProperty(required = true) String program,
         @JsonProperty(required = true) SimulationRequest request,
         double simulated, double speed, double bodyLength, double tailSwing, List<ModeFit> fits,
         List<ModeFit> fitsOfBody, Attitude end, double largestYaw, List<Double> heights, double measuredPart,
-        Double underWater) {
+        Double underWater) implements RequestLog.Answer {
 
     /**
      * Measures a recorded path; the fits to real fish need a gait with a frequency.
