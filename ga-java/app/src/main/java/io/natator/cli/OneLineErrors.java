@@ -8,6 +8,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 import picocli.CommandLine;
 import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.MissingParameterException;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.ParseResult;
 import picocli.CommandLine.UnmatchedArgumentException;
@@ -22,12 +23,21 @@ final class OneLineErrors {
 
     static int badUsage(ParameterException error, String[] arguments) {
         CommandLine command = error.getCommandLine();
-        // What stands where an option's value should is told in the message alone.
-        String what = error instanceof UnmatchedArgumentException unmatched && !unmatched.getUnmatched().isEmpty()
-                ? unknown(unmatched.getUnmatched().get(0), command, error.getMessage())
+        String unmatched = unmatched(error);
+        String what = unmatched != null ? unknown(unmatched, command, error.getMessage())
                 : NumberValues.isNone(error) ? NumberValues.message(error) : error.getMessage();
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
         return ExitCode.USAGE;
+    }
+
+    /** What was not understood; null if nothing, or it stands where an option's value should, which the message alone tells. */
+    private static String unmatched(ParameterException error) {
+        if (error instanceof UnmatchedArgumentException unmatched) {
+            return unmatched.getUnmatched().stream().findFirst().orElse(null);
+        }
+        // What is missing was probably given under a mistyped name.
+        return error instanceof MissingParameterException ? error.getCommandLine().getUnmatchedArguments().stream()
+                .filter(argument -> argument.startsWith("-")).findFirst().orElse(null) : null;
     }
 
     /** What is unknown, with the nearest known name if one is near. */

@@ -191,6 +191,21 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(out.toString()).isEmpty();
     }
 
+    /** Not what is missing since it is mistyped. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
+        "evaluate --sceen pool/creature-1 --gait 1|--sceen is no option of this command; did you mean --scene? See natator evaluate --help",
+        "evaluate --sceen pool/creature-1 --gait|--sceen is no option of this command; did you mean --scene? See natator evaluate --help",
+        "compare --startss 3|--startss is no option of this command; did you mean --starts? See natator compare --help",
+        "evolve --seed|Missing required parameter for option '--seed' (N); see natator evolve --help",
+        "show|Missing required parameter: 'RUN'; see natator show --help"})
+    void theMistypedIsNamed(String arguments, String message) {
+        CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute(arguments.split(" "))).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator " + arguments.split(" ")[0] + ": " + message + "\n");
+    }
+
     @Test
     void aMissingSimulatorIsNamed() {
         CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
