@@ -73,6 +73,7 @@ public final class Main implements Callable<Integer> {
         EnumNames.install(command);
         SectionedHelp.install(command);
         EmptyValues.refuse(command);
+        OneLineErrors.installMemory(command);
         return command;
     }
 

@@ -8,6 +8,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 import picocli.CommandLine;
 import picocli.CommandLine.ExitCode;
+import picocli.CommandLine.IExecutionStrategy;
 import picocli.CommandLine.MissingParameterException;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.ParseResult;
@@ -48,6 +49,20 @@ final class OneLineErrors {
         }
         return command.getSubcommands().isEmpty() ? otherwise
                 : "'" + argument + "' is no command" + Closest.hint(argument, command.getSubcommands().keySet());
+    }
+
+    /** Makes a command, and those below it, tell in one line that Java has too little memory for what was asked. */
+    static void installMemory(CommandLine command) {
+        IExecutionStrategy usual = command.getExecutionStrategy();
+        command.setExecutionStrategy(parsed -> {
+            try {
+                return usual.execute(parsed);
+            } catch (OutOfMemoryError e) {
+                print(parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1), "not enough memory: Java may take "
+                        + (Runtime.getRuntime().maxMemory() >> 20) + " MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say");
+                return ExitCode.SOFTWARE;
+            }
+        });
     }
 
     static int failure(Exception error, CommandLine command, ParseResult parsed) {

@@ -14,6 +14,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
+import picocli.CommandLine.Command;
 
 /** What can't be run is refused in one line with exit status 2, and nothing is written. */
 class BadUsageTest extends FakeSimulatorTest {
@@ -204,6 +205,22 @@ class BadUsageTest extends FakeSimulatorTest {
 
         assertThat(command.execute(arguments.split(" "))).isEqualTo(2);
         assertThat(err.toString()).isEqualTo("natator " + arguments.split(" ")[0] + ": " + message + "\n");
+    }
+
+    @Command(name = "swallow")
+    static final class Swallow implements Runnable {
+        @Override
+        public void run() {
+            throw new OutOfMemoryError();
+        }
+    }
+
+    @Test
+    void tooLittleMemoryIsOneLine() {
+        CommandLine command = Main.commandLine().addSubcommand(new Swallow()).setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute("swallow")).isEqualTo(1);
+        assertThat(err.toString()).matches("natator swallow: not enough memory: Java may take \\d+ MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say\n");
     }
 
     @Test

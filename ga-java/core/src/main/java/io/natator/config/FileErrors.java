@@ -25,6 +25,17 @@ public final class FileErrors {
         }
     }
 
+    /**
+     * Refuses a file that is too large to be read as a whole.
+     *
+     * @throws IOException that says so
+     */
+    static void checkSize(Path file) throws IOException {
+        if (Files.size(file) > Limits.FILE_BYTES) {
+            throw new IOException("larger than " + Limits.FILE_BYTES + " bytes");
+        }
+    }
+
     /** Why, without the file's name where the error is about the file itself. */
     public static String reason(Path file, IOException e) {
         String why = e instanceof AccessDeniedException ? "permission denied"

@@ -92,6 +92,7 @@ public final class Json {
      */
     public static <T> T read(Path file, Class<T> type, String what) {
         try {
+            FileErrors.checkSize(file);
             return parse(Files.readString(file), type);
         } catch (NoSuchFileException e) {
             throw new InvalidInputException(what + " " + file + " does not exist", e);

@@ -13,6 +13,10 @@ public final class Limits {
     public static final int REPETITIONS = 10_000;
     /** A simulated time, in seconds, as the native program has it. */
     public static final double DURATION = 1e6;
+    /** A line of a file, in bytes; a request may have as many. */
+    public static final int LINE_BYTES = 16 << 20;
+    /** A file that is read as a whole, unpacked, in bytes. */
+    public static final int FILE_BYTES = 1 << 30;
     /** A time by the clock, three years in seconds. */
     public static final double SECONDS = 1e8;
 

@@ -4,6 +4,7 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.Limits;
 import java.io.ByteArrayOutputStream;
 import java.io.EOFException;
 import java.io.IOException;
@@ -39,7 +40,11 @@ public final class CompressedJson {
      */
     public static <T> T read(Path file, Class<T> type, String what) {
         try (GZIPInputStream in = new GZIPInputStream(Files.newInputStream(file))) {
-            return Json.parse(new String(in.readAllBytes(), StandardCharsets.UTF_8), type);
+            byte[] content = in.readNBytes(Limits.FILE_BYTES);
+            if (in.read() >= 0) {
+                throw new IOException("larger than " + Limits.FILE_BYTES + " bytes");
+            }
+            return Json.parse(new String(content, StandardCharsets.UTF_8), type);
         } catch (JsonProcessingException e) {
             throw new InvalidInputException(what + " " + file + ": " + Json.reason(e), e);
         } catch (EOFException e) {

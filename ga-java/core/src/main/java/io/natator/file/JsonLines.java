@@ -4,7 +4,12 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.Limits;
+import java.io.ByteArrayInputStream;
+import java.io.ByteArrayOutputStream;
+import java.io.FileInputStream;
 import java.io.IOException;
+import java.io.InputStream;
 import java.io.RandomAccessFile;
 import java.io.UncheckedIOException;
 import java.nio.channels.FileLock;
@@ -50,8 +55,8 @@ public final class JsonLines<T> implements AutoCloseable {
     public static <T> JsonLines<T> of(Path file, Class<T> type) {
         JsonLines<T> lines = new JsonLines<>(file, type);
         FileErrors.checkRegular(file);
-        try {
-            lines.parse(Files.exists(file) ? Files.readAllBytes(file) : new byte[0]);
+        try (InputStream in = Files.exists(file) ? Files.newInputStream(file) : InputStream.nullInputStream()) {
+            lines.parse(in);
         } catch (IOException e) {
             throw new InvalidInputException("cannot read " + AtomicFile.reason(file, e), e);
         }
@@ -67,9 +72,7 @@ public final class JsonLines<T> implements AutoCloseable {
         JsonLines<T> lines = new JsonLines<>(file, type);
         try {
             lines.open();
-            byte[] bytes = new byte[(int) lines.content.length()];
-            lines.content.readFully(bytes);
-            lines.parse(bytes);
+            lines.parse(new FileInputStream(lines.content.getFD()));
             lines.dropFrom(lines.size);
         } catch (IOException e) {
             lines.close();
@@ -90,17 +93,33 @@ public final class JsonLines<T> implements AutoCloseable {
         return of(file, type).rows;
     }
 
-    private void parse(byte[] bytes) {
-        int start = 0;
-        for (int i = 0; i < bytes.length; i++) {
-            if (bytes[i] == '\n') {
-                rows.add(parse(new String(bytes, start, i - start, StandardCharsets.UTF_8)));
-                start = i + 1;
-                starts.add((long) start);
+    /** Line by line, as a whole file may be more than an array can hold. */
+    private void parse(InputStream in) throws IOException {
+        byte[] bytes = new byte[1 << 16];
+        ByteArrayOutputStream line = new ByteArrayOutputStream();
+        length = 0;
+        for (int count = in.read(bytes); count >= 0; count = in.read(bytes)) {
+            int start = 0;
+            for (int i = 0; i < count; i++) {
+                if (bytes[i] == '\n') {
+                    append(line, bytes, start, i);
+                    rows.add(parse(line.toString(StandardCharsets.UTF_8)));
+                    line.reset();
+                    start = i + 1;
+                    starts.add(length + start);
+                }
             }
+            append(line, bytes, start, count);
+            length += count;
         }
-        length = bytes.length;
         size = rows.size();
+    }
+
+    private void append(ByteArrayOutputStream line, byte[] bytes, int start, int end) {
+        if (line.size() + end - start > Limits.LINE_BYTES) {
+            throw new InvalidInputException(file + ", line " + (rows.size() + 1) + " is longer than " + Limits.LINE_BYTES + " bytes");
+        }
+        line.write(bytes, start, end - start);
     }
 
     private T parse(String line) {
@@ -170,9 +189,6 @@ public final class JsonLines<T> implements AutoCloseable {
         if (kept.size() < before) {
             String text = kept.stream().map(row -> Json.line(row) + "\n").collect(Collectors.joining());
             replace(text);
-            starts.subList(1, starts.size()).clear();
-            rows.clear();
-            parse(text.getBytes(StandardCharsets.UTF_8));
         }
         return before - rows.size();
     }
@@ -187,6 +203,9 @@ public final class JsonLines<T> implements AutoCloseable {
                 content.close();
                 content = null;
             }
+            starts.subList(1, starts.size()).clear();
+            rows.clear();
+            parse(new ByteArrayInputStream(text.getBytes(StandardCharsets.UTF_8)));
         } catch (IOException e) {
             throw new UncheckedIOException("cannot write " + AtomicFile.reason(file, e), e);
         }

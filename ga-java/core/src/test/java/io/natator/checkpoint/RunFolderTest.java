@@ -21,6 +21,7 @@ import io.natator.simulator.SimulationResult;
 import io.natator.simulator.Simulator;
 import io.natator.simulator.WorkerPool;
 import java.io.IOException;
+import java.io.RandomAccessFile;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -79,6 +80,17 @@ class RunFolderTest {
                 .hasMessage(run.resolve(name) + " is not a regular file");
         assertThatThrownBy(() -> StoredRun.in(run)).isInstanceOf(InvalidInputException.class)
                 .hasMessage(run.resolve(name) + " is not a regular file");
+    }
+
+    @Test
+    void aFileThatIsTooLargeIsRefused() throws IOException {
+        RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
+        try (RandomAccessFile large = new RandomAccessFile(run.resolve("checkpoint.json").toFile(), "rw")) {
+            large.setLength(3L << 30);
+        }
+
+        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
+                .hasMessage("checkpoint " + run.resolve("checkpoint.json") + " cannot be read: larger than 1073741824 bytes");
     }
 
     @Test

@@ -5,11 +5,13 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import io.natator.config.InvalidInputException;
 import java.io.IOException;
+import java.io.RandomAccessFile;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
 import java.util.Arrays;
 import java.util.List;
+import java.util.stream.IntStream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -79,6 +81,28 @@ class JsonLinesTest {
         assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class)
                 .hasMessageStartingWith(file + ", line 2: ");
         assertThat(file).hasContent(before);
+    }
+
+    /** Lines that lie across what is read at a time, and a line that nobody wrote, as of a file that was made larger. */
+    @Test
+    void longFilesAreReadByLines() throws IOException {
+        Row[] all = IntStream.range(0, 300).mapToObj(i -> new Row(i, "ö".repeat(i * 7))).toArray(Row[]::new);
+        write(all);
+        for (boolean locked : new boolean[] {false, true}) {
+            try (JsonLines<Row> lines = locked ? JsonLines.locked(file, Row.class) : lines()) {
+                assertThat(lines.rows()).containsExactly(all);
+                lines.append(new Row(300, "end"));
+            }
+            try (JsonLines<Row> lines = JsonLines.locked(file, Row.class)) {
+                lines.dropFrom(300);
+            }
+        }
+        try (RandomAccessFile larger = new RandomAccessFile(file.toFile(), "rw")) {
+            larger.setLength(3L << 30);
+        }
+        String message = file + ", line 301 is longer than 16777216 bytes";
+        assertThatThrownBy(this::lines).isInstanceOf(InvalidInputException.class).hasMessage(message);
+        assertThatThrownBy(() -> JsonLines.locked(file, Row.class)).isInstanceOf(InvalidInputException.class).hasMessage(message);
     }
 
     @Test
