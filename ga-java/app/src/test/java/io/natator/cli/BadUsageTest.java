@@ -174,6 +174,16 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(err.toString()).contains("is the folder of a run").hasLineCount(1);
     }
 
+    @Test
+    void aReportNeedsACheckpoint() throws IOException {
+        assertThat(evolve("run")).isZero();
+        Files.delete(folder.resolve("run/checkpoint.json"));
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("report", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator report: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "evolve --scene EMPTY|natator evolve: --scene is empty", "evolve --scene=EMPTY|natator evolve: --scene is empty",
