@@ -40,7 +40,7 @@ TEST_F(GpuThreads, UnlikeScenesDoNotDisturbOneAnother) {
 
 std::vector<std::uint64_t> hashes_of(const Scene& scene, const std::vector<BatchMember>& batch, Precision precision) {
     std::vector<std::uint64_t> result;
-    for (const Evaluation& one : evaluate_on_gpu(scene, batch, {.precision = precision})) result.push_back(one.hash);
+    for (const Evaluation& one : evaluate_on_gpu(scene, batch, {.precision = precision, .keep_starts = false})) result.push_back(one.hash);
     return result;
 }
 
@@ -93,7 +93,7 @@ TEST_P(GpuBatch, ArrangementsOfTheWaterShareABatch) {
         Scene own = scene;
         own.fluid->disorder = together[k].arrangement.value_or(7);
         const BatchMember alone{together[k].gait, together[k].perturbation};
-        EXPECT_EQ(evaluate_on_gpu(own, {alone}, {.precision = precision()})[0].hash, all[k]) << k << " alone";
+        EXPECT_EQ(evaluate_on_gpu(own, {alone}, {.precision = precision(), .keep_starts = false})[0].hash, all[k]) << k << " alone";
         if (precision() == Precision::double_precision && scene.scheme == Scheme::conserving && k == 1) {
             const EvaluationOptions options{.precision = precision(), .perturbation = alone.perturbation};
             EXPECT_NEAR(evaluate(own, alone.gait, options).distance,
@@ -122,6 +122,28 @@ TEST_P(GpuBatch, MembersOfMiddleScenesGiveTheBitsThatTheyGiveAlone) {
     EXPECT_EQ(hashes(members(0, 20)), std::vector(all.begin(), all.begin() + 20));
 }
 
+/// Members that begin as in a batch before, or in this one.
+TEST_P(GpuBatch, KeptStartsGiveTheSameBits) {
+    scene.duration = 2 * scene.time_step;
+    std::vector<BatchMember> batch{members(1, 1).front(), members(2, 1).front()};
+    batch[1].arrangement = 1;
+    const auto run = [&](bool keep, BatchTimes& times) {
+        std::vector<std::uint64_t> found;
+        const BatchOptions options{.precision = precision(), .times = &times, .keep_starts = keep};
+        for (const Evaluation& one : evaluate_on_gpu(scene, batch, options)) found.push_back(one.hash);
+        return found;
+    };
+    BatchTimes settled, kept;
+    const std::vector<std::uint64_t> fresh = run(false, settled);
+    EXPECT_GT(settled.settling, 0);
+    run(true, settled);
+    EXPECT_EQ(run(true, kept), fresh);
+    EXPECT_EQ(kept.settling, 0);
+    scene.settling.updates += 1;
+    EXPECT_NE(run(true, kept), fresh);
+    EXPECT_GT(kept.settling, 0);
+}
+
 TEST_P(GpuBatch, TellsTheMemoryThatItTakes) {
     scene.duration = scene.time_step;
     const std::size_t number = precision() == Precision::double_precision ? 8 : 4;
@@ -129,7 +151,7 @@ TEST_P(GpuBatch, TellsTheMemoryThatItTakes) {
     std::vector<std::size_t> memory;
     for (int run = 0; run < 2; ++run) {
         BatchTimes times;
-        evaluate_on_gpu(scene, members(0, 3), {.precision = precision(), .times = &times});
+        evaluate_on_gpu(scene, members(0, 3), {.precision = precision(), .times = &times, .keep_starts = false});
         EXPECT_EQ(times.at_a_time, 3);
         memory.push_back(times.memory);
     }

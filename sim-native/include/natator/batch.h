@@ -48,6 +48,7 @@ struct BatchOptions {
     int device = 0;               ///< number of the GPU, see cuda_devices
     bool whole_gpu = false;       ///< members by kernels of the whole GPU, some side by side; up to 20 000 particles with bits of its own
     BatchTimes* times = nullptr;  ///< gets the batch's times added, if there is one
+    bool keep_starts = true;      ///< what begins as in one of the last batches is not settled again: the same bits, sooner
 };
 
 /// Evaluates gaits in one scene on a GPU: each by a block of threads, or where members are few by a cluster of blocks; or, in

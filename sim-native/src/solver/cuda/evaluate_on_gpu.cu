@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <new>
 
 #include "evaluate/perturb.h"
-#include "evaluate/settled_state_key.h"
 #include "evaluate/side_by_side.h"
 #include "evaluation.h"
+#include "kept_starts.h"
 #include "large/evaluate_large.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
@@ -17,32 +16,12 @@ namespace natator {
 namespace cuda {
 namespace {
 
-/// The last settled start without a perturbation, so that a stream of batches of one scene settles it once.
-template <class Real>
-class KeptStart {
-public:
-    std::optional<State<Real>> find(const std::string& key) {
-        const std::scoped_lock lock(mutex_);
-        return key == key_ ? std::optional(state_) : std::nullopt;
-    }
-    void keep(const std::string& key, const State<Real>& state) {
-        const std::scoped_lock lock(mutex_);
-        key_ = key;
-        state_ = state;
-    }
-
-private:
-    std::mutex mutex_;
-    std::string key_;
-    State<Real> state_;
-};
-
 /// Evaluates batches of one scene on one device.
 template <class Real>
 class Batch {
 public:
-    Batch(const Scene& scene, const Model& model, BatchTimes* times)
-        : scene_(scene), model_(model), times_(times), runner_(model) {}
+    Batch(const Scene& scene, const Model& model, const BatchOptions& options)
+        : scene_(scene), model_(model), keeps_starts_(options.keep_starts), times_(options.times), runner_(model) {}
 
     /// The members' evaluations, each of a State that starts settled.
     std::vector<Evaluation> evaluate(const std::vector<BatchMember>& members) {
@@ -80,14 +59,11 @@ private:
         starts.states.upload(states);
         const Settling& settling = scene_.settling;
         if (settling.updates == 0) return starts;
-        static KeptStart<Real> kept;
-        int device = 0;
-        check(cudaGetDevice(&device), "current device");
-        const std::string key = std::to_string(device) + settled_state_key(model_, settling, sizeof(Real));
+        static KeptStarts<Real> kept;  // without a perturbation
         const bool shared = states.size() == 1;
-        const std::optional<State<Real>> found = shared ? kept.find(key) : std::nullopt;
-        if (found) {
-            starts.states.upload({*found});
+        const std::optional<std::string> key = shared && keeps_starts_ ? kept.key_of(model_, settling) : std::nullopt;
+        if (const auto found = kept.find(key)) {
+            starts.states.upload({found->state});
             return starts;
         }
         BatchView<Real> batch = runner_.view_of(starts.states, settling.updates);
@@ -100,7 +76,7 @@ private:
         if (shared && starts.progress.front().stopped < 0) {
             Copy settled(starts.states);
             settled.fetch();
-            kept.keep(key, settled.state(0, states.front()));
+            kept.keep(key, {settled.state(0, states.front())});
         }
         return starts;
     }
@@ -183,6 +159,7 @@ private:
 
     const Scene& scene_;
     const Model& model_;
+    bool keeps_starts_;
     BatchTimes* times_;
     BatchRunner<Real> runner_;
 };
@@ -206,8 +183,8 @@ template <class Real>
 std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                  const BatchOptions& options) {
     if (by_whole_gpu(scene, model, static_cast<int>(members.size()), options))
-        return evaluate_large<Real>(scene, model, members, options.times);
-    Batch<Real> batch(scene, model, options.times);
+        return evaluate_large<Real>(scene, model, members, options);
+    Batch<Real> batch(scene, model, options);
     return evaluate_in_parts(batch, members);
 }
 

@@ -21,8 +21,11 @@ constexpr int particles_at_a_time = 1'000'000;
 template <class Real>
 class Stream {
 public:
-    Stream(const Scene& scene, const Company& company, const Parts& parts, int number, StageProfile* profile)
-        : parts_(parts), number_(number), times_{.profile = profile}, large_(scene, company, parts.size, &times_) {}
+    Stream(const Scene& scene, const Company& company, const Parts& parts, int number, const BatchOptions& options)
+        : parts_(parts),
+          number_(number),
+          times_{.profile = options.times ? options.times->profile : nullptr},
+          large_(scene, company, parts.size, options.keep_starts, &times_) {}
 
     void evaluate() {
         for (int part = number_; part < parts_.count(); part += parts_.streams)
@@ -55,13 +58,12 @@ void add_times(const std::vector<std::unique_ptr<Stream<Real>>>& streams, BatchT
 
 template <class Real>
 std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& company, const Parts& parts,
-                                          BatchTimes* times) {
+                                          const BatchOptions& options) {
     int device = 0;
     check(cudaGetDevice(&device), "device");
     std::vector<std::unique_ptr<Stream<Real>>> streams;
     for (int k = 0; k < parts.streams; ++k)
-        streams.push_back(
-            std::make_unique<Stream<Real>>(scene, company, parts, k, times ? times->profile : nullptr));
+        streams.push_back(std::make_unique<Stream<Real>>(scene, company, parts, k, options));
     std::vector<std::future<void>> others;
     for (int k = 1; k < parts.streams; ++k)
         others.push_back(std::async(std::launch::async, [&stream = *streams[k], device] {
@@ -70,7 +72,7 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& com
         }));
     streams.front()->evaluate();
     for (std::future<void>& other : others) other.get();
-    if (times) add_times(streams, *times);
+    if (options.times) add_times(streams, *options.times);
     std::vector<Evaluation> evaluations;
     for (int part = 0; part < parts.count(); ++part)
         std::ranges::move(streams[part % parts.streams]->evaluations_of(part), std::back_inserter(evaluations));
@@ -79,13 +81,13 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& com
 
 /// Where there is not the memory for it, fewer at a time. Stages are timed in one stream, as those of two overlap.
 template <class Real>
-std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& company, BatchTimes* times) {
+std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& company, const BatchOptions& options) {
     const int members = static_cast<int>(company.members.size());
-    int streams = times && times->profile ? 1 : most_streams;
+    int streams = options.times && options.times->profile ? 1 : most_streams;
     int most = Parts::most_of(members, streams, particles_at_a_time / streams / company.model.particles() + 1);
     for (;;) {
         try {
-            return evaluate_in_parts<Real>(scene, company, Parts(members, most, streams), times);
+            return evaluate_in_parts<Real>(scene, company, Parts(members, most, streams), options);
         } catch (const std::bad_alloc&) {
             if (most == 1 && streams == 1) throw;
             if (most == 1) streams = 1;
@@ -98,19 +100,19 @@ std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& comp
 
 template <class Real>
 std::vector<Evaluation> evaluate_large(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
-                                       BatchTimes* times) {
+                                       const BatchOptions& options) {
     std::vector<Evaluation> evaluations(members.size());
     for (const Company& company : companies(scene, model, members)) {
         if (company.members.empty()) continue;
-        const std::vector<Evaluation> own = evaluate_company<Real>(scene, company, times);
+        const std::vector<Evaluation> own = evaluate_company<Real>(scene, company, options);
         for (std::size_t k = 0; k < own.size(); ++k) evaluations[company.numbers[k]] = own[k];
     }
     return evaluations;
 }
 
 template std::vector<Evaluation> evaluate_large<float>(const Scene&, const Model&, const std::vector<BatchMember>&,
-                                                       BatchTimes*);
+                                                       const BatchOptions&);
 template std::vector<Evaluation> evaluate_large<double>(const Scene&, const Model&, const std::vector<BatchMember>&,
-                                                        BatchTimes*);
+                                                        const BatchOptions&);
 
 }  // namespace natator::cuda

@@ -131,17 +131,22 @@ void LargeRunner<Real>::make_room_in_fluid(int neighbours) {
     slots.at.neighbour = chunk_room_.data();
 }
 
+template <class Real>
+void LargeRunner<Real>::make_room(int neighbours) {
+    if (neighbours <= room()) return;
+    if (base_.model.plan.water)
+        make_room_in_water(neighbours);
+    else
+        make_room_in_fluid(std::min(neighbours, base_.model.most_neighbours));
+}
+
 /// Is there room for the neighbours that the last update found? If not, makes it.
 template <class Real>
 bool LargeRunner<Real>::had_room() {
     int most = 0;
     for (int k = 0; k < base_.states; ++k) most = std::max(most, end_[k].most_neighbours);
-    const bool water = base_.model.plan.water;
-    if (most <= (water ? base_.slots.water_neighbours : 4 * base_.slots.chunks)) return true;
-    if (water)
-        make_room_in_water(most + most / 4);
-    else
-        make_room_in_fluid(std::min(most + most / 4, base_.model.most_neighbours));
+    if (most <= room()) return true;
+    make_room(most + most / 4);
     return false;
 }
 

@@ -31,6 +31,11 @@ public:
     int states() const { return base_.states; }
     bool keeps_forces() const { return base_.keeps_forces; }
 
+    /// Neighbours of a particle that there is room for in its list; and makes it for so many. An update that finds more does so by
+    /// itself, but is done twice then.
+    int room() const { return base_.model.plan.water ? base_.slots.water_neighbours : 4 * base_.slots.chunks; }
+    void make_room(int neighbours);
+
     void upload(int k, const State<Real>& state);
     /// Time and spring rest lengths are those of `like`.
     State<Real> download(int k, const State<Real>& like) const;

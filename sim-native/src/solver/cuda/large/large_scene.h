@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "evaluate/swim_record.h"
 #include "large_runner.h"
 #include "solver/cuda/evaluation.h"
+#include "solver/cuda/kept_starts.h"
 
 namespace natator::cuda {
 
@@ -38,8 +41,8 @@ inline Start start_of(const BatchMember& member, const Scene& scene) {
 template <class Real>
 class LargeScene {
 public:
-    LargeScene(const Scene& scene, const Company& company, int states, BatchTimes* times)
-        : scene_(scene), company_(company), times_(times), runner_(company.model, states) {}
+    LargeScene(const Scene& scene, const Company& company, int states, bool keeps_starts, BatchTimes* times)
+        : scene_(scene), company_(company), keeps_starts_(keeps_starts), times_(times), runner_(company.model, states) {}
 
     /// Members from `first` on, at most as many as there are States.
     void evaluate(int first, int count, std::vector<Evaluation>& evaluations) {
@@ -103,16 +106,24 @@ private:
         std::vector<Start> unsettled;
         for (int k = 0; k < count; ++k) {
             const Start start = start_of(members[k], scene_);
-            if (!settled_.contains(start) && std::find(unsettled.begin(), unsettled.end(), start) == unsettled.end())
+            if (settled_.contains(start) || std::find(unsettled.begin(), unsettled.end(), start) != unsettled.end()) continue;
+            if (const auto known = kept_starts().find(key_of(start))) {
+                settled_[start] = {known->state, Progress{}};
+                runner_.make_room(known->neighbours);
+            } else {
                 unsettled.push_back(start);
+            }
         }
         progress_.assign(runner_.states(), Progress{});
         if (!unsettled.empty()) {
             const int different = static_cast<int>(unsettled.size());
             for (int k = 0; k < runner_.states(); ++k) runner_.upload(k, begin_of(unsettled[std::min(k, different - 1)]));
             settle(different);
-            for (int k = 0; k < different; ++k)
-                settled_[unsettled[k]] = {runner_.download(k, initial_state<Real>(company_.model)), progress_[k]};
+            for (int k = 0; k < different; ++k) {
+                const State<Real> state = runner_.download(k, initial_state<Real>(company_.model));
+                settled_[unsettled[k]] = {state, progress_[k]};
+                if (progress_[k].stopped < 0) kept_starts().keep(key_of(unsettled[k]), {state, runner_.room()});
+            }
         }
         for (int k = 0; k < runner_.states(); ++k) {
             const auto& [state, progress] = settled_.at(start_of(members[std::min(k, count - 1)], scene_));
@@ -121,12 +132,24 @@ private:
         }
     }
 
-    State<Real> begin_of(const Start& start) const {
+    /// What begins so.
+    Model model_of(const Start& start) const {
         const auto& [arrangement, amplitude, seed] = start;
         Model own = company_.model;
         own.position = company_.begin.at(arrangement);
         perturb({amplitude, seed}, own);
-        return initial_state<Real>(own);
+        return own;
+    }
+    State<Real> begin_of(const Start& start) const { return initial_state<Real>(model_of(start)); }
+
+    /// Of all scenes that the whole GPU computes.
+    static KeptStarts<Real>& kept_starts() {
+        static KeptStarts<Real> kept;
+        return kept;
+    }
+    /// None if it is not to be kept.
+    std::optional<std::string> key_of(const Start& start) const {
+        return keeps_starts_ ? KeptStarts<Real>::key_of(model_of(start), scene_.settling) : std::nullopt;
     }
 
     /// Keeps the settled starts that members from `next` on begin from.
@@ -211,6 +234,7 @@ private:
 
     const Scene& scene_;
     const Company& company_;
+    bool keeps_starts_;
     BatchTimes* times_;
     Runner runner_;
     std::vector<Progress> progress_;

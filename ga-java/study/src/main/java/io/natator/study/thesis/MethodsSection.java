@@ -51,7 +51,8 @@ final class MethodsSection {
                 "*Swims.* Further than the same body with resting muscles by 0.05 body lengths and two standard errors; less than half as far in vacuum; at least "
                         + "half of its way left without the acceleration clamp (`flex`), mirrored and on the processor; within half of its way at half the time "
                         + "step; at least half of the body under water. One that only misses a control of the last four *may* swim; so may one whose way in vacuum or "
-                        + "without the clamp is known, to two standard errors, no better than to either side of the half.",
+                        + "without the clamp is known, to two standard errors, no better than to either side of the half, and one that touches a wall within half "
+                        + "a body length.",
                 "*Like which fish.* The least e of the thesis (2.14 to 2.16) with the body's roll taken out, of those that are at most 0.8 of what no motion has and "
                         + "need no α below 0.1, over the part of the body that is measured at all times."));
     }
