@@ -89,6 +89,8 @@ rm -f "$output"/gpu-speed.csv "$output"/gpu-speed-profile.csv
 check bench-speed "$simulator" bench speed --backend cuda "${scenes[@]}" --output "$output/gpu-speed.csv"
 check bench-single-scene "$simulator" bench speed --backend cuda --whole-gpu --scene creature-1 --batch 1 \
     --output "$output/gpu-speed.csv"
+check bench-water-settings "$simulator" bench speed --backend cuda --scheme conserving --scene creature-1 --setting 1x4 --setting 2x4 \
+    --batch 150 --output "$output/gpu-speed.csv"
 check bench-large-scene "$simulator" bench speed --backend cuda --scene fluid-x64 --batch 1 --output "$output/gpu-speed.csv"
 
 rm -f "$output"/throughput.csv "$output"/gpu-roofline.csv
@@ -133,13 +135,17 @@ sanitize() {  # tool; the tests take racecheck longer than anyone waits
     for path in '' --whole-gpu; do
         short_runs | "$sanitizer" --tool "$1" --error-exitcode 9 "$simulator" serve --backend cuda $path || return
     done
-    [[ $1 == racecheck ]] || "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" \
-        --gtest_filter='GpuParticles*:*WholeGpu.ContactsWithout*:*WholeGpu.FullLists*'
+    [[ $1 == racecheck ]] && return
+    "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" \
+        --gtest_filter='GpuParticles*:*WholeGpu.ContactsWithout*:*WholeGpu.FullLists*' || return
+    # so many that few threads share a particle of the water
+    "$sanitizer" --tool "$1" --error-exitcode 9 "$build/bin/natator-bench" speed --backend cuda --scheme conserving \
+        --scene creature-1 --setting 1x1 --batch 10 --repeats 1 --quick
 }
 for tool in memcheck racecheck; do
     if [[ -n $sanitizer ]]; then
         export -f sanitize short_runs
-        export sanitizer simulator tests
+        export sanitizer simulator tests build
         check "$tool" bash -uo pipefail -c "sanitize $tool"
     else
         row "$tool" skipped 0 'no compute-sanitizer here'
@@ -151,8 +157,8 @@ done
 {
     printf '\n%s\n\n' "$device"
     awk -F, '{ printf "%-26s %-16s %8s  %s\n", $1, $2, $3, $4 }' "$table"
-    printf '\n%-11s %-10s %-6s %5s %10s %10s %10s %12s\n' scene scheme real batch 'kernel s' 'settle s' 'whole s' 'M p-it/s'
-    awk -F, 'NR > 1 { printf "%-11s %-10s %-6s %5s %10s %10s %10s %12s\n", $1, $2, $3, $4, $11, $12, $13, $14 }' \
+    printf '\n%-15s %-10s %-6s %5s %10s %10s %10s %12s\n' scene scheme real batch 'kernel s' 'settle s' 'whole s' 'M p-it/s'
+    awk -F, 'NR > 1 { printf "%-15s %-10s %-6s %5s %10s %10s %10s %12s\n", $1, $2, $3, $4, $11, $12, $13, $14 }' \
         "$output/gpu-speed.csv"
     printf '\n%-10s %-6s %10s %5s %-9s %10s %10s %12s %10s\n' scheme real fluid batch path 'ms a frame' 'M p-it/s' 'M pairs/s' \
         'B/particle'
