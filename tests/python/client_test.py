@@ -5,6 +5,7 @@ import re
 import subprocess
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import natator
 import numpy as np
@@ -35,6 +36,28 @@ class EvaluationTest(unittest.TestCase):
             "frequency": 1.5, "amplitude": [0.5, 0.6], "phase": [0, 0.5], "offset": [0.2, -0.1], "power": 2}}
         done = subprocess.run([simulator_path(), "evaluate"], input=json.dumps(request).encode(), capture_output=True)
         self.assertEqual(natator.evaluate(TANK, gait, duration=0.1)["hash"], json.loads(done.stdout)["hash"])
+
+    def test_numbers_of_numpy_and_paths_are_taken(self):
+        gait = {"frequency": np.float32(1.5), "amplitude": np.array([0.5, 0.6]), "phase": (0, np.float64(0.5))}
+        plain = {"frequency": 1.5, "amplitude": [0.5, 0.6], "phase": [0, 0.5]}
+        self.assertEqual(natator.evaluate(Path(TANK), gait, duration=np.float64(0.1), start=np.int64(2))["hash"],
+                         natator.evaluate(TANK, plain, duration=0.1, start=2)["hash"])
+
+    def test_what_json_cannot_hold_is_refused_before_anything_is_sent(self):
+        with natator.Simulator(1) as simulator:
+            for duration, message in ((float("nan"), "requests[1].duration = nan: must be a finite number"),
+                                      ({1, 2}, "requests[1].duration = {1, 2}: must be a number, a text, a list or a dict")):
+                with self.assertRaises(natator.InputError) as refused:
+                    simulator.evaluate_all([make_request(TANK, GAIT, duration=0.05), {"scene": TANK, "duration": duration}])
+                self.assertEqual(str(refused.exception), message)
+            self.assertEqual(simulator.evaluate(TANK, GAIT, duration=0.05)["status"], "ok")
+
+    def test_an_interrupted_simulator_is_closed(self):
+        with natator.Simulator(1) as simulator:
+            with mock.patch("natator.simulator._read", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+                simulator.evaluate(TANK, GAIT, duration=0.05)
+            with self.assertRaisesRegex(natator.ProgramError, "closed"):
+                simulator.evaluate(TANK, GAIT, duration=0.05)
 
     def test_many_come_in_order_whatever_the_number_of_workers(self):
         requests = [make_request(TANK, GAIT, duration=0.05 + 0.05 * (k % 3), start=k) for k in range(7)]
@@ -92,6 +115,24 @@ class TrajectoryTest(unittest.TestCase):
 
 
 class StreamTest(unittest.TestCase):
+    def test_an_interrupted_call_leaves_no_answer_to_be_taken_for_anothers(self):
+        for where in ("_message", "receive"):
+            with self.subTest(where), natator.Stream(TANK) as stream:
+                with mock.patch.object(stream, where, side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+                    stream.step(2)
+                with self.assertRaisesRegex(natator.ProgramError, "interrupted before its answer was read"):
+                    stream.step(1)
+
+    def test_what_is_refused_leaves_the_stream_as_it_was(self):
+        with natator.Stream(TANK) as stream:
+            for call, message in [(lambda: stream.sense(flow=3), "flow = 3: must be pairs of two values each"),
+                                  (lambda: stream.sense(flow=[1, 2]), r"flow = \[1, 2\]: must be pairs of two values each"),
+                                  (lambda: stream.sense(within=float("nan")), "within = nan: must be a finite number"),
+                                  (lambda: stream.step(drive=[5, 0]), "drive")]:
+                with self.assertRaisesRegex(natator.InputError, message):
+                    call()
+            self.assertEqual(stream.step(1).frame, 1)
+
     def test_the_same_commands_give_the_same_senses_and_frames(self):
         def swim(start, frames=6):
             with natator.Stream(TANK, start=start, fields="position") as stream:

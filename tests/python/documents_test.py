@@ -50,6 +50,17 @@ class DocumentsTest(unittest.TestCase):
                 self.assertTrue(done.stderr.startswith(f"{program}: "), done.stderr)
                 self.assertIn(message, done.stderr)
 
+    def test_examples_say_what_they_lack(self):
+        for command, program, code, message in [
+                ("steer.py", "/no/natator-sim", 1, "/no/natator-sim: must be the program natator-sim"),
+                ("evolve_gait.py --scene pool/water", None, 2, 'scene "pool/water": must have a creature with actuators')]:
+            with self.subTest(command):
+                example, *options = command.split()
+                done = subprocess.run([sys.executable, PACKAGE / "examples" / example, *options], capture_output=True, text=True,
+                                      env=dict(os.environ, **({"NATATOR_SIM": program} if program else {})))
+                self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (code, "", 1), done.stderr)
+                self.assertIn(message, done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -112,6 +112,12 @@ class EnvironmentTest(unittest.TestCase):
     def test_bad_arguments_and_actions_are_refused(self):
         for more, reason in (({"actions": "push"}, 'actions = .push.: must be "drive" or "gait"'), ({"frames": 0}, "frames"),
                              ({"target": (1, 2)}, "target"), ({"flow": [(99, "left")]}, "flow.0..slice = 99"),
+                             ({"frames": None}, "frames = None"), ({"starts": 2.5}, "starts = 2.5"), ({"duration": 0}, "duration = 0"),
+                             ({"reached": -1}, "reached = -1: must be at least 0"), ({"work_cost": np.nan}, "work_cost = nan"),
+                             ({"work_cost": "a"}, "work_cost = 'a'"), ({"flow": -1}, "flow = -1"), ({"flow": True}, "flow = True"),
+                             ({"flow": 2.5}, "flow = 2.5"), ({"flow": [1, 2]}, "flow = .1, 2.: must be pairs"),
+                             ({"target": ((1, 1, 1), (0, 2, 2))}, "the first corner must be the lower one"),
+                             ({"render_mode": "human"}, "render_mode = 'human': must be None"),
                              ({"scene": "thesis/tank"}, "must have a creature with actuators")):
             with self.assertRaisesRegex(natator.InputError, reason):
                 natator.gym.SwimmerEnv(**{**TANK, **more})
@@ -122,10 +128,29 @@ class EnvironmentTest(unittest.TestCase):
         for action in ([0, np.nan], [2, 0], [0]):
             with self.assertRaisesRegex(natator.InputError, r"must be 2 numbers in \[-1, 1\]"):
                 env.step(np.array(action))
+        with self.assertRaisesRegex(natator.InputError, "options: 'strt' is unknown; must be 'start'"):
+            env.reset(options={"strt": 1})
         env.close()
+        natator.gym.SwimmerEnv(**TANK, flow=np.int64(2)).close()
 
 
 class VectorTest(unittest.TestCase):
+    def test_where_one_action_is_refused_no_swimmer_begins(self):
+        vector = natator.gym.SwimmerVectorEnv(2, **TANK)
+        vector.reset(seed=1)
+        with self.assertRaisesRegex(natator.InputError, "nan"):
+            vector.step(np.array([[0, 0], [np.nan, 0]]))
+        with self.assertRaisesRegex(natator.InputError, "1 actions: must be 2"):
+            vector.step(np.zeros((1, 2)))
+        observations = vector.step(np.full((2, 2), 0.5))[0]
+        vector.close()
+        other = natator.gym.SwimmerVectorEnv(2, **TANK)
+        other.reset(seed=1)
+        np.testing.assert_array_equal(other.step(np.full((2, 2), 0.5))[0], observations)
+        other.close()
+        with self.assertRaisesRegex(natator.InputError, "num_envs = 0"):
+            natator.gym.SwimmerVectorEnv(0, **TANK)
+
     def test_it_gives_what_single_ones_give(self):
         for more in ({}, {"actions": "gait"}):
             vector = gymnasium.make_vec("natator/Swimmer-v0", num_envs=3, **TANK, **more)

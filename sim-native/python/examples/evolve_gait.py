@@ -2,8 +2,13 @@
 """Evolves a gait by CMA-ES (pycma): ask for gaits, evaluate them side by side, tell how far they swam."""
 
 import argparse
+import os
+import sys
+import warnings
 
-import cma
+with warnings.catch_warnings():  # that there is no matplotlib
+    warnings.simplefilter("ignore")
+    import cma
 import natator
 from natator.gait import whole
 from natator.simulator import make_request
@@ -22,6 +27,8 @@ def evolve(options):
         raise natator.InputError(f"seed = {options.seed}: must be below 2**32")
     with natator.Stream(options.scene) as scene:
         actuators = scene.actuators
+        if actuators == 0:
+            raise natator.InputError(f'scene "{options.scene}": must have a creature with actuators')
 
     def gait_of(genes):
         """Genes are in [0, 1]: frequency, then amplitudes, then phases."""
@@ -29,8 +36,8 @@ def evolve(options):
 
     with natator.Simulator(options.workers) as simulator:
         search = cma.CMAEvolutionStrategy([0.5] * (1 + 2 * actuators), 0.25, {
-            "bounds": [0, 1], "seed": options.seed, "maxfevals": options.evaluations, "verbose": -9})
-        while not search.stop():
+            "bounds": [0, 1], "seed": options.seed, "verbose": -9})
+        while search.result.evaluations < options.evaluations and not search.stop():
             asked = search.ask()
             results = simulator.evaluate_all(
                 [make_request(options.scene, gait_of(genes), duration=options.duration) for genes in asked])
@@ -43,5 +50,9 @@ def evolve(options):
 
 try:
     evolve(parser.parse_args())
-except natator.InputError as error:
-    parser.exit(2, f"{parser.prog}: {error}\n")
+except natator.NatatorError as error:
+    parser.exit(2 if isinstance(error, natator.InputError) else 1, f"{parser.prog}: {error}\n")
+except KeyboardInterrupt:
+    parser.exit(130)
+except BrokenPipeError:  # nobody reads on
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

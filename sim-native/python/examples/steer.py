@@ -2,6 +2,8 @@
 """Swims to a target: the gait beats, and a controller bends the body towards where the target is sensed."""
 
 import argparse
+import os
+import sys
 
 import natator
 from natator.gait import wave
@@ -22,10 +24,14 @@ def swim(options):
             to_right = senses.target[2]  # along own axes: forward, up, right
             bend = max(-0.5, min(0.5, -2 * to_right))  # a positive one bends to the left
             senses = swimmer.step(6, offset=[bend] * swimmer.actuators)
-            print(f"{senses.time:5.2f} s  {senses.target_distance:.3f} to go, target {to_right:+.2f} to the right")
+            print(f"{senses.time:5.2f} s  {senses.target_distance:.3f} to go, target {to_right:+.2f} to the right", flush=True)
 
 
 try:
     swim(parser.parse_args())
-except natator.InputError as error:
-    parser.exit(2, f"{parser.prog}: {error}\n")
+except natator.NatatorError as error:
+    parser.exit(2 if isinstance(error, natator.InputError) else 1, f"{parser.prog}: {error}\n")
+except KeyboardInterrupt:
+    parser.exit(130)
+except BrokenPipeError:  # nobody reads on
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

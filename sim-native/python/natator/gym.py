@@ -6,8 +6,8 @@ from gymnasium import spaces
 from gymnasium.vector.utils import batch_space
 
 from natator.errors import InputError, Unstable
-from natator.gait import as_json, wave_in
-from natator.stream import SIDES, Stream
+from natator.gait import as_json, number, wave_in, whole
+from natator.stream import SIDES, Stream, pairs
 
 
 class SwimmerEnv(gymnasium.Env):
@@ -28,15 +28,19 @@ class SwimmerEnv(gymnasium.Env):
                  target=None, reached=0.25, work_cost=0.0, render_mode=None, **options):
         if actions not in ("drive", "gait"):
             raise InputError(f'actions = {actions!r}: must be "drive" or "gait"')
-        if not (int(frames) == frames and frames >= 1 and starts >= 1 and duration > 0):
-            raise InputError("frames and starts must be whole numbers from 1 on, duration more than 0 s")
+        if render_mode is not None:
+            raise InputError(f"render_mode = {render_mode!r}: must be None")
         self.render_mode = render_mode
-        self.frames, self.duration, self.starts = int(frames), float(duration), int(starts)
-        self.target, self.reached, self.work_cost = _box_of(target), float(reached), float(work_cost)
+        self.frames, self.starts = whole("frames", frames, 1), whole("starts", starts, 1)
+        self.duration = _at_least(0, "duration", duration)
+        if self.duration == 0:
+            raise InputError("duration = 0: must be more than 0 s")
+        self.target, self.reached = _box_of(target), _at_least(0, "reached", reached)
+        self.work_cost = _at_least(0, "work_cost", work_cost)
         self._stream = Stream(scene, **options)
         try:
             self._prepare(actions, gait, flow)
-        except Exception:
+        except BaseException:
             self._stream.close()
             raise
 
@@ -63,8 +67,12 @@ class SwimmerEnv(gymnasium.Env):
 
     def begin_reset(self, seed=None, options=None):
         """The first half of `reset`: does not wait."""
+        unknown = set(options or {}) - {"start"}
+        if unknown:
+            raise InputError(f"options: {sorted(unknown)[0]!r} is unknown; must be 'start'")
         super().reset(seed=seed)
         start = (options or {}).get("start")
+        self._stream.require_idle()
         self._stream.begin_reset(int(self.np_random.integers(self.starts)) if start is None else start)
         self._point = None
         if self.target is not None:
@@ -83,11 +91,8 @@ class SwimmerEnv(gymnasium.Env):
 
     def begin_step(self, action):
         """The first half of `step`: does not wait."""
-        action = np.asarray(action, float)
-        if self._senses is None:
-            raise gymnasium.error.ResetNeeded("step before the first reset")
-        if action.shape != self.action_space.shape or not np.all(np.abs(action) <= 1):
-            raise InputError(f"action {action.tolist()}: must be {self.action_space.shape[0]} numbers in [-1, 1]")
+        action = self.checked(action)
+        self._stream.require_idle()
         parts = np.arange(1, self.frames + 1)[:, None] / self.frames
         rows = self._action + parts * (action - self._action)
         self._action, self._sent = action, 1
@@ -98,6 +103,15 @@ class SwimmerEnv(gymnasium.Env):
         for row in rows:
             scale, offset = np.split(row, 2)
             self._stream.begin_step(1, scale=(1 + scale) / 2, offset=LARGEST_OFFSET * offset)
+
+    def checked(self, action):
+        """An action that can be taken. Raises InputError."""
+        action = np.asarray(action, float)
+        if self._senses is None:
+            raise gymnasium.error.ResetNeeded("step before the first reset")
+        if action.shape != self.action_space.shape or not np.all(np.abs(action) <= 1):
+            raise InputError(f"action {action.tolist()}: must be {self.action_space.shape[0]} numbers in [-1, 1]")
+        return action
 
     def end_step(self):
         """The second half."""
@@ -168,10 +182,11 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
 
     def __init__(self, num_envs=1, **arguments):
         self.envs = []
+        whole("num_envs", num_envs, 1)
         try:
             for _ in range(num_envs):
                 self.envs.append(SwimmerEnv(**arguments))
-        except Exception:
+        except BaseException:
             self.close_extras()
             raise
         self.num_envs, first = num_envs, self.envs[0]
@@ -199,7 +214,12 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         return np.stack(observations), infos
 
     def step(self, actions):
-        for env, action, over in zip(self.envs, np.asarray(actions), self._over):
+        actions = np.asarray(actions)
+        if len(actions) != self.num_envs:
+            raise InputError(f"{len(actions)} actions: must be {self.num_envs}, one for each environment")
+        for env, action, over in zip(self.envs, actions, self._over):
+            over or env.checked(action)  # before anything is begun
+        for env, action, over in zip(self.envs, actions, self._over):
             env.begin_reset() if over else env.begin_step(action)
         observations, infos = [], {}
         rewards, terminated, truncated = np.zeros(self.num_envs), np.zeros(self.num_envs, bool), np.zeros(self.num_envs, bool)
@@ -220,10 +240,17 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
 
 def places_of(flow, slices):
     """Places of the skin: as they are given, or both sides of so many slices, evenly from head to tail."""
-    if not isinstance(flow, int):
-        return [(int(place), side) for place, side in flow]
-    along = np.linspace(0, slices - 1, flow + 2)[1:-1] if flow > 0 else []
+    if not np.ndim(flow) == 0:
+        return pairs("flow", flow)
+    count = whole("flow", flow, 0)
+    along = np.linspace(0, slices - 1, count + 2)[1:-1] if count > 0 else []
     return [(int(round(at)), side) for at in along for side in SIDES[:2]]
+
+
+def _at_least(least, name, value):
+    if number(name, value) < least:
+        raise InputError(f"{name} = {value}: must be at least {least}")
+    return float(value)
 
 
 def _box_of(target):
@@ -233,6 +260,8 @@ def _box_of(target):
     corners = np.asarray(target, float)
     if corners.shape not in ((3,), (2, 3)) or not np.all(np.isfinite(corners)):
         raise InputError(f"target = {target}: must be a point of 3 numbers, or two corners of a box")
+    if corners.ndim == 2 and np.any(corners[0] > corners[1]):
+        raise InputError(f"target = {target}: the first corner must be the lower one along each axis")
     return (corners, corners) if corners.shape == (3,) else (corners[0], corners[1])
 
 

@@ -48,14 +48,14 @@ def ended(process):
     return ProgramError(f"natator-sim has ended, exit code {code}" + (f": {said}" if said else ""))
 
 
-def stop(process):
-    """Ends a program whose input is closed by this; kills one that goes on."""
+def stop(process, patience=10):
+    """Ends a program whose input is closed by this; kills one that goes on for so many seconds."""
     try:
         process.stdin.close()
     except BrokenPipeError:
         pass
     try:
-        process.wait(timeout=10)
+        process.wait(timeout=patience)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()

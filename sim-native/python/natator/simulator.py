@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from natator import program as programs
 from natator.errors import InputError, ProgramError
 from natator.gait import as_json, whole
+from natator.plain import line
 
 
 class Simulator:
@@ -22,7 +23,7 @@ class Simulator:
         try:
             for _ in range(count):
                 self._processes.append(programs.start(program, ["serve", *arguments]))
-        except Exception:
+        except BaseException:
             self.close()
             raise
 
@@ -35,13 +36,19 @@ class Simulator:
     def evaluate_all(self, requests):
         """Results of many requests (make_request, or dicts as request.schema.json describes them), in their order. What
         one request gives does not depend on the others, nor on the number of workers. Raises InputError for the first that
-        can't be used, when all are done."""
+        can't be used: when all are done, or at once where JSON has no form for it. A simulator that is interrupted is closed."""
         if not self._processes:
             raise ProgramError("the simulator is closed")
-        numbered = [dict(request, id=number) for number, request in enumerate(requests)]
-        shares = [numbered[k::len(self._processes)] for k in range(len(self._processes))]
-        with ThreadPoolExecutor(len(shares)) as pool:
-            answers = [answer for part in pool.map(_exchange, self._processes, shares) for answer in part]
+        requests = list(requests)
+        lines = [line(dict(request, id=number), f"requests[{number}]" if len(requests) > 1 else "")
+                 for number, request in enumerate(requests)]
+        shares = [lines[k::len(self._processes)] for k in range(len(self._processes))]
+        try:
+            with ThreadPoolExecutor(len(shares)) as pool:
+                answers = [answer for part in pool.map(_exchange, self._processes, shares) for answer in part]
+        except BaseException:
+            self._end(patience=0)  # what was not read would be the answers to the next requests
+            raise
         answers.sort(key=lambda answer: answer["id"])
         for answer in answers:
             if answer["status"] == "error":
@@ -49,8 +56,11 @@ class Simulator:
         return answers
 
     def close(self):
+        self._end(patience=10)
+
+    def _end(self, patience):
         for process in self._processes:
-            programs.stop(process)
+            programs.stop(process, patience)
         self._processes = []
 
     def __enter__(self):
@@ -76,18 +86,18 @@ def _processors():
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
 
-def _exchange(process, requests):
+def _exchange(process, lines):
     """Gives a program its requests while it answers: neither waits for the other with a full pipe."""
     with ThreadPoolExecutor(1) as writer:
-        written = writer.submit(_write, process, requests)
-        answers = [_read(process) for _ in requests]
+        written = writer.submit(_write, process, lines)
+        answers = [_read(process) for _ in lines]
         written.result()
     return answers
 
 
-def _write(process, requests):
+def _write(process, lines):
     try:
-        process.stdin.write(b"".join(json.dumps(request).encode() + b"\n" for request in requests))
+        process.stdin.write(b"".join(lines))
         process.stdin.flush()
     except BrokenPipeError:
         pass  # its end is seen by the reader

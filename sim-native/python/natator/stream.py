@@ -8,9 +8,18 @@ import numpy as np
 
 from natator import program as programs
 from natator.errors import InputError, ProgramError, Unstable
-from natator.gait import as_json, numbers, rows, whole
+from natator.gait import numbers, rows, whole
+from natator.plain import line, plain
 
 SIDES = ("left", "right", "above", "below")
+
+
+def pairs(name, values):
+    """Two values each, of any sequence of such."""
+    try:
+        return [(first, second) for first, second in values]
+    except (TypeError, ValueError):
+        raise InputError(f"{name} = {values!r}: must be pairs of two values each") from None
 
 
 @dataclass(frozen=True)
@@ -76,18 +85,19 @@ class Stream:
         options = ["stream", scene, "--paused", "--fields", ",".join(fields) or "none"]
         for name, value in (("--gait", gait), ("--overrides", overrides)):
             if value is not None:
-                options += [name, json.dumps(as_json(value))]
+                options += [name, json.dumps(plain(name, value))]
         for name, value in (("--scheme", scheme), ("--start", start)):
             if value is not None:
                 options += [name, value]
         self.scene, self.frame = {}, None
         self._framed = bool(fields)
         self._unstable, self._closed = None, False
+        self._unanswered, self._torn = 0, False
         self._process = programs.start(program, [*options, *arguments])
         try:
             self._take(*self._message())
             self._first_frame()
-        except Exception:
+        except BaseException:
             self.close()
             raise
 
@@ -100,7 +110,7 @@ class Stream:
         one of "left", "right", "above", "below"; within: of a place water counts, length; target: where the swimmer shall
         go, length. What is left out stays as it was."""
         places = None if flow is None else [{"slice": whole(f"flow[{i}].slice", place, 0), "side": side}
-                                            for i, (place, side) in enumerate(flow)]
+                                            for i, (place, side) in enumerate(pairs("flow", flow))]
         command = {"do": "sense", "target": None if target is None else numbers("target", target), "within": within,
                    "flow": places, **more}
         return self._senses(self.ask({key: value for key, value in command.items() if value is not None}))
@@ -109,6 +119,7 @@ class Stream:
         """Simulates frames; the senses at the end. drive: a value in [-2, 2] for each actuator, or a row of them for each
         frame, in place of the gait; scale, offset: what the gait gives, times scale plus offset. They stay until changed.
         Raises InputError, and then nothing was simulated; raises Unstable."""
+        self.require_idle()
         self.begin_step(frames, drive, scale, offset)
         return self.end_step()
 
@@ -139,10 +150,11 @@ class Stream:
 
     def set_gait(self, gait):
         """From the next frame on."""
-        self.ask({"do": "gait", "gait": as_json(gait)})
+        self.ask({"do": "gait", "gait": gait})
 
     def reset(self, start=None):
         """Back to the settled start, or to another of the scene's starts; what is sensed stays."""
+        self.require_idle()
         self.begin_reset(start)
         self.end_reset()
 
@@ -157,18 +169,27 @@ class Stream:
 
     def ask(self, command):
         """Sends any command of the protocol; its answer. Raises InputError."""
+        self.require_idle()
         self.send(command)
         return self.receive()
+
+    def require_idle(self):
+        """Raises ProgramError if an answer is still to come: a call was interrupted, and all later answers would be taken for
+        others."""
+        if self._torn or self._unanswered:
+            raise ProgramError("a call was interrupted before its answer was read: close the stream and open another")
 
     def send(self, command):
         """Sends a command without waiting for its answer."""
         if self._closed:
             raise ProgramError("the stream is closed")
+        text, self._torn = line(command), True
         try:
-            self._process.stdin.write(json.dumps(command).encode() + b"\n")
+            self._process.stdin.write(text)
             self._process.stdin.flush()
         except BrokenPipeError:
             raise programs.ended(self._process) from None
+        self._unanswered, self._torn = self._unanswered + 1, False
 
     def receive(self):
         """The answer to the first command that has none yet. Raises InputError."""
@@ -177,6 +198,7 @@ class Stream:
             if letters != b"ANSW":
                 self._take(letters, body)
                 continue
+            self._unanswered -= 1
             answer = json.loads(body)
             if "error" in answer:
                 raise InputError(answer["error"])
@@ -205,8 +227,11 @@ class Stream:
             self._take(*self._message())
 
     def _message(self):
+        self._torn = True
         head = self._read(8)
-        return head[:4], self._read(struct.unpack_from("<I", head, 4)[0])
+        body = self._read(struct.unpack_from("<I", head, 4)[0])
+        self._torn = False
+        return head[:4], body
 
     def _read(self, size):
         data = self._process.stdout.read(size)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from natator.errors import InputError
+from natator.gait import number, whole
 from natator.stream import Stream
 
 
@@ -26,12 +27,13 @@ class Trajectory:
 def record(scene, gait=None, duration=4.0, every=1, fields=("position",), **options):
     """Swims for `duration` seconds and keeps every `every`th frame. `options`: those of Stream. Raises InputError and
     Unstable. It does not end early as an evaluation may."""
-    if not (duration >= 0 and every >= 1 and every == int(every)):
-        raise InputError(f"duration = {duration}, every = {every}: must be at least 0 s, and a whole number from 1 on")
+    if number("duration", duration) < 0:
+        raise InputError(f"duration = {duration}: must be at least 0 s")
+    whole("every", every, 1)
     with Stream(scene, gait=gait, fields=fields or ("position",), **options) as stream:
         frames = [stream.frame]
-        for _ in range(int(round(duration / stream.scene["timeStep"])) // int(every)):
-            for left in range(int(every), 0, -1000):
+        for _ in range(int(round(duration / stream.scene["timeStep"])) // every):
+            for left in range(every, 0, -1000):
                 stream.step(min(left, 1000))
             frames.append(stream.frame)
         return _joined(frames, stream.scene)

@@ -1,0 +1,35 @@
+"""Values as JSON can hold them."""
+
+import json
+import math
+import os
+
+import numpy as np
+
+from natator.errors import InputError
+from natator.gait import Gait
+
+
+def plain(name, value):
+    """A value without numpy's types, paths and gaits in it. Raises InputError, which names the place, for what JSON has no form
+    for, and for numbers that are not finite."""
+    if isinstance(value, Gait):
+        value = value.to_json()
+    if isinstance(value, dict):
+        return {key: plain(f"{name}.{key}" if name else str(key), part) for key, part in value.items()}
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [plain(f"{name}[{i}]", part) for i, part in enumerate(value)]
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        raise InputError(f"{name} = {value}: must be a finite number")
+    if value is not None and not isinstance(value, (bool, int, float, str)):
+        raise InputError(f"{name} = {value!r}: must be a number, a text, a list or a dict")
+    return value
+
+
+def line(value, name=""):
+    """A dict as a line of JSON, in bytes."""
+    return json.dumps(plain(name, value)).encode() + b"\n"
