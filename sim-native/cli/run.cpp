@@ -1,11 +1,13 @@
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "commands.h"
 #include "io/protocol.h"
@@ -70,11 +72,14 @@ Perturbation read_perturbation(const RunOptions& options) {
 void require_writable(const std::string& path) {
     namespace fs = std::filesystem;
     std::error_code not_there;
+    const auto refuse = [&](const std::string& why) {
+        throw std::runtime_error("file " + quoted(path) + ": cannot be written: " + why);
+    };
     const fs::path folder = fs::absolute(path).parent_path();
     const bool exists = fs::exists(path, not_there);
-    if (!fs::is_directory(folder, not_there) || fs::is_directory(path, not_there) ||
-        ::access(exists ? path.c_str() : folder.c_str(), W_OK) != 0)
-        throw std::runtime_error("file " + quoted(path) + ": cannot be written");
+    if (!fs::is_directory(folder, not_there)) refuse("no such folder");
+    if (fs::is_directory(path, not_there)) refuse("is a folder");
+    if (::access(exists ? path.c_str() : folder.c_str(), W_OK) != 0) refuse(std::generic_category().message(errno));
 }
 
 void check_outputs(const RunOptions& options) {

@@ -110,7 +110,7 @@ TEST(EvaluateProtocolTest, ARequestMayBeAFileOrText) {
     write("{");
     EXPECT_EQ(refused().find("natator-sim: file \"" + file.string() + "\": not valid JSON"), 0u) << refused();
     std::filesystem::remove(file);
-    EXPECT_EQ(refused(), "natator-sim: file \"" + file.string() + "\": cannot be read\n");
+    EXPECT_EQ(refused(), "natator-sim: file \"" + file.string() + "\": cannot be read: No such file or directory\n");
 }
 
 TEST(EvaluateProtocolTest, EveryOptionalFieldHasItsEffect) {

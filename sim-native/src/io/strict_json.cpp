@@ -1,10 +1,12 @@
 #include "io/strict_json.h"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <vector>
 
 #include "natator/error.h"
@@ -84,7 +86,7 @@ std::string read_all(std::FILE* file, const std::string& source) {
         text.append(buffer.data(), count);
         if (text.size() > limits::document_bytes) throw InputError(source + ": larger than 16 MiB");
     }
-    if (std::ferror(file) != 0) throw InputError(source + ": cannot be read");
+    if (std::ferror(file) != 0) throw InputError(source + ": cannot be read: " + std::generic_category().message(errno));
     return text;
 }
 
@@ -103,7 +105,7 @@ json parse_json(const std::string& text, const std::string& source) {
 json read_json_file(const std::string& path) {
     const std::string source = "file " + quoted(path);
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-    if (!file) throw InputError(source + ": cannot be read");
+    if (!file) throw InputError(source + ": cannot be read: " + std::generic_category().message(errno));
     return parse_json(read_all(file.get(), source), source);
 }
 

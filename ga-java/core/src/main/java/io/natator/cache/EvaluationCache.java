@@ -1,6 +1,7 @@
 package io.natator.cache;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
+import io.natator.config.FileErrors;
 import io.natator.config.Json;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationResult;
@@ -81,7 +82,7 @@ public final class EvaluationCache {
 
     private void complain(IOException e) {
         if (refused.compareAndSet(false, true)) {
-            LOG.warn("evaluations are not cached: {}", e.toString());
+            LOG.warn("evaluations are not cached in {}: {}", folder, FileErrors.reason(folder, e));
         }
     }
 

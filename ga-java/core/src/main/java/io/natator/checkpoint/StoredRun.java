@@ -87,6 +87,9 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      */
     public static EvolutionSettings settings(Path directory) {
         RunFolder.checkRegular(directory);
+        if (Files.isDirectory(directory) && !Files.isExecutable(directory)) {
+            throw new InvalidInputException(directory + " cannot be read: permission denied");
+        }
         if (!exists(directory)) {
             throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
         }
