@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""How coarse may a search be? Orders of gaits by coarser steps beside that by the steps that they are judged by.
+
+    python3 results/thesis/search_steps.py > requests.jsonl
+    natator-sim serve < requests.jsonl > results.jsonl
+    python3 results/thesis/search_steps.py results.jsonl      # search-steps.csv, and the table for commentary.md
+
+Gaits of each creature in open water: 12 drawn at random, and the winners of four evolutions. Each swims from one start with each of the steps,
+and as it is judged from a second start, too: how far two starts order gaits alike is as much as can be asked of any steps.
+"""
+import csv
+import json
+import pathlib
+import random
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+CREATURES, DRAWN, SEEDS = [1, 2, 3, 4], 12, [1, 2, 3, 4]
+ACTUATORS = {1: 2, 2: 8, 3: 5, 4: 3}
+DURATION = 2.5
+RUNS = {  # substeps, iterations of the solids, start
+    "4 × 4, 16": (4, 16, 1),
+    "4 × 4, 16, another start": (4, 16, 2),
+    "2 × 4, 32": (2, 32, 1),
+    "1 × 4, 64": (1, 64, 1),
+}
+
+
+def drawn(creature, generator):
+    count = ACTUATORS[creature]
+    first, last, step = generator.random(), generator.random(), generator.random()
+    return {"frequency": round(generator.uniform(0.2, 2), 4),
+            "amplitude": [round(first + (last - first) * k / (count - 1), 4) for k in range(count)],
+            "phase": [round(step * k % 1, 4) for k in range(count)]}
+
+
+def gaits():
+    """(creature, gait) of all that swim."""
+    generator = random.Random(1)
+    for creature in CREATURES:
+        for _ in range(DRAWN):
+            yield creature, drawn(creature, generator)
+        for seed in SEEDS:
+            file = HERE / f"runs/creature-{creature}/open-water/seed-{seed}/finalists.json"
+            yield creature, json.loads(file.read_text(encoding="utf-8"))["gaits"][0]["gait"]
+
+
+def requests():
+    for number, (creature, gait) in enumerate(gaits()):
+        for run, (substeps, solids, start) in enumerate(RUNS.values()):
+            yield {"id": number * len(RUNS) + run, "scene": f"open-water/creature-{creature}", "duration": DURATION, "gait": gait,
+                   "start": start, "overrides": {"solver": {"substeps": substeps, "solidIterations": solids}}}
+
+
+def ranks(values):
+    order = sorted(values)
+    return [order.index(v) + (order.count(v) - 1) / 2 for v in values]
+
+
+def spearman(a, b):
+    """Correlation of ranks."""
+    x, y = ranks(a), ranks(b)
+    mean = (len(x) - 1) / 2
+    covariance = sum((p - mean) * (q - mean) for p, q in zip(x, y))
+    return covariance / (sum((p - mean)**2 for p in x) * sum((q - mean)**2 for q in y))**0.5
+
+
+def main():
+    if len(sys.argv) == 1:
+        for request in requests():
+            print(json.dumps(request))
+        return
+    with open(sys.argv[1], encoding="utf-8") as lines:
+        results = {result["id"]: result for result in map(json.loads, lines)}
+    wrong = [number for number, result in results.items() if result["status"] != "ok"]
+    if wrong or len(results) != sum(1 for _ in requests()):
+        sys.exit(f"search_steps.py: {len(results)} results, without success: {wrong}; must be all, ok")
+    ways = {}
+    for number, (creature, _) in enumerate(gaits()):
+        for run, name in enumerate(RUNS):
+            ways.setdefault((creature, name), []).append(results[number * len(RUNS) + run]["distance"])
+    with open(HERE / "search-steps.csv", "w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["creature", "gait", *RUNS])
+        for creature in CREATURES:
+            columns = [ways[creature, name] for name in RUNS]
+            for number, row in enumerate(zip(*columns)):
+                table.writerow([creature, "drawn" if number < DRAWN else "winner", *row])
+    judged, *others = RUNS
+    print("| order by " + judged + " and by | " + " | ".join(f"creature {c}" for c in CREATURES) + " |")
+    print("| --- |" + " ---: |" * len(CREATURES))
+    for name in others:
+        print(f"| {name} | " + " | ".join(f"{spearman(ways[c, judged], ways[c, name]):.2f}" for c in CREATURES) + " |")
+
+
+if __name__ == "__main__":
+    main()
