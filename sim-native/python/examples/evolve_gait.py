@@ -2,14 +2,13 @@
 """Evolves a gait by CMA-ES (pycma): ask for gaits, evaluate them side by side, tell how far they swam."""
 
 import argparse
-import os
-import sys
 import warnings
 
 with warnings.catch_warnings():  # that there is no matplotlib
     warnings.simplefilter("ignore")
     import cma
 import natator
+from natator import script
 from natator.gait import whole
 from natator.simulator import make_request
 
@@ -48,11 +47,4 @@ def evolve(options):
     print(f"frequency {best.frequency:.3f}, amplitude {best.amplitude.round(3).tolist()}, phase {best.phase.round(3).tolist()}")
 
 
-try:
-    evolve(parser.parse_args())
-except natator.NatatorError as error:
-    parser.exit(2 if isinstance(error, natator.InputError) else 1, f"{parser.prog}: {error}\n")
-except KeyboardInterrupt:
-    parser.exit(130)
-except BrokenPipeError:  # nobody reads on
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+script.run(parser, evolve)

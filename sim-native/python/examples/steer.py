@@ -2,10 +2,9 @@
 """Swims to a target: the gait beats, and a controller bends the body towards where the target is sensed."""
 
 import argparse
-import os
-import sys
 
 import natator
+from natator import script
 from natator.gait import wave
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
@@ -27,11 +26,4 @@ def swim(options):
             print(f"{senses.time:5.2f} s  {senses.target_distance:.3f} to go, target {to_right:+.2f} to the right", flush=True)
 
 
-try:
-    swim(parser.parse_args())
-except natator.NatatorError as error:
-    parser.exit(2 if isinstance(error, natator.InputError) else 1, f"{parser.prog}: {error}\n")
-except KeyboardInterrupt:
-    parser.exit(130)
-except BrokenPipeError:  # nobody reads on
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+script.run(parser, swim)

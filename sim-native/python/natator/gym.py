@@ -91,7 +91,10 @@ class SwimmerEnv(gymnasium.Env):
 
     def begin_step(self, action):
         """The first half of `step`: does not wait."""
-        action = self.checked(action)
+        self.begin_checked_step(self.checked(action))
+
+    def begin_checked_step(self, action):
+        """The same of what `checked` gave."""
         self._stream.require_idle()
         parts = np.arange(1, self.frames + 1)[:, None] / self.frames
         rows = self._action + parts * (action - self._action)
@@ -217,10 +220,10 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
         actions = np.asarray(actions)
         if len(actions) != self.num_envs:
             raise InputError(f"{len(actions)} actions: must be {self.num_envs}, one for each environment")
-        for env, action, over in zip(self.envs, actions, self._over):
-            over or env.checked(action)  # before anything is begun
-        for env, action, over in zip(self.envs, actions, self._over):
-            env.begin_reset() if over else env.begin_step(action)
+        checked = [None if over else env.checked(action)  # all, before anything is begun
+                   for env, action, over in zip(self.envs, actions, self._over)]
+        for env, action, over in zip(self.envs, checked, self._over):
+            env.begin_reset() if over else env.begin_checked_step(action)
         observations, infos = [], {}
         rewards, terminated, truncated = np.zeros(self.num_envs), np.zeros(self.num_envs, bool), np.zeros(self.num_envs, bool)
         for i, (env, over) in enumerate(zip(self.envs, self._over)):
