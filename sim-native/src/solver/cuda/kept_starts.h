@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -31,18 +32,21 @@ public:
     }
     std::optional<KeptStart<Real>> find(const std::optional<std::string>& key) const {
         const std::scoped_lock lock(mutex_);
-        for (const auto& [known, start] : kept_)
-            if (key && known == *key) return start;
-        return std::nullopt;
+        const auto found = key ? place_of(*key) : kept_.end();
+        return found == kept_.end() ? std::nullopt : std::optional(found->second);
     }
     void keep(const std::optional<std::string>& key, const KeptStart<Real>& start) {
-        if (!key || find(key)) return;
         const std::scoped_lock lock(mutex_);
+        if (!key || place_of(*key) != kept_.end()) return;
         kept_.emplace_front(*key, start);
         if (kept_.size() > most) kept_.pop_back();
     }
 
 private:
+    auto place_of(const std::string& key) const {
+        return std::ranges::find_if(kept_, [&](const auto& one) { return one.first == key; });
+    }
+
     static constexpr int most_particles = 100'000;
     static constexpr std::size_t most = 16;
     mutable std::mutex mutex_;

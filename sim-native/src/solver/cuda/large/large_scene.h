@@ -104,14 +104,17 @@ private:
     /// Takes the members to their settled starts; those that begin alike share one.
     void start(const BatchMember* members, int count) {
         std::vector<Start> unsettled;
+        std::vector<std::optional<std::string>> keys;  // of those
         for (int k = 0; k < count; ++k) {
             const Start start = start_of(members[k], scene_);
             if (settled_.contains(start) || std::find(unsettled.begin(), unsettled.end(), start) != unsettled.end()) continue;
-            if (const auto known = kept_starts().find(key_of(start))) {
-                settled_[start] = {known->state, Progress{}};
+            std::optional<std::string> key = key_of(start);
+            if (auto known = kept_starts().find(key)) {
+                settled_[start] = {std::move(known->state), Progress{}};
                 runner_.make_room(known->neighbours);
             } else {
                 unsettled.push_back(start);
+                keys.push_back(std::move(key));
             }
         }
         progress_.assign(runner_.states(), Progress{});
@@ -122,7 +125,7 @@ private:
             for (int k = 0; k < different; ++k) {
                 const State<Real> state = runner_.download(k, initial_state<Real>(company_.model));
                 settled_[unsettled[k]] = {state, progress_[k]};
-                if (progress_[k].stopped < 0) kept_starts().keep(key_of(unsettled[k]), {state, runner_.room()});
+                if (progress_[k].stopped < 0) kept_starts().keep(keys[k], {state, runner_.room()});
             }
         }
         for (int k = 0; k < runner_.states(); ++k) {
