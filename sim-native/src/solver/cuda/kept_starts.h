@@ -10,13 +10,14 @@
 #include "evaluate/settled_state_key.h"
 #include "natator/state.h"
 #include "solver/cuda/device_buffer.h"
+#include "solver/cuda/list_room.h"
 
 namespace natator::cuda {
 
 template <class Real>
 struct KeptStart {
     State<Real> state;
-    int neighbours = 0;  ///< that lists have room for since it settled; 0 where that is always the same
+    ListRoom room{};  ///< of lists since it settled; none where that is always the same
 };
 
 /// The last settled starts on the devices, so that batches that begin alike settle once. For several threads.

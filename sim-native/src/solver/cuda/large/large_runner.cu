@@ -24,6 +24,7 @@ struct LargeRunner<Real>::Graph {
 namespace {
 
 constexpr int usual_neighbours = 32;      // of fluid in scheme flex: a lattice has 18, and it packs closer by half
+constexpr int usual_copies = 2;           // of a particle of the water, itself and ghosts, on average
 constexpr int fluid_around_a_solid = 32;  // that has room for lists of contacts
 
 template <class Real>
@@ -95,28 +96,42 @@ void LargeRunner<Real>::allocate() {
     slots.at.idle = device_idle_.data();
     scan_room_ = DeviceBuffer<char>(scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells), base_.states));
     base_.scan_room = scan_room_.data();
-    // A lattice has 4/3 pi (R/s)^3; solids and crowds have more, and then there is made more room.
-    if (plan.water) make_room_in_water(static_cast<int>(5 * std::pow(host_model_.parameters.kernelSupport, 3)));
+    if (plan.water) {
+        make_room_for_rows(blocks_for(size.particles, slots_of_row) *
+                           blocks_for(usual_water_neighbours(host_model_.parameters.kernelSupport), water_lists));
+        make_room_for_copies(std::min(size.water.most_copies, usual_copies) * size.particles);
+    }
     if (plan.fluid) make_room_in_fluid(std::min(size.most_neighbours, usual_neighbours));
 }
 
-/// For at least so many neighbours in the water's lists.
+/// In the water's lists of each State.
 template <class Real>
-void LargeRunner<Real>::make_room_in_water(int neighbours) {
-    neighbours = (neighbours + pair_lanes - 1) / pair_lanes * pair_lanes;
+void LargeRunner<Real>::make_room_for_rows(int rows) {
     WaterArrays<Real>& water = base_.slots.water;
-    const std::size_t slots = static_cast<std::size_t>(blocks_for(base_.model.particles, slots_of_row)) * slots_of_row;
-    const std::size_t of_state = slots * neighbours;
-    const std::size_t entries = of_state * base_.states;
+    const std::size_t entries = static_cast<std::size_t>(rows) * water_row * base_.states;
     graphs_.clear();  // they know the old place
+    base_.slots.water_room.lists = rows;
     neighbour_room_ = {};
-    base_.slots.water_neighbours = neighbours;
-    base_.slots.water_entries = of_state;
     neighbour_room_ = DeviceBuffer<unsigned>(entries);
     water.neighbour = neighbour_room_.data();
     pair_room_ = {};
     pair_room_ = DeviceBuffer<PairGradient<Real>>(entries);
     water.pair = pair_room_.data();
+}
+
+/// Of the water's particles in each State: themselves and their ghosts.
+template <class Real>
+void LargeRunner<Real>::make_room_for_copies(int copies) {
+    WaterArrays<Real>& water = base_.slots.water;
+    const std::size_t all = static_cast<std::size_t>(copies) * base_.states;
+    graphs_.clear();
+    base_.slots.water_room.copies = copies;
+    key_room_ = {};
+    key_room_ = DeviceBuffer<std::uint64_t>(all);
+    water.keys = key_room_.data();
+    candidate_room_ = {};
+    candidate_room_ = DeviceBuffer<Quad<Real>>(all);
+    water.candidate = candidate_room_.data();
 }
 
 /// Likewise in the lists of scheme flex.
@@ -132,21 +147,27 @@ void LargeRunner<Real>::make_room_in_fluid(int neighbours) {
 }
 
 template <class Real>
-void LargeRunner<Real>::make_room(int neighbours) {
-    if (neighbours <= room()) return;
-    if (base_.model.plan.water)
-        make_room_in_water(neighbours);
+void LargeRunner<Real>::make_room(ListRoom needed) {
+    const bool water = base_.model.plan.water;
+    if (needed.copies > room().copies) make_room_for_copies(needed.copies);
+    if (needed.lists <= room().lists) return;
+    if (water)
+        make_room_for_rows(needed.lists);
     else
-        make_room_in_fluid(std::min(neighbours, base_.model.most_neighbours));
+        make_room_in_fluid(std::min(needed.lists, base_.model.most_neighbours));
 }
 
-/// Is there room for the neighbours that the last update found? If not, makes it.
+/// Was there room for what the last update found? If not, makes more than that.
 template <class Real>
 bool LargeRunner<Real>::had_room() {
-    int most = 0;
-    for (int k = 0; k < base_.states; ++k) most = std::max(most, end_[k].most_neighbours);
-    if (most <= room()) return true;
-    make_room(most + most / 4);
+    ListRoom needed;
+    for (int k = 0; k < base_.states; ++k) {
+        needed.lists = std::max(needed.lists, end_[k].needed.lists);
+        needed.copies = std::max(needed.copies, end_[k].needed.copies);
+    }
+    if (needed.lists <= room().lists && needed.copies <= room().copies) return true;
+    const int share = base_.model.plan.water ? 8 : 4;  // all slots of the water together vary less than a particle does
+    make_room({needed.lists + needed.lists / share, needed.copies + needed.copies / share});
     return false;
 }
 

@@ -31,10 +31,11 @@ public:
     int states() const { return base_.states; }
     bool keeps_forces() const { return base_.keeps_forces; }
 
-    /// Neighbours of a particle that there is room for in its list; and makes it for so many. An update that finds more does so by
-    /// itself, but is done twice then.
-    int room() const { return base_.model.plan.water ? base_.slots.water_neighbours : 4 * base_.slots.chunks; }
-    void make_room(int neighbours);
+    /// What lists have room for, and makes it for at least so much. An update that finds more does so by itself, but is done twice then.
+    ListRoom room() const {
+        return base_.model.plan.water ? base_.slots.water_room : ListRoom{.lists = 4 * base_.slots.chunks};
+    }
+    void make_room(ListRoom room);
 
     void upload(int k, const State<Real>& state);
     /// Time and spring rest lengths are those of `like`.
@@ -89,7 +90,8 @@ public:
 
 private:
     void allocate();
-    void make_room_in_water(int neighbours);
+    void make_room_for_rows(int rows);
+    void make_room_for_copies(int copies);
     void make_room_in_fluid(int neighbours);
     bool had_room();
     void keep_before() const;
@@ -109,6 +111,8 @@ private:
     DeviceBuffer<char> memory_, scan_room_;
     DeviceBuffer<LargeShared<Real>> shared_;
     DeviceBuffer<uint4> chunk_room_;
+    DeviceBuffer<std::uint64_t> key_room_;
+    DeviceBuffer<Quad<Real>> candidate_room_;
     DeviceBuffer<unsigned> neighbour_room_;
     DeviceBuffer<PairGradient<Real>> pair_room_;
     struct {

@@ -111,7 +111,7 @@ private:
             std::optional<std::string> key = key_of(start);
             if (auto known = kept_starts().find(key)) {
                 settled_[start] = {std::move(known->state), Progress{}};
-                runner_.make_room(known->neighbours);
+                runner_.make_room(known->room);
             } else {
                 unsettled.push_back(start);
                 keys.push_back(std::move(key));

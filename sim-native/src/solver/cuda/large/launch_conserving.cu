@@ -67,8 +67,12 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         launch.add_up(water.table, cells);
         each_particle<scatter_water<Real>>();
         launch.template each_state<order_water<Real>>(blocks);
-        launch.template each_state<find_water_neighbours_large<Real>, search_threads>(
-            blocks_for(pair_lanes * model.particles, search_threads));
+        const int rows = blocks_for(model.particles, slots_of_row);
+        constexpr int few = 192, many = 448;  // neighbours that a list on the chip has room for: fewer let more blocks run at once
+        if (usual_water_neighbours(model.water.radius / model.water.spacing) < few * 3 / 4)
+            launch.template each_state<find_water_neighbours_large<few, Real>, water_row>(rows);
+        else
+            launch.template each_state<find_water_neighbours_large<many, Real>, water_row>(rows);
     }
     void compute_water_gradients() const {
         each_pair<water_moments<Real>, 4>();

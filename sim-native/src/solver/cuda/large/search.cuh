@@ -32,7 +32,7 @@ __device__ int list_fluid_neighbours(const ModelView<Real>& model, const Slots<R
         });
     }
     if (n > room) {
-        atomicMax(&slots.shared().most_neighbours, n);
+        atomicMax(&slots.shared().needed.lists, n);
         n = room;
     }
     for (int k = n; k % 4 != 0; ++k) {

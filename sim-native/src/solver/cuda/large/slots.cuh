@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "pair_gradient.cuh"
+#include "solver/cuda/list_room.h"
 #include "solver/cuda/neighbours.cuh"
 
 namespace natator::cuda {
@@ -13,7 +14,8 @@ struct LargeShared : Shared<Real> {
     unsigned long long bad;  ///< substep << 32 | particle of the first that is not finite; `none_bad` if all are
     int high;                ///< scheme conserving: some density is far above rest in this substep
     int touches;             ///< the body touches a plane
-    int most_neighbours;     ///< of any particle whose list has no room for all of them
+    int rows;                ///< of the water's lists that slots have got in this substep
+    ListRoom needed;         ///< as far as there is no room for it, else below 0
     double mean_x;           ///< of the body
     double tail_z;           ///< of its last slice
     double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
@@ -45,8 +47,13 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
 #define NATATOR_STATE_ARRAYS(X) NATATOR_CHIP_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_LARGE_ARRAYS(X)
 
 // The neighbours of a slot of the water are dealt out to lists: neighbour k is entry k / water_lists of list k % water_lists. A row is
-// such an entry of all lists of some slots.
+// such an entry of all lists of some slots, which have as many rows as the longest of their lists needs.
 inline constexpr int water_lists = pair_lanes, slots_of_row = 16, water_row = slots_of_row * water_lists;
+/// More neighbours than most water has at rest, by the kernel's support in spacings: a lattice has 4/3 pi (R/s)^3. Solids and crowds have
+/// more.
+constexpr int usual_water_neighbours(double support) {
+    return static_cast<int>(5 * support * support * support);
+}
 /// Where a list's entry lies in its slot's part of a row, and which list lies there: bits reversed. A thread that has several lists, side
 /// by side, then adds up what threads with one list each would add up first.
 __host__ __device__ constexpr int reversed_list(int list) {
@@ -61,11 +68,8 @@ __device__ inline int place_of(unsigned neighbour) {
 // The water of scheme conserving, by slot of the State as the last substep left it, unless said otherwise: first the slots of the
 // fluid. An entry is a slot with the set of borders that it is the ghost of: borders << most_slot_bits | slot.
 #define NATATOR_WATER_ARRAYS(X)                                                                                       \
-    /* Ends of the cells; of particles and ghosts, cell by cell: borders << 58 | number << 32 | slot; their */        \
-    /* positions, w: the entry as an integer. */                                                                      \
-    X(int, table, plan.water ? size.water.grid.cells : 0)                                                             \
-    X(std::uint64_t, keys, water * size.water.most_copies)                                                            \
-    X(Quad<Real>, candidate, water * size.water.most_copies)                                                          \
+    X(int, table, plan.water ? size.water.grid.cells : 0) /* ends of the cells */                                       \
+    X(int, first_row, (water + slots_of_row - 1) / slots_of_row) /* of the slots that share rows */                     \
     X(int, count, water) /* of neighbours */                                                                          \
     X(Quad<Real>, position, water)   /* w: volume */                                                                  \
     X(Quad<Real>, velocity, water)   /* w: inverse mass */                                                            \
@@ -102,7 +106,11 @@ struct StateArrays {
 template <class Real>
 struct WaterArrays {
     NATATOR_WATER_ARRAYS(NATATOR_MEMBER)
-    // Of neighbour k of slot s at [Slots::water_place(s) + place_of(k)]; by themselves, as their room may grow.
+    // By themselves, as their room may grow. Of particles and ghosts, cell by cell: borders << 58 | number << 32 | slot; their
+    // positions, w: the entry as an integer.
+    std::uint64_t* keys = nullptr;
+    Quad<Real>* candidate = nullptr;
+    // Of neighbour k of slot s at [Slots::water_place(s) + place_of(k)].
     unsigned* neighbour = nullptr;  ///< entries
     PairGradient<Real>* pair = nullptr;
 };
@@ -157,7 +165,10 @@ public:
         own.at.shared += k;
         own.at.idle += k;
         own.at.neighbour = at.neighbour + k * list_chunks;
-        const std::size_t entries = k * water_entries;
+        const std::size_t copies = k * static_cast<std::size_t>(water_room.copies);
+        own.water.keys += copies;
+        own.water.candidate += copies;
+        const std::size_t entries = k * static_cast<std::size_t>(water_room.lists) * water_row;
         own.water.neighbour += entries;
         own.water.pair += entries;
         own.rest_lengths += k * rest_length_stride;
@@ -172,8 +183,7 @@ public:
 
     /// Of slot s in the first row of the water's lists; its part of the next one is water_row further on.
     __device__ std::size_t water_place(int s) const {
-        const std::size_t rows = water_neighbours / water_lists;
-        return s / slots_of_row * rows * water_row + s % slots_of_row * water_lists;
+        return static_cast<std::size_t>(water.first_row[s / slots_of_row]) * water_row + s % slots_of_row * water_lists;
     }
 
     /// Nothing that is not finite goes through further substeps: its cells would hold too many particles.
@@ -186,10 +196,10 @@ public:
     Real* rest_lengths = nullptr;  ///< by spring
     std::size_t stride = 0;        ///< bytes from a State's arrays to the next one's
     std::size_t rest_length_stride = 0;
-    std::size_t list_chunks = 0, water_entries = 0;  ///< of a State's lists, in schemes flex and conserving
+    std::size_t list_chunks = 0;  ///< of a State's lists in scheme flex
     ContactRoom room{};
     int chunks = 0;            ///< of a list of fluid neighbours
-    int water_neighbours = 0;  ///< that a slot has room for in the water's lists
+    ListRoom water_room{};     ///< of each State
     Real h = 0;               ///< substep, s
     int substep = 0;
 };

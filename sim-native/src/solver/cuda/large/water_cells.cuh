@@ -8,7 +8,7 @@ namespace natator::cuda {
 /// Wraps water that has left a periodic tank, puts what is behind planes before them, and counts particles and ghosts by cell.
 template <class Real>
 __device__ void begin_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    if (s == 0) slots.shared().high = 0;
+    if (s == 0) slots.shared().high = slots.shared().rows = 0;
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> before = slots.at.state_velocity[s];
     const int number = number_in(before.w);
@@ -34,22 +34,25 @@ __device__ void scatter_water(const ModelView<Real>& model, const Slots<Real>& s
     const WaterArrays<Real>& water = slots.water;
     const auto number = static_cast<std::uint64_t>(number_in(slots.at.state_velocity[s].w));
     for_each_copy(model, xyz(water.position[s]), [&](unsigned borders, const Vec3<Real>& at) {
-        water.keys[atomicAdd(water.table + model.water.grid.cell(at), 1)] =
-            static_cast<std::uint64_t>(borders) << 58 | number << 32 | static_cast<unsigned>(s);
+        const int place = atomicAdd(water.table + model.water.grid.cell(at), 1);
+        if (place < slots.water_room.copies)
+            water.keys[place] = static_cast<std::uint64_t>(borders) << 58 | number << 32 | static_cast<unsigned>(s);
     });
 }
 
-/// Lays out what searches read, in each cell by set of borders and then by particle: the order depends on positions alone.
+/// Lays out what searches read, in each cell by set of borders and then by particle: the order depends on positions alone. Where there
+/// is no room for all, it notes how much they need.
 template <class Real>
 __device__ void order_water(const ModelView<Real>& model, const Slots<Real>& slots) {
     const WaterArrays<Real>& water = slots.water;
-    const int copies = water.table[model.water.grid.cells - 1];
+    const int all = water.table[model.water.grid.cells - 1], copies = min(all, slots.water_room.copies);
+    if (own_index() == 0 && copies < all) slots.shared().needed.copies = all;
     for (int k = own_index(); k < copies; k += static_cast<int>(gridDim.x * blockDim.x)) {
         const std::uint64_t key = water.keys[k];
         const auto borders = static_cast<unsigned>(key >> 58), slot = static_cast<unsigned>(key);
         const Vec3<Real> x = ghost_of(model.water, xyz(water.position[slot]), borders);
         const int cell = model.water.grid.cell(x);
-        const int begin = cell > 0 ? water.table[cell - 1] : 0, end = water.table[cell];
+        const int begin = cell > 0 ? water.table[cell - 1] : 0, end = min(water.table[cell], copies);
         int rank = begin;
         for (int other = begin; other < end; ++other) rank += water.keys[other] < key;
         water.candidate[rank] = quad(x, as_number<Real>(static_cast<int>(borders << most_slot_bits | slot)));

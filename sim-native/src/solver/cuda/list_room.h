@@ -1,0 +1,11 @@
+#pragma once
+
+namespace natator::cuda {
+
+/// What the lists of a State by kernels of the whole GPU have room for.
+struct ListRoom {
+    int lists = 0;   ///< in scheme flex neighbours of a particle; in the water rows of all its lists, see water_row
+    int copies = 0;  ///< of the water's particles: themselves and their ghosts
+};
+
+}  // namespace natator::cuda
