@@ -87,8 +87,14 @@ final class Answers {
 
     private String fastest(Water water) {
         return results.evolved(water).stream().filter(this::swims).max(Comparator.comparingDouble(subject -> results.speed(subject).orElseThrow().mean()))
-                .map(subject -> "creature " + subject.creature() + " at " + results.speed(subject).orElseThrow()
-                        .text(results.bodyLength(subject.creature())) + " body lengths/s").orElse(null);
+                .map(this::speed).orElse(null);
+    }
+
+    /** In the units of the table below it, and in those in which fish are told. */
+    private String speed(Subject subject) {
+        Speed speed = results.speed(subject).orElseThrow();
+        double ofBody = speed.mean() / results.bodyLength(subject.creature());
+        return "creature " + subject.creature() + " at " + speed.text(1) + " units/s (" + TableFormat.shortNumber(ofBody) + " body lengths/s)";
     }
 
     private String withoutWater(Water water) {
