@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "pair_gradient.cuh"
+#include "physics/shape_matching.h"
 #include "solver/cuda/list_room.h"
 #include "solver/cuda/neighbours.cuh"
 
@@ -19,6 +20,13 @@ struct LargeShared : Shared<Real> {
     double mean_x;           ///< of the body
     double tail_z;           ///< of its last slice
     double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
+};
+
+/// Where a cluster of scheme conserving is, in double.
+struct ClusterPose {
+    Vec3<double> centre;
+    double rotation[4];  ///< x, y, z, w
+    physics::Covariance covariance;
 };
 
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
@@ -41,6 +49,7 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(Quad<Real>, internal, turns ? size.solids : 0)                                                                  \
     X(Quad<Real>, spring_push, turns ? size.springs : 0)                                                              \
     X(Real, spring_lambda, turns ? size.springs : 0)                                                                  \
+    X(ClusterPose, cluster_pose, turns ? size.clusters : 0)                                                           \
     X(Quad<Real>, member_displacement, turns ? size.members : 0)                                                      \
     X(Quad<Real>, member_push, turns ? size.members : 0)
 

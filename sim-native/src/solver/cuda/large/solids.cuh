@@ -108,56 +108,89 @@ __device__ void solve_springs(const ModelView<Real>& model, const Slots<Real>& s
     __syncthreads();
 }
 
-/// A warp per cluster, the sums in double. Ends with a barrier.
+/// Calls visit(k, cluster, lane) for each cluster that pulls at its particles, a warp for each.
+template <class Real, class Visit>
+__device__ void for_each_cluster(const ModelView<Real>& model, const Visit& visit) {
+    const int lane = static_cast<int>(threadIdx.x) % 32;
+    for (int k = static_cast<int>(threadIdx.x) / 32; k < model.clusters; k += static_cast<int>(blockDim.x) / 32) visit(k, model.cluster[k], lane);
+}
+
+/// A cluster's compliance relative to its masses; not finite if it asks for nothing.
 template <class Real>
-__device__ void solve_clusters(const ModelView<Real>& model, const Slots<Real>& slots) {
-    const int warp = threadIdx.x / 32, lane = threadIdx.x % 32;
-    const auto place = [&](int m) {
-        return physics::cast<double>(xyz(slots.position()[slots.slot_of_solid()[model.member[m]]]));
-    };
-    for (int k = warp; k < model.clusters; k += slots.size() / 32) {
-        const ClusterView<Real> cluster = model.cluster[k];
-        const Real alpha = static_cast<Real>(
-            physics::relative_compliance(cluster.softness, static_cast<double>(slots.h)));
-        if (!isfinite(alpha)) {
-            for (int m = cluster.begin + lane; m < cluster.end; m += 32) slots.member_push()[m] = {0, 0, 0, 0};
-            continue;
-        }
+__device__ Real compliance_of(const ClusterView<Real>& cluster, Real h) {
+    return static_cast<Real>(physics::relative_compliance(cluster.softness, static_cast<double>(h)));
+}
+
+/// Centres and covariances of all clusters, in double.
+template <class Real, class PlaceOf>
+__device__ void sum_up_clusters(const ModelView<Real>& model, const Slots<Real>& slots, const PlaceOf& place_of) {
+    for_each_cluster(model, [&](int k, const ClusterView<Real>& cluster, int lane) {
         Vec3<double> sum{};
         double total = 0;
         for (int m = cluster.begin + lane; m < cluster.end; m += 32) {
             const double mass = model.member_mass[m];
-            sum += mass * place(m);
+            sum += mass * physics::cast<double>(place_of(m));
             total += mass;
         }
         total = sum_of_warp(total);
         const Vec3<double> centre{sum_of_warp(sum.x) / total, sum_of_warp(sum.y) / total, sum_of_warp(sum.z) / total};
         physics::Covariance covariance;
         for (int m = cluster.begin + lane; m < cluster.end; m += 32)
-            add_arm(covariance, static_cast<double>(model.member_mass[m]), place(m) - centre,
+            add_arm(covariance, static_cast<double>(model.member_mass[m]), physics::cast<double>(place_of(m)) - centre,
                     physics::cast<double>(model.offset[m]));
         for (double& entry : covariance.entry) entry = sum_of_warp(entry);
+        if (lane != 0) return;
+        slots.cluster_pose()[k].centre = centre;
+        slots.cluster_pose()[k].covariance = covariance;
+    });
+}
 
+/// Rotations of all clusters, a thread for each: a fit takes many steps one after the other, and where all threads of a warp do the same,
+/// warps wait for each other's arithmetic in double. Neighbours go to different warps, and so to different schedulers.
+template <class Real>
+__device__ void fit_clusters(const ModelView<Real>& model, const Slots<Real>& slots) {
+    constexpr int schedulers = 4;
+    const int warp = static_cast<int>(threadIdx.x) / 32, lane = static_cast<int>(threadIdx.x) % 32;
+    if (warp >= schedulers) return;
+    for (int k = lane * schedulers + warp; k < model.clusters; k += 32 * schedulers) {
+        if (!isfinite(compliance_of(model.cluster[k], slots.h))) continue;
+        ClusterPose& pose = slots.cluster_pose()[k];
         ClusterFit<Real>& fit = slots.fit()[k];
         double q[4] = {fit.rotation[0], fit.rotation[1], fit.rotation[2], fit.rotation[3]};
-        physics::fit_rotation(covariance, q, physics::most_fit_steps);
-        __syncwarp();
-        if (lane == 0) {
-            for (int e = 0; e < 4; ++e) fit.rotation[e] = static_cast<Real>(q[e]);
-            fit.centre = physics::cast<Real>(centre);
+        physics::fit_rotation(pose.covariance, q, physics::most_fit_steps);
+        for (int e = 0; e < 4; ++e) {
+            pose.rotation[e] = q[e];
+            fit.rotation[e] = static_cast<Real>(q[e]);
         }
+        fit.centre = physics::cast<Real>(pose.centre);
+    }
+}
+
+/// Ends with a barrier.
+template <class Real>
+__device__ void solve_clusters(const ModelView<Real>& model, const Slots<Real>& slots) {
+    const auto place_of = [&](int m) { return xyz(slots.position()[slots.slot_of_solid()[model.member[m]]]); };
+    sum_up_clusters(model, slots, place_of);
+    __syncthreads();
+    fit_clusters(model, slots);
+    __syncthreads();
+    for_each_cluster(model, [&](int k, const ClusterView<Real>& cluster, int lane) {
+        const Real alpha = compliance_of(cluster, slots.h);
+        const ClusterPose pose = slots.cluster_pose()[k];
         double r[9];
-        physics::rotation_matrix(q, r);
+        physics::rotation_matrix(pose.rotation, r);
         for (int m = cluster.begin + lane; m < cluster.end; m += 32) {
+            if (!isfinite(alpha)) {
+                slots.member_push()[m] = {0, 0, 0, 0};
+                continue;
+            }
             Vec3<Real> displacement = xyz(slots.member_displacement()[m]);
-            const Vec3<Real> change = compliant_goal_change(
-                centre, r, model.offset[m], xyz(slots.position()[slots.slot_of_solid()[model.member[m]]]), alpha,
-                displacement);
+            const Vec3<Real> change = compliant_goal_change(pose.centre, r, model.offset[m], place_of(m), alpha, displacement);
             slots.member_displacement()[m] = quad(displacement, Real(0));
             const Real inverse_mass = model.inverse_mass[model.fluid + model.member[m]];
             slots.member_push()[m] = quad(model.member_mass[m] * inverse_mass * change, Real(0));
         }
-    }
+    });
     __syncthreads();
     for (int solid = threadIdx.x; solid < model.solids; solid += slots.size()) {
         const int begin = model.cluster_shares_begin[solid], end = model.cluster_shares_begin[solid + 1];
