@@ -51,6 +51,12 @@ TEST(InfoTest, DescribesASceneAsJson) {
     EXPECT_GT(info["plan"].size(), 5u);
 }
 
+// 18 x 0.075 is 1.3499999999999999 to programs, who get what is computed with.
+TEST(InfoTest, PeopleReadNumbersWithoutTheirRounding) {
+    EXPECT_NE(run_simulator({"info", "pool/creature-2"}).out.find("\nbodyLength      1.35\n"), std::string::npos);
+    EXPECT_EQ(json::parse(run_simulator({"info", "pool/creature-2", "--json"}).out).at("bodyLength"), 18 * 0.075);
+}
+
 // The water of scheme conserving bears only so long a substep, and only so light a body.
 TEST(InfoTest, SaysWhatIsFittedToTheWater) {
     const auto info = [](const std::string& overrides) {
