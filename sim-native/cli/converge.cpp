@@ -174,8 +174,9 @@ void run_level(LevelRuns& runs, const ConvergeOptions& options, const Execution&
         Job job = runs.job;
         job.request.perturbation = perturbation(k);
         note(k, evaluate_job(job, execution));
+        const json& distance = runs.results[k].at("distance");
         say(runs.level.name + ": run " + std::to_string(k + 1) + " of " + std::to_string(options.starts) +
-            ", distance " + runs.results[k].at("distance").dump());
+            (distance.is_null() ? ", unstable" : ", distance " + figure_text(distance.get<double>())));
     }
 }
 

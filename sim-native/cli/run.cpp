@@ -90,33 +90,31 @@ void check_outputs(const RunOptions& options) {
         throw InputError("--snapshot " + quoted(options.snapshot) + ": must be another file than that of --trajectory");
 }
 
-/// For people, who take -0 for a mistake.
-double without_sign_of_zero(double value) { return value == 0 ? 0 : value; }
-
 std::string swimming_line(const SwimmingNumbers& numbers) {
     std::ostringstream text;
-    text << "tail       " << numbers.tail_amplitude << " units from side to side";
-    if (numbers.strouhal) text << ", Strouhal number " << *numbers.strouhal;
-    if (numbers.reynolds) text << ", Reynolds number " << *numbers.reynolds;
-    if (numbers.swimming_number) text << ", swimming number " << *numbers.swimming_number;
+    text << "tail       " << figure_text(numbers.tail_amplitude) << " units from side to side";
+    if (numbers.strouhal) text << ", Strouhal number " << figure_text(*numbers.strouhal);
+    if (numbers.reynolds) text << ", Reynolds number " << figure_text(*numbers.reynolds);
+    if (numbers.swimming_number) text << ", swimming number " << figure_text(*numbers.swimming_number);
     constexpr double worth_telling = 0.01;
     if (numbers.cavities.value_or(0) >= worth_telling)
-        text << ", cavities in the water " << *numbers.cavities << " body volumes";
+        text << ", cavities in the water " << figure_text(*numbers.cavities) << " body volumes";
     text << "\n";
     return text.str();
 }
 
 std::string goal_line(const GoalResult& goal) {
     std::ostringstream text;
-    text << "goal       " << to_string(goal.measure) << ", score " << goal.score;
+    text << "goal       " << to_string(goal.measure) << ", score " << figure_text(goal.score);
     if (goal.arrived_at)
         text << ", reached at " << *goal.arrived_at << " s";
     else if (goal.left)
-        text << ", " << *goal.left << (goal.measure == Goal::Measure::turn ? " degrees" : " units") << " left";
+        text << ", " << figure_text(*goal.left) << (goal.measure == Goal::Measure::turn ? " degrees" : " units") << " left";
     text << "\n";
     return text.str();
 }
 
+/// Figures have three digits: another start of the same swim mostly changes the second.
 std::string summary(const RunOptions& options, const Scene& scene, const Evaluation& result, double wall_seconds) {
     std::ostringstream text;
     text << "scene      " << scene.name << "\n";
@@ -136,18 +134,18 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
     } else if (scene.creature) {
         const double length = scene.creature->spacing * (static_cast<double>(scene.creature->slices.size()) - 1);
         const double speed = result.simulated > 0 ? result.distance / result.simulated : 0;
-        text << "distance   " << without_sign_of_zero(result.distance) << " units\n";
-        text << "speed      " << without_sign_of_zero(speed) << " units/s";
-        if (length > 0) text << ", " << without_sign_of_zero(speed / length) << " body lengths/s";
+        text << "distance   " << figure_text(result.distance) << " units\n";
+        text << "speed      " << figure_text(speed) << " units/s";
+        if (length > 0) text << ", " << figure_text(speed / length) << " body lengths/s";
         text << "\n";
         if (result.swimming && !options.gait.empty()) text << swimming_line(*result.swimming);  // a resting tail has no beat
         for (const GoalResult& goal : result.goals) text << goal_line(goal);
         for (const CompanionResult& one : result.companions)
-            text << "beside it  " << one.creature << ", " << without_sign_of_zero(one.distance) << " units\n";
-        if (result.work) text << "work       " << *result.work << " by the muscles\n";
+            text << "beside it  " << one.creature << ", " << figure_text(one.distance) << " units\n";
+        if (result.work) text << "work       " << figure_text(*result.work) << " by the muscles\n";
     }
     text << "hash       " << hash_text(result.hash) << "\n";
-    text << "wall time  " << wall_seconds << " s\n";
+    text << "wall time  " << figure_text(wall_seconds) << " s\n";
     return text.str();
 }
 

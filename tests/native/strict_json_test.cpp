@@ -52,6 +52,14 @@ TEST(StrictJsonTest, SaysWhatIsWrongShortly) {
     EXPECT_NO_THROW(nlohmann::json(longer).dump() + nlohmann::json(longest).dump());
 }
 
+TEST(StrictJsonTest, ShowsNumbersToThePlaceWhereTheyMeanSomething) {
+    EXPECT_EQ(computed_text(18 * 0.075), "1.35");
+    EXPECT_EQ(figure_text(0.687997), "0.688");
+    EXPECT_EQ(figure_text(4950.18), "4950");
+    EXPECT_EQ(figure_text(-6.25e-9), "-6.25e-09");
+    EXPECT_EQ(figure_text(-0.0), "0");
+}
+
 TEST(StrictJsonTest, ShowsValuesOnOneShortLine) {
     EXPECT_EQ(shown("a\nb"), R"("a\nb")");
     EXPECT_EQ(shown(nlohmann::json::array({1, 2.5})), "[1,2.5]");

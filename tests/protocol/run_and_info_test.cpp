@@ -117,6 +117,19 @@ TEST(RunTest, SaysUnitsAndNoMinusBeforeNothing) {
     EXPECT_EQ(outcome.out.find("-0 "), std::string::npos) << outcome.out;
 }
 
+// Others would change with the start of a swim.
+TEST(RunTest, FiguresHaveThreeDigits) {
+    const Outcome outcome = run_simulator({"run", "pool/creature-1", "--gait", gait, "--duration", "0.6"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::regex number(R"((?:distance|speed|number|tail|work|wall time) +-?([\d.]+))");
+    int figures = 0;
+    for (std::sregex_iterator found(outcome.out.begin(), outcome.out.end(), number), end; found != end; ++found, ++figures) {
+        const std::string digits = std::regex_replace((*found)[1].str(), std::regex(R"(^0?\.0*|0+$|\.)"), "");
+        EXPECT_LE(digits.size(), 3u) << found->str();
+    }
+    EXPECT_EQ(figures, 8) << outcome.out;
+}
+
 // What a vacuum scene is by its file, any scene becomes by a merge patch; both then have the same definition.
 TEST(InfoTest, DefinesASceneWithAllThatItBuildsOn) {
     const std::string patch =
@@ -264,7 +277,8 @@ TEST(RunTest, ATrajectoryChangesNothingAndEndsAtTheDistance) {
         }
         return sum / 17;
     };
-    const double distance = std::stod(recorded.out.substr(recorded.out.find("distance") + 8));
+    const json request = {{"id", 1}, {"scene", command[1]}, {"gait", json::parse(gait)}, {"duration", 0.5}};
+    const double distance = json::parse(run_simulator({"evaluate", request.dump()}).out).at("distance");
     EXPECT_NEAR(mean_x(rows.size() - 17) - mean_x(1), distance, 1e-5);
 }
 

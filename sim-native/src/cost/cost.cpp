@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 #include "io/strict_json.h"
 #include "natator/error.h"
@@ -117,16 +116,8 @@ double memory_of_machine() {
     return pages > 0 && page > 0 ? pages * page : std::numeric_limits<double>::max();
 }
 
-/// A number as people read it: three digits.
-std::string rounded(double value) {
-    std::ostringstream text;
-    text.precision(3);
-    text << value;
-    return text.str();
-}
-
 std::string in_gib(double bytes) {
-    return rounded(bytes / gibibyte) + " GiB";
+    return figure_text(bytes / gibibyte) + " GiB";
 }
 
 double substeps_of_settling(const Scene& scene) {
@@ -185,18 +176,18 @@ void check_cost(const Model& model, double substeps, double more_bytes, const st
     const Cost cost = cost_of(model);
     const Budget budget = Budget::of_user();
     const std::string particles =
-        std::to_string(model.particles()) + " particles with " + rounded(cost.neighbours) + " neighbours";
+        std::to_string(model.particles()) + " particles with " + figure_text(cost.neighbours) + " neighbours";
     if (cost.neighbours > limits::neighbours)
-        throw InputError(where + ": " + particles + ": must be at most " + rounded(limits::neighbours) +
+        throw InputError(where + ": " + particles + ": must be at most " + figure_text(limits::neighbours) +
                          " neighbours together (radius, spacing, maxNeighborsPerParticle)");
     if (cost.bytes + more_bytes > budget.bytes)
         throw InputError(where + ": " + particles + " need about " + in_gib(cost.bytes + more_bytes) +
                          " of memory: must be at most " + in_gib(budget.bytes) + " (NATATOR_MOST_MEMORY)");
     const double work = substeps * cost.per_substep;
     if (work > budget.work)
-        throw InputError(where + ": " + particles + " in " + rounded(substeps) + " substeps of " +
-                         std::to_string(model.parameters.numIterations) + " iterations are about " + rounded(work) +
-                         " pair visits: must be at most " + rounded(budget.work) + " (NATATOR_MOST_WORK)");
+        throw InputError(where + ": " + particles + " in " + figure_text(substeps) + " substeps of " +
+                         std::to_string(model.parameters.numIterations) + " iterations are about " + figure_text(work) +
+                         " pair visits: must be at most " + figure_text(budget.work) + " (NATATOR_MOST_WORK)");
 }
 
 void check_evaluation_cost(const Scene& scene, const Model& model) {

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <set>
 #include <system_error>
@@ -120,6 +121,13 @@ std::string computed_text(double value) {
     std::array<char, 32> text;
     std::snprintf(text.data(), text.size(), "%.12g", value);
     return text.data();
+}
+
+std::string figure_text(double value) {
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    const double rounded = std::strtod(text.data(), nullptr);
+    return number_text(rounded == 0 ? 0 : rounded);
 }
 
 std::string shown(const json& value) {

@@ -22,6 +22,9 @@ std::string number_text(double value);
 /// The same of one that was computed: to 12 digits, without the rounding of its computation.
 std::string computed_text(double value);
 
+/// The same of one that means little beyond three digits, such as a figure of a chaotic swim; without the sign of zero.
+std::string figure_text(double value);
+
 /// A value as it is shown in messages: on one line, shortened to about 60 characters; of no JSON, NaN and Infinity too.
 std::string shown(const nlohmann::json& value);
 
