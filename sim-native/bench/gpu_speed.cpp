@@ -5,7 +5,6 @@
 #include "bench_scenes.h"
 #include "natator/batch.h"
 #include "natator/model_builder.h"
-#include "speed.h"
 #include "timed_batch.h"
 
 namespace natator::bench {
@@ -60,17 +59,17 @@ Row gpu_speed_profile_columns() {
 void run_gpu_speed_study(const GpuSpeedStudy& study, ResultTable& table, ResultTable& profile,
                          const std::function<void(const std::string&)>& report) {
     const std::string device = gpu_name(study.device) + (study.whole_gpu ? "; whole" : "");
-    for (const std::string& name : study.scenes)
+    for (const SpeedScene& named : study.scenes)
         for (const Scheme scheme : study.schemes) {
-            Scene scene = speed_scene(name, study.quick);
+            Scene scene = make_speed_scene(named, study.quick);
             scene.scheme = scheme;
             if (const auto reason = gpu_refusal(scene)) {
-                report(name + ": " + *reason);
+                report(named.text() + ": " + *reason);
                 continue;
             }
             for (const Precision precision : study.precisions)
                 for (const int batch : study.batches) {
-                    const Row key{name, to_string(scheme), to_string(precision), std::to_string(batch), device};
+                    const Row key{named.text(), to_string(scheme), to_string(precision), std::to_string(batch), device};
                     if (table.has(key)) continue;
                     const std::vector<BatchMember> members = batch_members(scene, batch);
                     BatchOptions options = options_of(study, precision);

@@ -6,12 +6,13 @@
 
 #include "natator/evaluate.h"
 #include "result_table.h"
+#include "speed.h"
 
 namespace natator::bench {
 
 /// Run time of batches of evaluations on a GPU: as many different gaits in one scene.
 struct GpuSpeedStudy {
-    std::vector<std::string> scenes;  ///< see speed_scene
+    std::vector<SpeedScene> scenes;
     std::vector<Scheme> schemes;
     std::vector<Precision> precisions;
     std::vector<int> batches{1, 150};  ///< evaluations per launch

@@ -12,7 +12,6 @@
 #include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/model_builder.h"
-#include "path_run.h"
 #include "scene/scene_json.h"
 #include "statistics.h"
 
@@ -54,22 +53,24 @@ const NamedScene& find_scene(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> speed_scenes_at(const std::vector<std::string>& scenes, const std::vector<std::string>& settings) {
-    if (settings.empty()) return scenes;
-    for (const std::string& setting : settings) steps_of(setting);
-    std::vector<std::string> names;
-    for (const std::string& scene : scenes)
-        for (const std::string& setting : settings) names.push_back(scene + ' ' + setting);
-    return names;
+std::string SpeedScene::text() const {
+    return steps ? name + ' ' + std::to_string(steps->substeps) + 'x' + std::to_string(steps->iterations) : name;
 }
 
-Scene speed_scene(const std::string& name, bool quick) {
-    const std::size_t space = name.find(' ');
-    Scene scene = make_scene(find_scene(name.substr(0, space)), quick);
-    if (space == std::string::npos) return scene;
-    const Steps steps = steps_of(name.substr(space + 1));
-    scene.solver.substeps = steps.substeps;
-    scene.solver.numIterations = steps.iterations;
+std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names, const std::vector<std::string>& settings) {
+    std::vector<SpeedScene> scenes;
+    for (const std::string& name : names) {
+        if (settings.empty()) scenes.push_back({name});
+        for (const std::string& setting : settings) scenes.push_back({name, steps_of(setting)});
+    }
+    return scenes;
+}
+
+Scene make_speed_scene(const SpeedScene& named, bool quick) {
+    Scene scene = make_scene(find_scene(named.name), quick);
+    if (!named.steps) return scene;
+    scene.solver.substeps = named.steps->substeps;
+    scene.solver.numIterations = named.steps->iterations;
     return scene;
 }
 
@@ -164,19 +165,19 @@ Row speed_profile_columns() {
 void run_speed_study(const SpeedStudy& study, ResultTable& table, ResultTable& profile,
                      const std::function<void(const std::string&)>& report) {
     const std::string machine = machine_text();
-    for (const std::string& name : study.scenes) {
+    for (const SpeedScene& named : study.scenes) {
         std::vector<TimedScene> timed;
         for (const Scheme scheme : study.schemes) {
             for (const Precision precision : study.precisions) {
                 for (const int threads : study.threads) {
-                    const Row key{name,
+                    const Row key{named.text(),
                                   to_string(scheme),
                                   to_string(precision),
                                   to_string(instruction_set()),
                                   std::to_string(threads),
                                   machine};
                     if (table.has(key)) continue;
-                    Scene scene = speed_scene(name, study.quick);
+                    Scene scene = make_speed_scene(named, study.quick);
                     scene.scheme = scheme;
                     timed.push_back({key, std::move(scene), precision, threads});
                 }

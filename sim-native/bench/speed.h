@@ -1,17 +1,27 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "natator/evaluate.h"
+#include "path_run.h"
 #include "result_table.h"
 
 namespace natator::bench {
 
+/// A scene whose run time is measured.
+struct SpeedScene {
+    std::string name;              ///< one of speed_scene_names
+    std::optional<Steps> steps{};  ///< instead of the scene's own
+
+    std::string text() const;  ///< what rows call it: "creature-1", with steps "creature-1 2x4"
+};
+
 /// Run time of whole evaluations: settling, neighbours and all.
 struct SpeedStudy {
-    std::vector<std::string> scenes;  ///< see speed_scene
+    std::vector<SpeedScene> scenes;
     std::vector<Scheme> schemes;
     std::vector<Precision> precisions;
     std::vector<int> threads{1};
@@ -22,11 +32,11 @@ struct SpeedStudy {
 /// The thesis' creatures in their tank, 4 s each, creature 1 in vacuum, its tank with 8 and 64 times the fluid, and creature 2 in
 /// open water.
 std::vector<std::string> speed_scene_names();
-/// The names of these scenes at each of these settings, "creature-1 2x4"; without settings as they are. Throws InputError for what is
-/// no setting.
-std::vector<std::string> speed_scenes_at(const std::vector<std::string>& scenes, const std::vector<std::string>& settings);
-/// `name`: of speed_scene_names, or of one of them at a setting.
-Scene speed_scene(const std::string& name, bool quick);
+/// Each of these scenes at each of these settings, such as "2x4"; without settings at its own. Throws InputError for what is no
+/// setting.
+std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names, const std::vector<std::string>& settings);
+/// The scene itself, or a few frames of it if `quick`. Throws InputError for an unknown name.
+Scene make_speed_scene(const SpeedScene& named, bool quick);
 /// The thesis' gait where it found one, else all muscles in a travelling wave.
 Gait speed_gait(const Scene& scene);
 

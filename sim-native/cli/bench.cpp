@@ -332,7 +332,7 @@ void add_speed(CLI::App* bench, int& status) {
     add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const Common& common = options->common;
-        const std::vector<std::string> scenes = speed_scenes_at(options->scenes, options->settings);
+        const std::vector<SpeedScene> scenes = speed_scenes_at(options->scenes, options->settings);
         refuse_gpu_options_for_cpu(options->backend);
         if (on_gpu(options->backend, {})) {
             const GpuSpeedStudy study{scenes,            common.chosen_schemes(),   common.chosen_precisions(),

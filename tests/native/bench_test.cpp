@@ -194,8 +194,12 @@ TEST(EnsembleTest, SummaryIsTheMeanOfTheSeeds) {
 }
 
 TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
-    const SpeedStudy study{
-        {"creature-1", "vacuum"}, {Scheme::flex, Scheme::conserving}, {Precision::single_precision}, {1}, 2, true};
+    const SpeedStudy study{speed_scenes_at({"creature-1", "vacuum"}, {}),
+                           {Scheme::flex, Scheme::conserving},
+                           {Precision::single_precision},
+                           {1},
+                           2,
+                           true};
     ResultTable table("", speed_columns(), speed_key_columns);
     ResultTable profile("", speed_profile_columns(), speed_key_columns);
     run_speed_study(study, table, profile, ignore);
@@ -214,13 +218,15 @@ TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
 }
 
 TEST(SpeedTest, ASettingTakesThePlaceOfTheScenesSteps) {
-    const std::vector<std::string> names = speed_scenes_at({"creature-1", "vacuum"}, {"1x4", "2x3"});
+    const std::vector<SpeedScene> scenes = speed_scenes_at({"creature-1", "vacuum"}, {"1x4", "2x3"});
+    std::vector<std::string> names;
+    for (const SpeedScene& scene : scenes) names.push_back(scene.text());
     EXPECT_EQ(names, (std::vector<std::string>{"creature-1 1x4", "creature-1 2x3", "vacuum 1x4", "vacuum 2x3"}));
-    const Scene scene = speed_scene(names[1], true);
+    const Scene scene = make_speed_scene(scenes[1], true);
     EXPECT_EQ(scene.solver.substeps, 2);
     EXPECT_EQ(scene.solver.numIterations, 3);
-    EXPECT_EQ(speed_scene("creature-1", true).solver.substeps, 4);
-    EXPECT_EQ(speed_scenes_at({"vacuum"}, {}), std::vector<std::string>{"vacuum"});
+    EXPECT_EQ(make_speed_scene({"creature-1"}, true).solver.substeps, 4);
+    EXPECT_EQ(speed_scenes_at({"vacuum"}, {}).front().text(), "vacuum");
     EXPECT_THROW(speed_scenes_at({"vacuum"}, {"2x4", "2"}), InputError);
 }
 
