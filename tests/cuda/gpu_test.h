@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "bench_scenes.h"
 #include "natator/batch.h"
 #include "natator/gait.h"
 #include "natator/gpu_solver.h"
@@ -31,11 +32,9 @@ inline Scene creature_scene(int creature, Scheme scheme, const char* suffix = ""
 
 /// The thesis' tank with a block of so many particles along x, y and z, and walls behind it.
 inline Scene tank_of(const std::array<int, 3>& count, Scheme scheme) {
-    const auto wall = [](int particles) { return 0.1 + 0.09 * (particles - 1); };
-    Scene scene = load_scene("thesis/creature-1", {{"settling", {{"updates", 3}}},
-                                                   {"fluid", {{"count", count}}},
-                                                   {"planes", {{0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0},
-                                                               {-1, 0, 0, wall(count[0])}, {0, 0, -1, wall(count[2])}}}});
+    nlohmann::json overrides = bench::thesis_tank_with(count, 0.09);
+    overrides["settling"]["updates"] = 3;
+    Scene scene = load_scene("thesis/creature-1", overrides);
     scene.scheme = scheme;
     return scene;
 }
