@@ -118,7 +118,7 @@ Steps steps_of(const std::string& text) {
     const bool fits = parts && parts.eof() && cross == 'x';
     const auto allowed = [](int count) { return 1 <= count && count <= 1000; };
     if (!fits || !allowed(steps.substeps) || !allowed(steps.iterations))
-        throw InputError("--setting " + quoted(text) + ": must be SUBSTEPSxITERATIONS, such as 8x4");
+        throw InputError("--setting = " + quoted(text) + ": must be SUBSTEPSxITERATIONS, such as 8x4");
     return steps;
 }
 

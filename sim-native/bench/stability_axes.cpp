@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/strict_json.h"
 #include "natator/error.h"
 #include "scene/scene_json.h"
 
@@ -128,7 +129,7 @@ const StabilityAxis& stability_axis(const std::string& name) {
         if (axis.name == name) return axis;
         known += (known.empty() ? "" : ", ") + axis.name;
     }
-    throw InputError("unknown axis \"" + name + "\": must be one of " + known);
+    throw InputError("--axis = " + quoted(name) + ": must be one of " + known);
 }
 
 }  // namespace natator::bench

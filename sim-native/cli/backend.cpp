@@ -28,7 +28,7 @@ void add_gpu_options(CLI::App* command, BackendChoice& choice) {
 
 void refuse_gpu_options_for_cpu(const BackendChoice& choice) {
     if (choice.name != "cpu" || (choice.device == 0 && !choice.whole_gpu)) return;
-    throw InputError((choice.whole_gpu ? std::string("--whole-gpu") : "--device " + std::to_string(choice.device)) +
+    throw InputError((choice.whole_gpu ? std::string("--whole-gpu") : "--device = " + std::to_string(choice.device)) +
                      ": the backend is cpu; must be left out, or beside --backend cuda or auto");
 }
 

@@ -259,7 +259,7 @@ void refuse_cases_left_out(const WaterStudy& study) {
     const bool conserving = std::ranges::any_of(study.settings, [](const Setting& one) { return one.scheme == Scheme::conserving; });
     for (const WaterCase& one : water_cases())
         if (one.held && !(study.held && conserving) && std::ranges::count(study.cases, one.name) > 0)
-            throw InputError("--case " + one.name + ": runs in scheme conserving only, and not by --quick; must be left out");
+            throw InputError("--case = " + one.name + ": runs in scheme conserving only, and not by --quick; must be left out");
 }
 
 void add_water(CLI::App* bench, int& status) {
@@ -416,7 +416,7 @@ void add_stages(CLI::App* bench, int& status) {
         study.schemes = common.chosen_schemes();
         study.quick = common.quick;
         if (common.chosen_precisions() != std::vector{Precision::single_precision})
-            throw InputError("bench stages: --precision: must be float");
+            throw InputError("--precision = double: must be float");
         ResultTable table(common.output, stage_cost_columns(), stage_cost_key_columns);
         run_stage_cost_study(study, table, report);
         finish(common, table);
@@ -444,7 +444,7 @@ void add_roofline(CLI::App* bench, int& status) {
         const Common& common = options->common;
         if (on_gpu(options->backend, {})) {
             if (std::ranges::count(common.schemes, "conserving") == 0)
-                throw InputError("bench roofline: --scheme: must be conserving on a GPU");
+                throw InputError("--scheme = flex: must be conserving on a GPU");
             ResultTable table(common.output, gpu_roofline_columns(), gpu_roofline_key_columns);
             run_gpu_roofline_study({.device = options->backend.device, .quick = common.quick}, table, report);
             finish(common, table);

@@ -22,6 +22,7 @@
 #include "natator/version.h"
 #include "options.h"
 #include "run_record.h"
+#include "scene/field.h"
 #include "scene/merge_patches.h"
 #include "scene/scene_json.h"
 
@@ -95,7 +96,7 @@ const LevelRuns* find_level(const std::vector<LevelRuns>& levels, const std::str
 
 std::vector<LevelRuns> read_levels(json request, const ConvergeOptions& options) {
     const std::string document = request_name(options.request);
-    if (!request.is_object()) throw InputError(document + ": must be an object");
+    if (!request.is_object()) fields::refuse({document, ""}, request, "an object");
     if (request.contains("start")) throw InputError(document + ": start: must not be given, converge has starts of its own");
     std::vector<LevelRuns> levels{read_level(Level::named("base"), request, options)};
     Perturbation perturbation = levels.front().job.request.perturbation;

@@ -7,6 +7,7 @@
 #include "io/whole_file.h"
 #include "natator/error.h"
 #include "options.h"
+#include "scene/field.h"
 
 namespace natator::cli {
 namespace {
@@ -27,7 +28,7 @@ std::string experiment_name(const std::string& file, const nlohmann::json& exper
 
 void run_particles(const ParticlesOptions& options, int& status) {
     const nlohmann::json experiments = read_json_file(options.file);
-    if (!experiments.is_array()) throw InputError(options.file + ": is not an array of experiments");
+    if (!experiments.is_array()) fields::refuse({options.file, ""}, experiments, "an array of experiments");
     const Precision precision =
         options.precision == "double" ? Precision::double_precision : Precision::single_precision;
     refuse_gpu_options_for_cpu({.name = options.backend, .device = options.device});

@@ -42,7 +42,7 @@ bool run_on_gpu(const RunOptions& options, const Scene& scene) {
     refuse_gpu_options_for_cpu(options.backend);
     if (options.trajectory.empty() && options.snapshot.empty()) return on_gpu(options.backend, scene);
     if (options.backend.name == "cuda")
-        throw InputError("--backend cuda: records no --trajectory and no --snapshot; must be cpu or auto with them");
+        throw InputError("--backend = cuda: records no --trajectory and no --snapshot; must be cpu or auto with them");
     return false;
 }
 
@@ -63,8 +63,8 @@ Gait load_gait(const RunOptions& options, int actuators) {
 /// Within the limits of a request's.
 Perturbation read_perturbation(const RunOptions& options) {
     const json seed = json::parse(options.perturbation_seed, nullptr, false);
-    return {read_perturbation_amplitude(options.perturbation, {"--perturbation", ""}),
-            read_perturbation_seed(seed.is_discarded() ? json(options.perturbation_seed) : seed, {"--perturbation-seed", ""})};
+    return {read_perturbation_amplitude(options.perturbation, {"", "--perturbation"}),
+            read_perturbation_seed(seed.is_discarded() ? json(options.perturbation_seed) : seed, {"", "--perturbation-seed"})};
 }
 
 /// Says before anything is computed that a file can't be written. It is opened when there is something to write: what is
@@ -87,7 +87,7 @@ void check_outputs(const RunOptions& options) {
     if (!options.snapshot.empty()) require_writable(options.snapshot);
     if (options.trajectory.empty() || options.snapshot.empty()) return;
     if (std::filesystem::weakly_canonical(options.trajectory) == std::filesystem::weakly_canonical(options.snapshot))
-        throw InputError("--snapshot " + quoted(options.snapshot) + ": must be another file than that of --trajectory");
+        throw InputError("--snapshot = " + quoted(options.snapshot) + ": must be another file than that of --trajectory");
 }
 
 std::string swimming_line(const SwimmingNumbers& numbers) {
@@ -175,8 +175,7 @@ int run_scene(RunOptions& options) {
     if (!options.snapshot.empty()) {
         snapshot.at = options.snapshot_at.value_or(scene.duration);
         if (snapshot.at > scene.duration) {
-            throw InputError("--at " + json(snapshot.at).dump() + ": must be at most the duration, " +
-                             json(scene.duration).dump() + " s");
+            throw InputError("--at = " + number_text(snapshot.at) + ": must be at most the duration, " + number_text(scene.duration) + " s");
         }
         snapshot.take = [&](const Model& model, const Snapshot& taken) {
             snapshot_taken = true;
@@ -200,8 +199,8 @@ int run_scene(RunOptions& options) {
     if (snapshot_failure) std::rethrow_exception(snapshot_failure);
     if (result.instability) return unstable;
     if (snapshot.take && !snapshot_taken) {
-        throw std::runtime_error("no snapshot: the run ended at " + json(result.simulated).dump() + " s, before --at " +
-                                 json(snapshot.at).dump());
+        throw std::runtime_error("no snapshot: the run ended at " + number_text(result.simulated) + " s, before --at " +
+                                 number_text(snapshot.at));
     }
     return ok;
 }

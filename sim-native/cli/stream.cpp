@@ -60,7 +60,7 @@ void run_stream(StreamOptions& options) {
 
 int stream_scene(StreamOptions& options) {
     if (!stream::is_rate(options.settings.rate))
-        throw InputError("--rate " + shown(options.settings.rate) +
+        throw InputError("--rate = " + number_text(options.settings.rate) +
                          ": must be 0 or a number in [0.001, 1000]");
     options.settings.fields = read_fields(options.fields);
     options.precision == "double" ? run_stream<double>(options) : run_stream<float>(options);

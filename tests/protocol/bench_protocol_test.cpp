@@ -84,14 +84,16 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"water", "--scheme", "flex", "flex"}, "--scheme: flex is given twice; must be given once"},
         {{"water", "--case", "vortex", "--case", "vortex"}, "--case: vortex is given twice"},
         {{"water", "--case", "towed-sphere", "--scheme", "flex"},
-         "--case towed-sphere: runs in scheme conserving only, and not by --quick; must be left out"},
-        {{"water", "--quick", "--case", "vortex", "towed-sphere"}, "--case towed-sphere: runs in scheme conserving only"},
+         "--case = towed-sphere: runs in scheme conserving only, and not by --quick; must be left out"},
+        {{"water", "--quick", "--case", "vortex", "towed-sphere"}, "--case = towed-sphere: runs in scheme conserving only"},
         {{"water", "--support", "nan"}, "--support = nan: must be a number in [2, 4]; see "},
         {{"water", "--support", "two"}, "--support = two: must be a number in [2, 4]; see "},
         {{"water", "--resolution", "20", "7"}, "--resolution = 7: must be a whole number in [8, 200]; see "},
         {{"speed", "--batch", "two"}, "--batch = two: must be a whole number in [1, 1048576]; see "},
         {{"stability", "--scheme", "fles"}, "--scheme = fles: must be flex or conserving; see "},
-        {{"water", "--device", "1"}, "--device 1: the backend is cpu; must be left out, or beside --backend cuda or auto"},
+        {{"water", "--device", "1"}, "--device = 1: the backend is cpu; must be left out, or beside --backend cuda or auto"},
+        {{"stages", "--precision", "double"}, "--precision = double: must be float"},
+        {{"stability", "--axis", "dr"}, "--axis = \"dr\": must be one of "},
         {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
         {{"wtaer"}, "unknown command wtaer; did you mean water?; see "},
         {{"validation", "--part", "tank", "--setting", "4x4", "4x4"}, "--setting: 4x4 is given twice"},
@@ -119,7 +121,7 @@ TEST(BenchProtocolTest, ValidationRefusesWhatIsNoSetting) {
     for (const char* setting : {"8", "8x", "x4", "0x4", "8x4x2", "8,4", "-1x4", "8x1001", "fine"}) {
         const Outcome outcome = run_simulator({"bench", "validation", "--part", "tank", "--setting", setting});
         EXPECT_EQ(outcome.exit_code, 2) << setting;
-        EXPECT_NE(outcome.err.find("SUBSTEPSxITERATIONS"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("--setting = \"" + std::string(setting) + "\": must be SUBSTEPSxITERATIONS"), std::string::npos) << outcome.err;
         EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
     }
 }

@@ -142,7 +142,7 @@ TEST(EvaluateProtocolTest, OptionsOfGpusAreRefusedOnTheCpu) {
     json asked = request("thesis/creature-1-vacuum", 0.1);
     const Outcome refused = run_simulator({"evaluate", "--device", "1023"}, asked.dump());
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_EQ(refused.err, "natator-sim: --device 1023: the backend is cpu; must be left out, or beside --backend cuda or auto\n");
+    EXPECT_EQ(refused.err, "natator-sim: --device = 1023: the backend is cpu; must be left out, or beside --backend cuda or auto\n");
     EXPECT_EQ(json::parse(refused.out)["status"], "error");
     asked["backend"] = "cuda";
     EXPECT_EQ(run_simulator({"evaluate", "--device", "1023"}, asked.dump()).exit_code, 4);

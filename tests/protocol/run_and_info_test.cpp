@@ -225,7 +225,7 @@ TEST(RunTest, ASnapshotThatNeverComesIsSaid) {
     const TemporaryPath file("-snapshot.csv");
     const Outcome late = run_simulator({"run", "thesis/creature-1-vacuum", "--snapshot", file.path, "--at", "5"});
     EXPECT_EQ(late.exit_code, 2);
-    EXPECT_NE(late.err.find("--at 5"), std::string::npos) << late.err;
+    EXPECT_NE(late.err.find("--at = 5"), std::string::npos) << late.err;
     const Outcome early = run_simulator({"run", "thesis/creature-1", "--snapshot", file.path, "--at", "3",
                                          "--overrides", R"({"stopping":{"noProgressAfter":0.05}})"});
     EXPECT_EQ(early.exit_code, 1);
@@ -455,8 +455,33 @@ TEST(ParticlesTest, WhatCostsTooMuchIsRefused) {
                        {"frames", {{{"frame", 1}, {"substeps_trace", true}}}}})
                   .find("NATATOR_MOST_MEMORY"),
               std::string::npos);
-    EXPECT_NE(refusal({{"params", {{"fluidRestDistance", 1e-9}}}}).find("params.fluidRestDistance is 1e-09"),
+    EXPECT_NE(refusal({{"params", {{"fluidRestDistance", 1e-9}}}}).find("params.fluidRestDistance = 1e-09: must be"),
               std::string::npos);
+}
+
+TEST(ParticlesTest, WhatCannotBeUsedIsRefusedInTheWordsOfScenes) {
+    const TemporaryPath file("bad.json");
+    const std::pair<const char*, const char*> bad[] = {
+        {R"({})", "value = {}: must be an array of experiments"},
+        {R"([5])", "[0]: value = 5: must be an object"},
+        {R"([{"dt":0.01}])", "[0]: substeps: missing; must be given, a number of substeps"},
+        {R"([{"dt":0}])", "[0]: dt = 0: must be a time above 0"},
+        {R"([{"dt":1,"substeps":1,"pos":[[0,1,"a"]]}])", "[0]: pos[0][2] = \"a\": must be a finite number"},
+        {R"([{"dt":1,"substeps":1,"pos":[],"vel":[[0,0,0]]}])", "[0]: vel has length 1: must have length 0"},
+        {R"([{"dt":1,"substeps":1,"pos":[],"vel":[],"invm":[],"phase":[],"params":{"radius":1,"raduis":1}}])",
+         "[0]: params.raduis: unknown key (= 1)"},
+        {R"([{"dt":1,"substeps":1,"pos":[],"vel":[],"invm":[],"phase":[],"params":{"radius":1},"springs":5}])",
+         "[0]: springs = 5: must be an object"},
+        {R"([{"dt":1,"substeps":1,"pos":[],"vel":[],"invm":[],"phase":[],"params":{"radius":1},"rigids":{}}])",
+         "[0]: rigids.clusters: missing; must be given, lists of particles"},
+    };
+    for (const auto& [experiments, message] : bad) {
+        std::ofstream(file.path) << experiments;
+        const Outcome outcome = run_simulator({"particles", file.path});
+        EXPECT_EQ(outcome.exit_code, 2) << experiments;
+        EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+        EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+    }
 }
 
 /// A body without two joints has no muscle: who runs it is told so.

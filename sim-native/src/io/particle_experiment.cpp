@@ -17,11 +17,15 @@ using nlohmann::json;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& field, const json& value,
                          const std::string& allowed) {
-    throw InputError(where + ": " + field + " is " + shown(value) + ", expected " + allowed);
+    throw InputError(where + ": " + field + " = " + shown(value) + ": must be " + allowed);
 }
 
-const json& member(const json& object, const char* key, const std::string& where, const char* allowed) {
-    if (!object.contains(key)) throw InputError(where + ": " + key + " is missing, expected " + allowed);
+/// What an experiment, or the part of it that `path` begins with ("springs.idx"), has there; it must have it.
+const json& member(const json& object, const std::string& path, const std::string& where, const char* allowed) {
+    const std::size_t dot = path.find('.');
+    const std::string key = dot == std::string::npos ? path : path.substr(dot + 1);
+    if (!object.is_object()) refuse(where, dot == std::string::npos ? "value" : path.substr(0, dot), object, "an object");
+    if (!object.contains(key)) throw InputError(where + ": " + path + ": missing; must be given, " + allowed);
     return object.at(key);
 }
 
@@ -42,7 +46,7 @@ std::vector<T> rows(const json& value, const std::string& where, const std::stri
                     const std::function<T(const json&, const std::string&)>& read) {
     if (!value.is_array()) refuse(where, field, value, "an array");
     if (count >= 0 && value.size() != static_cast<std::size_t>(count))
-        throw InputError(where + ": " + field + " has " + std::to_string(value.size()) + " entries, expected " +
+        throw InputError(where + ": " + field + " has length " + std::to_string(value.size()) + ": must have length " +
                          std::to_string(count));
     std::vector<T> result;
     for (std::size_t i = 0; i < value.size(); ++i)
@@ -58,7 +62,7 @@ struct Reader {
         if (!value.is_array() || value.size() != static_cast<std::size_t>(size))
             refuse(where, field, value, "an array of " + std::to_string(size) + " numbers");
         Eigen::VectorXd result(size);
-        for (int k = 0; k < size; ++k) result[k] = number(value[k], where, field);
+        for (int k = 0; k < size; ++k) result[k] = number(value[k], where, field + "[" + std::to_string(k) + "]");
         return result;
     }
     std::vector<Eigen::Vector3d> points(const json& value, const std::string& field, long count) const {
@@ -144,7 +148,7 @@ void read_parameters(const json& params, const Reader& read, Model& model) {
         else if (key == "relaxationMode")
             p.relaxationMode = static_cast<RelaxationMode>(integer(value, read.where, field, 0, 1));
         else
-            refuse(read.where, field, value, "no such parameter");
+            throw InputError(read.where + ": " + field + ": unknown key (= " + shown(value) + ")");
     }
     if (!(p.radius > 0)) refuse(read.where, "params.radius", p.radius, "a length above 0");
     if (p.fluidRestDistance > 0 && p.radius > limits::radius_ratio * p.fluidRestDistance)
@@ -154,22 +158,22 @@ void read_parameters(const json& params, const Reader& read, Model& model) {
 
 void read_springs(const json& springs, const Reader& read, Model& model) {
     const auto pairs = rows<std::vector<int>>(
-        member(springs, "idx", read.where, "pairs of particles"), read.where, "springs.idx", -1,
+        member(springs, "springs.idx", read.where, "pairs of particles"), read.where, "springs.idx", -1,
         [&](const json& row, const std::string& field) { return read.indices(row, field, 2, model.particles() - 1); });
     const long count = static_cast<long>(pairs.size());
-    const auto lengths = read.numbers(member(springs, "l0", read.where, "rest lengths"), "springs.l0", count);
-    const auto stiffnesses = read.numbers(member(springs, "k", read.where, "stiffnesses"), "springs.k", count);
+    const auto lengths = read.numbers(member(springs, "springs.l0", read.where, "rest lengths"), "springs.l0", count);
+    const auto stiffnesses = read.numbers(member(springs, "springs.k", read.where, "stiffnesses"), "springs.k", count);
     for (long s = 0; s < count; ++s) model.springs.push_back({pairs[s][0], pairs[s][1], lengths[s], stiffnesses[s]});
 }
 
 void read_clusters(const json& rigids, const Reader& read, Model& model) {
     const auto members = rows<std::vector<int>>(
-        member(rigids, "clusters", read.where, "lists of particles"), read.where, "rigids.clusters", -1,
+        member(rigids, "rigids.clusters", read.where, "lists of particles"), read.where, "rigids.clusters", -1,
         [&](const json& row, const std::string& field) { return read.indices(row, field, -1, model.particles() - 1); });
     const long count = static_cast<long>(members.size());
-    const auto rest = read.points(member(rigids, "rest", read.where, "a rest position per particle"), "rigids.rest",
+    const auto rest = read.points(member(rigids, "rigids.rest", read.where, "a rest position per particle"), "rigids.rest",
                                   model.particles());
-    const json& given = member(rigids, "stiff", read.where, "a stiffness per cluster");
+    const json& given = member(rigids, "rigids.stiff", read.where, "a stiffness per cluster");
     auto stiffness = read.numbers(given, "rigids.stiff", given.is_array() && given.size() == 1 ? 1 : count);
     stiffness.resize(members.size(), stiffness.empty() ? 0 : stiffness.front());
     for (long c = 0; c < count; ++c) {
@@ -192,7 +196,6 @@ void read_clusters(const json& rigids, const Reader& read, Model& model) {
 }  // namespace
 
 ParticleExperiment read_particle_experiment(const json& source, const std::string& where) {
-    if (!source.is_object()) throw InputError(where + ": is " + shown(source) + ", expected an object");
     const Reader read{where};
     ParticleExperiment experiment;
     Model& model = experiment.model;

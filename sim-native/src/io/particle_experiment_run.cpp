@@ -1,6 +1,7 @@
 #include <charconv>
 #include <string>
 
+#include "io/strict_json.h"
 #include "natator/cost.h"
 #include "natator/error.h"
 #include "natator/gpu_solver.h"
@@ -116,11 +117,11 @@ void check_experiment_cost(const ParticleExperiment& experiment, const json& ask
 json asked_frames(const json& experiment, const std::string& where) {
     json frames = experiment.value("frames", json::array({{{"frame", 1}}}));
     long last = 0;
-    if (!frames.is_array()) throw InputError(where + ": frames is not an array of objects with a frame number");
+    if (!frames.is_array()) throw InputError(where + ": frames = " + shown(frames) + ": must be an array of objects with a frame number");
     for (const json& frame : frames) {
         if (!frame.is_object() || !frame.contains("frame") || !frame["frame"].is_number_integer() ||
             frame["frame"].get<long>() <= last)
-            throw InputError(where + ": frames must be objects whose frame numbers are 1 or more and increase");
+            throw InputError(where + ": frames = " + shown(frames) + ": must be objects whose frame numbers are 1 or more and increase");
         last = frame["frame"];
     }
     return frames;

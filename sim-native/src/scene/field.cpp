@@ -41,6 +41,8 @@ std::size_t most_edits(std::string_view a, std::string_view b) {
     return letters >= 5 ? 2 : letters >= 3 ? 1 : 0;
 }
 
+std::string document_of(const Place& place) { return place.document.empty() ? "" : place.document + ": "; }
+
 template <class Vector>
 void read_vector(const json& value, const Place& place, const Range& range, Vector& out) {
     if (!value.is_array() || value.size() != 3) refuse(place, value, "an array of 3 numbers, each " + range.text());
@@ -75,11 +77,11 @@ Place Place::item(std::size_t index) const {
 
 void refuse(const Place& place, const json& value, const std::string& must_be) {
     const std::string path = place.path.empty() ? "value" : place.path;
-    throw InputError(place.document + ": " + path + " = " + shown(value) + ": must be " + must_be);
+    throw InputError(document_of(place) + path + " = " + shown(value) + ": must be " + must_be);
 }
 
 void refuse(const Place& place, const std::string& what) {
-    throw InputError(place.document + ": " + (place.path.empty() ? "" : place.path + ": ") + what);
+    throw InputError(document_of(place) + (place.path.empty() ? "" : place.path + ": ") + what);
 }
 
 std::string Range::text() const {

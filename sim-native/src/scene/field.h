@@ -13,7 +13,7 @@ namespace natator::fields {
 
 using nlohmann::json;
 
-/// Where a value stands, for messages: which document, and the path in it (`solver.gravity[1]`).
+/// Where a value stands, for messages: which document, and the path in it (`solver.gravity[1]`); an option is in none.
 struct Place {
     std::string document;
     std::string path;

@@ -6,6 +6,7 @@
 
 #include "conserving/water_kernels.h"
 #include "fluid_kernels.h"
+#include "io/strict_json.h"
 #include "motion_kernels.h"
 #include "natator/error.h"
 #include "neighbour_kernels.h"
@@ -35,16 +36,18 @@ namespace {
 
 constexpr std::array best_first{InstructionSet::avx512, InstructionSet::avx2, InstructionSet::portable};
 
+[[noreturn]] void refuse(const char* wanted, const std::string& must_be) {
+    throw InputError("environment: NATATOR_ISA = " + quoted(wanted) + ": must be " + must_be);
+}
+
 InstructionSet choose() {
     const char* wanted = std::getenv("NATATOR_ISA");
     for (const InstructionSet set : best_first) {
         if (wanted ? std::string(wanted) != to_string(set) : !available(set)) continue;
         if (available(set)) return set;
-        throw InputError(std::string("environment variable NATATOR_ISA: ") + wanted +
-                         " is not available on this machine");
+        refuse(wanted, "one that this machine has");
     }
-    throw InputError(std::string("environment variable NATATOR_ISA: ") + wanted +
-                     " is unknown, expected portable, avx2 or avx512");
+    refuse(wanted, "portable, avx2 or avx512");
 }
 
 }  // namespace
