@@ -31,15 +31,14 @@ CLI::Validator within(double low, double high, const std::string& must_be, const
     return in_words(CLI::Validator(check, type), must_be);
 }
 
-/// "a, b or c".
+}  // namespace
+
 std::string any_of(const std::vector<std::string>& words) {
     std::string list;
     for (std::size_t i = 0; i < words.size(); ++i)
         list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
     return list;
 }
-
-}  // namespace
 
 void refuse_empty_values(CLI::App& app) {
     for (CLI::Option* option : app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 0; }))

@@ -6,6 +6,9 @@
 
 namespace natator::cli {
 
+/// "a, b or c".
+std::string any_of(const std::vector<std::string>& words);
+
 /// Makes an empty value of any option of any command refused: most come from a variable of a shell that is not set.
 void refuse_empty_values(CLI::App& app);
 

@@ -43,6 +43,26 @@ std::string fault_of_check(const CLI::ValidationError& error) {
     return text;
 }
 
+std::vector<std::string> command_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; })) names.push_back(one->get_name());
+    return names;
+}
+
+/// "--option: At Most 1 required but received 2" or "--option: 1 required TEXT missing" in the parser's words.
+std::string fault_of_number(const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    return text.substr(0, text.find(':')) + (text.find("received") != std::string::npos ? ": is given more than once; must be given once"
+                                                                                        : ": has no value; must have one");
+}
+
+/// "option is required" in the parser's words, "A subcommand is required" where there is no command.
+std::string fault_of_missing(const CLI::App& command, const CLI::RequiredError& error) {
+    if (command.get_require_subcommand_min() > 0) return "command: missing; must be " + any_of(command_names(command));
+    const std::string text = error.what();
+    return text.substr(0, text.find(" is required")) + ": missing; must be given";
+}
+
 /// What is wrong with a command line. The parser alone does not name a command that it does not know, names options
 /// together with their values, and does not say what a value must be.
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
@@ -51,15 +71,17 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     if (const auto* const conversion = dynamic_cast<const CLI::ConversionError*>(&error))
         return fault_of_value(*command, *conversion);
     if (const auto* const check = dynamic_cast<const CLI::ValidationError*>(&error)) return fault_of_check(*check);
+    if (const auto* const number = dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return fault_of_number(*number);
     const std::vector<std::string> left_over = app.remaining(true);
+    const auto* const missing = dynamic_cast<const CLI::RequiredError*>(&error);
+    if (missing && left_over.empty()) return fault_of_missing(*command, *missing);
     if (left_over.empty()) return error.what();
-    if (command->get_require_subcommand_min() > 0) {
-        std::vector<std::string> names;
-        for (const CLI::App* one : command->get_subcommands([](const CLI::App*) { return true; }))
-            names.push_back(one->get_name());
-        return "unknown command " + left_over.front() + fields::did_you_mean(left_over.front(), {names.begin(), names.end()});
+    if (command->get_require_subcommand_min() > 0 && !left_over.front().starts_with('-')) {
+        const std::string& word = left_over.front();
+        const std::vector<std::string> names = command_names(*command);
+        return "unknown command " + (word.empty() ? "\"\"" : word) + fields::did_you_mean(word, {names.begin(), names.end()});
     }
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+    if (!missing && dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
     const auto option = std::find_if(left_over.begin(), left_over.end(), [](const auto& word) { return word.starts_with('-'); });
     if (option == left_over.end()) return "unexpected argument " + left_over.front();
     std::vector<std::string> names;

@@ -23,6 +23,13 @@ const char* const is_empty = ": the value is empty; must be left out or have one
 const BadValue bad_values[] = {
     {{"rnu", vacuum_scene}, "unknown command rnu; did you mean run?"},
     {{"qqqqq"}, "unknown command qqqqq; see "},
+    {{""}, "unknown command \"\"; see "},
+    {{}, "command: missing; must be "},
+    {{"--vesion"}, "unknown option --vesion; did you mean --version?"},
+    {{"run"}, "scene: missing; must be given; see "},
+    {{"run", "--duraton"}, "unknown option --duraton; did you mean --duration?"},
+    {{"run", vacuum_scene, "--duration"}, "--duration: has no value; must have one; see "},
+    {{"run", vacuum_scene, "--duration", "1", "--duration", "2"}, "--duration: is given more than once; must be given once; see "},
     {{"run", vacuum_scene, "--duration", "abc"}, "--duration = abc: must be a number; see "},
     {{"run", vacuum_scene, "--threads", "two"}, "--threads = two: must be a whole number in [1, 1024]; see "},
     {{"run", vacuum_scene, "--threads", "1025"}, "--threads = 1025: must be a whole number in [1, 1024]; see "},
