@@ -1,6 +1,10 @@
 #include "program.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -90,6 +94,13 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
     return "unknown option " + *option + fields::did_you_mean(*option, {names.begin(), names.end()});
 }
 
+/// Keeps the numbers of standard streams that are closed: else what is opened next has one, and is read or written for it. Reading
+/// and writing them fails as before.
+void hold_closed_streams() {
+    for (const auto& [stream, mode] : {std::pair(STDIN_FILENO, O_WRONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
+        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) ::open("/dev/null", mode);  // has the lowest number that is free
+}
+
 }  // namespace
 
 int run_program(CLI::App& app, const int& status, int argc, char** argv) {
@@ -112,6 +123,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
 }
 
 int complaining(const std::string& program, const std::function<int()>& work) {
+    hold_closed_streams();
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print, not a death
     try {
         return work();

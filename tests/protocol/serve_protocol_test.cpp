@@ -114,6 +114,13 @@ TEST(ServeProtocolTest, TheLastLineNeedsNoEnd) {
     EXPECT_EQ(nothing.out, "");
 }
 
+/// Nothing that the program opens is taken for it: that was awaited for ever.
+TEST(ServeProtocolTest, AClosedInputHasNoRequests) {
+    const Outcome outcome = run_limited("exec <&-", {"serve"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
 TEST(ServeProtocolTest, AnsweringIntoAFullDiskIsAFailure) {
     EXPECT_EQ(run_simulator({"serve"}, request(1), "/dev/full").exit_code, 1);
 }
