@@ -102,8 +102,10 @@ Request parse_request(const json& value, const std::string& document) {
         request.overrides = value.at("overrides");
         if (!request.overrides.is_object()) fields::refuse(place.key("overrides"), request.overrides, "an object");
     }
-    for (const char* key : {"duration", "scheme"}) {
-        if (value.contains(key)) request.overrides[key] = value.at(key);
+    for (const auto& [key, must_be] : {std::pair("duration", "a number"), std::pair("scheme", R"("flex" or "conserving")")}) {
+        if (!value.contains(key)) continue;
+        if (value.at(key).is_null()) fields::refuse(place.key(key), value.at(key), must_be);  // it would erase the scene's own
+        request.overrides[key] = value.at(key);
     }
     if (value.contains("backend")) {
         request.backend = fields::read_choice<std::string>(value.at("backend"), place.key("backend"),
