@@ -7,6 +7,7 @@
 #include "evaluate/swim_record.h"
 #include "io/protocol.h"
 #include "io/strict_json.h"
+#include "json_argument.h"
 #include "natator/batch.h"
 #include "natator/error.h"
 #include "natator/evaluate.h"
@@ -170,7 +171,7 @@ void run_info(const InfoOptions& options) {
     if (options.scene.empty() && options.definition) throw InputError("--definition: needs a scene");
     if (options.scene.empty() && options.gait_template) throw InputError("--gait-template: needs a scene");
     const auto overrides =
-        options.overrides.empty() ? nlohmann::json::object() : parse_json(options.overrides, "--overrides");
+        options.overrides.empty() ? nlohmann::json::object() : read_json_argument(options.overrides, "--overrides");
     if (options.definition) {
         load_scene(options.scene, overrides);  // refuses what is wrong
         print(scene_definition(options.scene, overrides).dump(options.json ? -1 : 2) + "\n");
@@ -200,7 +201,7 @@ void add_info(CLI::App& app, int& status) {
         ->add_flag("--gait-template", options->gait_template,
                    "Write a gait to begin with for the scene's muscles, a wave from head to tail; for run and evaluate.")
         ->excludes(definition);
-    command->add_option("--overrides", options->overrides, "JSON text merged into the scene (RFC 7386).");
+    command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
     command->callback([options, &status] {
         run_info(*options);
         status = ok;

@@ -75,6 +75,19 @@ TEST(InfoTest, SaysWhatIsFittedToTheWater) {
     EXPECT_EQ(fitted.at("madeHeavier"), fitted.at("bodyParticles"));
 }
 
+TEST(InfoTest, OverridesCanComeFromAFile) {
+    const TemporaryPath file("overrides.json");
+    std::ofstream(file.path) << R"({"duration":3})";
+    EXPECT_EQ(json::parse(run_simulator({"info", "pool/eel", "--json", "--overrides", file.path}).out).at("duration"), 3);
+}
+
+TEST(InfoTest, ReadsTheInstructionSetFromTheEnvironment) {
+    EXPECT_EQ(run_limited("export NATATOR_ISA=", {"info"}).exit_code, 0);
+    const Outcome refused = run_limited("export NATATOR_ISA=sse", {"info"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err, "natator-sim: environment: NATATOR_ISA = \"sse\": must be portable, avx2 or avx512\n");
+}
+
 TEST(InfoTest, TellsOfAxesThatHaveNoEnds) {
     const Outcome outcome = run_simulator({"info", "open-water/periodic", "--json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -5,8 +5,8 @@ namespace natator {
 /// Vector instruction set the hot kernels are run with. The same set gives the same bits on any machine.
 enum class InstructionSet { portable, avx2, avx512 };
 
-/// The best set this machine has, unless the environment variable NATATOR_ISA names another one (portable, avx2,
-/// avx512). Throws InputError when it names none or one that this machine lacks.
+/// The best set this machine has, unless the environment variable NATATOR_ISA, set and not empty, names another one
+/// (portable, avx2, avx512). Throws InputError when it names none or one that this machine lacks.
 InstructionSet instruction_set();
 
 /// Whether this machine and this build have it.

@@ -42,6 +42,7 @@ constexpr std::array best_first{InstructionSet::avx512, InstructionSet::avx2, In
 
 InstructionSet choose() {
     const char* wanted = std::getenv("NATATOR_ISA");
+    if (wanted && *wanted == '\0') wanted = nullptr;
     for (const InstructionSet set : best_first) {
         if (wanted ? std::string(wanted) != to_string(set) : !available(set)) continue;
         if (available(set)) return set;
