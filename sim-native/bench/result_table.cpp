@@ -1,12 +1,15 @@
 #include "result_table.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
+#include "io/strict_json.h"
 #include "natator/error.h"
 
 namespace natator::bench {
@@ -27,6 +30,10 @@ Row split(const std::string& line) {
     return row;
 }
 
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+    throw InputError("file " + natator::quoted(path) + ": " + what + "; must be a table of this study, or a new name");
+}
+
 }  // namespace
 
 ResultTable::ResultTable(const std::string& path, Row columns, std::size_t key_columns)
@@ -36,7 +43,7 @@ ResultTable::ResultTable(const std::string& path, Row columns, std::size_t key_c
     if (whole_lines > 0) std::filesystem::resize_file(path, whole_lines);
     file_.open(path, whole_lines > 0 ? std::ios::app : std::ios::trunc);
     if (whole_lines == 0) file_ << text() << std::flush;
-    if (!file_) throw std::runtime_error(path + ": can't be written");
+    if (!file_) throw std::runtime_error("file " + natator::quoted(path) + ": cannot be written: " + std::generic_category().message(errno));
 }
 
 ResultTable::~ResultTable() {
@@ -52,11 +59,11 @@ std::uintmax_t ResultTable::take_over(const std::string& path) {
     if (!file || !std::getline(file, line)) return 0;
     const std::string columns = line_of(columns_);
     if (file.eof() && columns.starts_with(line)) return 0;
-    if (file.eof() || line + "\n" != columns) throw InputError(path + ": holds other columns than this study writes");
+    if (file.eof() || line + "\n" != columns) refuse(path, "holds other columns than this study writes");
     std::uintmax_t whole_lines = line.size() + 1;
     while (std::getline(file, line) && !file.eof()) {
         const Row row = split(line);
-        if (row.size() != columns_.size()) throw InputError(path + ": a row has another number of fields: " + line);
+        if (row.size() != columns_.size()) refuse(path, "a row has another number of fields: " + line);
         keep(row);
         whole_lines += line.size() + 1;
     }
@@ -74,7 +81,7 @@ void ResultTable::add(const Row& row) {
     keep(row);
     if (path_.empty()) return;
     file_ << line_of(row) << std::flush;
-    if (!file_) throw std::runtime_error(path_ + ": can't be written");
+    if (!file_) throw std::runtime_error("file " + natator::quoted(path_) + ": cannot be written");
 }
 
 std::string ResultTable::text() const {
@@ -86,7 +93,7 @@ std::string ResultTable::text() const {
 void ResultTable::write(const std::string& path) const {
     std::ofstream file(path, std::ios::trunc);
     file << text() << std::flush;
-    if (!file) throw std::runtime_error(path + ": can't be written");
+    if (!file) throw std::runtime_error("file " + natator::quoted(path) + ": cannot be written");
 }
 
 std::string joined(const Row& row, const std::string& separator) {

@@ -7,6 +7,7 @@
 #include "io/whole_file.h"
 #include "natator/error.h"
 #include "options.h"
+#include "output_file.h"
 #include "scene/field.h"
 
 namespace natator::cli {
@@ -33,6 +34,7 @@ void run_particles(const ParticlesOptions& options, int& status) {
         options.precision == "double" ? Precision::double_precision : Precision::single_precision;
     refuse_gpu_options_for_cpu({.name = options.backend, .device = options.device});
     const std::optional<int> gpu = options.backend == "cuda" ? std::optional(options.device) : std::nullopt;
+    if (!options.output.empty()) require_writable(options.output);
     nlohmann::json results = nlohmann::json::array();
     for (std::size_t i = 0; i < experiments.size(); ++i) {
         const std::string name = experiment_name(options.file, experiments[i], i);
@@ -46,7 +48,7 @@ void run_particles(const ParticlesOptions& options, int& status) {
     }
     WholeFile file(options.output);
     file.stream() << results.dump() << '\n';
-    if (!file.finish()) throw std::runtime_error(options.output + ": can't be written");
+    if (!file.finish()) throw std::runtime_error("file " + natator::quoted(options.output) + ": cannot be written");
 }
 
 }  // namespace

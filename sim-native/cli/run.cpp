@@ -1,13 +1,9 @@
-#include <unistd.h>
-
-#include <cerrno>
 #include <chrono>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <sstream>
-#include <system_error>
 
 #include "commands.h"
 #include "io/protocol.h"
@@ -19,6 +15,7 @@
 #include "natator/snapshot.h"
 #include "natator/trajectory.h"
 #include "options.h"
+#include "output_file.h"
 #include "scene/scene_json.h"
 
 namespace natator::cli {
@@ -65,21 +62,6 @@ Perturbation read_perturbation(const RunOptions& options) {
     const json seed = json::parse(options.perturbation_seed, nullptr, false);
     return {read_perturbation_amplitude(options.perturbation, {"", "--perturbation"}),
             read_perturbation_seed(seed.is_discarded() ? json(options.perturbation_seed) : seed, {"", "--perturbation-seed"})};
-}
-
-/// Says before anything is computed that a file can't be written. It is opened when there is something to write: what is
-/// refused until then leaves it as it was.
-void require_writable(const std::string& path) {
-    namespace fs = std::filesystem;
-    std::error_code not_there;
-    const auto refuse = [&](const std::string& why) {
-        throw std::runtime_error("file " + quoted(path) + ": cannot be written: " + why);
-    };
-    const fs::path folder = fs::absolute(path).parent_path();
-    const bool exists = fs::exists(path, not_there);
-    if (!fs::is_directory(folder, not_there)) refuse("no such folder");
-    if (fs::is_directory(path, not_there)) refuse("is a folder");
-    if (::access(exists ? path.c_str() : folder.c_str(), W_OK) != 0) refuse(std::generic_category().message(errno));
 }
 
 void check_outputs(const RunOptions& options) {

@@ -59,8 +59,9 @@ void RunRecord::lock() {
     const bool exists = std::filesystem::exists(path_, failed);
     if (exists && !std::filesystem::is_regular_file(path_, failed)) refuse(path_, "is no regular file; must be one, or a new name");
     lock_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | (exists ? 0 : O_CREAT), 0666);
-    if (lock_ < 0 && exists) refuse(path_, "cannot be read");
-    if (lock_ < 0) throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written");
+    const std::string why = std::generic_category().message(errno);
+    if (lock_ < 0 && exists) refuse(path_, "cannot be read: " + why);
+    if (lock_ < 0) throw std::runtime_error("--output " + natator::quoted(path_) + ": cannot be written: " + why);
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)  // else a file system without locks
         refuse(path_, "is in use by another natator-sim converge");
 }

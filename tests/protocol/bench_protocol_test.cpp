@@ -109,6 +109,20 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
     }
 }
 
+TEST(BenchProtocolTest, AFileThatIsNoTableOfTheStudyIsLeftAsItIs) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path / "notes.csv").string();
+    std::ofstream(file) << "notes\n";
+    const Outcome outcome = run_simulator({"bench", "water", "--quick", "--output", file});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err, "natator-bench: file \"" + file +
+                               "\": holds other columns than this study writes; must be a table of this study, or a new name\n");
+    EXPECT_EQ(content(file), "notes\n");
+    const Outcome nowhere = run_simulator({"bench", "water", "--quick", "--output", "/no/such/folder/x.csv"});
+    EXPECT_EQ(nowhere.exit_code, 1);
+    EXPECT_EQ(nowhere.err, "natator-bench: file \"/no/such/folder/x.csv\": cannot be written: No such file or directory\n");
+}
+
 /// --quick chooses a resolution only where none is given.
 TEST(BenchProtocolTest, QuickWaterKeepsTheResolutionThatIsGiven) {
     const Outcome outcome = run_simulator({"bench", "water", "--quick", "--case", "tilted-gravity", "--scheme", "conserving",

@@ -472,6 +472,15 @@ TEST(ParticlesTest, WhatCostsTooMuchIsRefused) {
               std::string::npos);
 }
 
+/// It is told before anything is computed: what these experiments lack is found later.
+TEST(ParticlesTest, AFileThatCannotBeWrittenIsAFailure) {
+    const TemporaryPath file("dear.json");
+    std::ofstream(file.path) << R"([{"dt":0.01,"substeps":1,"pos":[],"vel":[],"invm":[],"phase":[],"params":{}}])";
+    const Outcome outcome = run_simulator({"particles", file.path, "--output", "/no/such/folder/x.json"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.err, "natator-sim: file \"/no/such/folder/x.json\": cannot be written: no such folder\n");
+}
+
 TEST(ParticlesTest, WhatCannotBeUsedIsRefusedInTheWordsOfScenes) {
     const TemporaryPath file("bad.json");
     const std::pair<const char*, const char*> bad[] = {
