@@ -1,8 +1,10 @@
 // What a program that uses the library relies on: the umbrella header alone, lifetimes, data without an environment.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <type_traits>
 
 #include "natator/natator.h"
@@ -78,6 +80,7 @@ TEST_F(LibraryTest, OverridesAreText) {
               0u);
     EXPECT_EQ(parse_scene(R"({"duration": 2, "fluid": {}})", "mine").duration, 2);
     EXPECT_THROW(parse_scene(R"({"duration": 0})", "mine"), InputError);
+    EXPECT_THROW(parse_scene(R"({"base": "my/base"})", "mine"), InputError);
 }
 
 TEST_F(LibraryTest, WithoutAGpuASolverOnItSaysSo) {
@@ -85,6 +88,68 @@ TEST_F(LibraryTest, WithoutAGpuASolverOnItSaysSo) {
     const Model model = build_model(load_scene("my/base", {.data = data_}));
     EXPECT_THROW(GpuSolver<float>{model}, NoDevice);
     EXPECT_THROW(evaluate_on_gpu(load_scene("my/base", {.data = data_}), {BatchMember{}}), NoDevice);
+}
+
+std::string message_of(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// A body of twelve slices with three joints.
+Scene own_scene() {
+    Scene scene;
+    scene.creature = Creature{.slices = std::vector<Slice>(12, Slice{.height = 3, .width = 3}), .joints = {3, 6, 9}};
+    return scene;
+}
+
+/// What a program makes no reader has checked: it would read beyond the ends of lists.
+TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
+    const std::pair<void (*)(Scene&), const char*> changes[] = {
+        {[](Scene&) {}, ""},
+        {[](Scene& scene) { scene.creature->joints = {3, 99}; }, "creature.joints[1] = 99: must be a slice in [4, 10]"},
+        {[](Scene& scene) { scene.creature->joints = {6, 3}; }, "creature.joints[1] = 3: must be a slice in [7, 10]"},
+        {[](Scene& scene) { scene.creature->muscle_slices = {-1, 5}; }, "creature.muscleSlices[0] = -1: must be"},
+        {[](Scene& scene) { scene.creature->slices.clear(); }, "creature.slices = 0: must be at least one slice"},
+        {[](Scene& scene) { scene.creature->slices[1].width = -1; }, "creature.slices[1].width = -1: must be at least 1"},
+        {[](Scene& scene) { scene.creature->slices[1].rows = {3}; }, "creature.slices[1].rows has length 1: must have length 3"},
+        {[](Scene& scene) { scene.creature->spring_stiffnesses = {1}; }, "creature.springStiffness has length 1: must have length 2"},
+        {[](Scene& scene) { scene.creature->refinement = 0; }, "creature.refinement = 0: must be at least 1"},
+        {[](Scene& scene) { scene.companions.push_back({Creature(), Gait()}); }, "companions[0].creature.slices = 0: must be"},
+        {[](Scene& scene) { scene.fluid = FluidBlock{.count = {-5, -5, 5}}; }, "fluid.count = -5: must be at least 1"},
+        {[](Scene& scene) { scene.fluid = FluidBlock{.spacing = 0}; }, "fluid.spacing = 0: must be a finite number above 0"},
+        {[](Scene& scene) { scene.solver.radius = NAN; }, "solver.radius = NaN: must be a finite number above 0"},
+        {[](Scene& scene) { scene.solver.substeps = 0; }, "solver.substeps = 0: must be at least 1"},
+    };
+    for (const auto& [change, expected] : changes) {
+        Scene scene = own_scene();
+        change(scene);
+        const std::string message = message_of([&] { build_model(scene); });
+        EXPECT_NE(message.find(expected), std::string::npos) << message;
+        EXPECT_EQ(message.empty(), *expected == '\0') << message << expected;
+    }
+}
+
+TEST(OwnSceneTest, ASolverRefusesAGaitADriveAndAStateOfAnotherModel) {
+    for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
+        Scene scene = own_scene();
+        scene.scheme = scheme;
+        const Model model = build_model(scene);
+        Solver<float> solver(model);
+        State<float> state = initial_state<float>(model);
+        EXPECT_EQ(message_of([&] { solver.frame(state, resting_gait(2)); }), "");
+        EXPECT_NE(message_of([&] { solver.frame(state, Gait{}); }).find("gait.amplitude has length 0: must have length 2"),
+                  std::string::npos);
+        EXPECT_NE(message_of([&] { solver.frame(state, Gait{.amplitude = {1, 1}, .phase = {0}}); }).find("gait.phase has length 1"),
+                  std::string::npos);
+        EXPECT_NE(message_of([&] { solver.frame(state, [](double) { return std::vector<double>{1}; }); }).find("drive has length 1"),
+                  std::string::npos);
+        state.position.pop_back();
+        EXPECT_NE(message_of([&] { solver.update(state, 0.01, 1); }).find("must have 108, 4, "), std::string::npos);
+    }
 }
 
 }  // namespace

@@ -15,16 +15,17 @@ namespace natator {
 void check_gait(const Gait& gait, int actuators);
 
 /// What drives each actuator's muscles at `time` (s): o + a u, offset plus amplitude times activation, in scheme `conserving` times the
-/// start ramp. The gait must fit the model (check_gait).
+/// start ramp. The gait must fit the model (check_gait). Throws InputError if it has not one value for each actuator.
 std::vector<double> drive(const Model& model, const Gait& gait, double time);
 
 /// Sets the rest length of every muscle for `time` (s): l = l_rest (1 + 1/2 z_m (o + a u)), thesis (2.7) and (2.8).
-/// The gait must fit the model (check_gait). The muscles of companions follow their own gaits.
+/// The gait must fit the model (check_gait). The muscles of companions follow their own gaits. Throws InputError if there is not one
+/// value for each actuator.
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state);
 
 /// The same for muscles of the body that are driven by `driven`, one value in [-2, 2] for each actuator: o + a u, wherever it
-/// comes from.
+/// comes from. Throws InputError if there are more or fewer.
 template <class Real>
 void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state);
 

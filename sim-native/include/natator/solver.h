@@ -30,7 +30,8 @@ public:
     virtual void substep_ended(const std::vector<Vector3<Real>>& velocities) = 0;
 };
 
-/// Advances States of one Model on the CPU. Not shared between threads: one Solver per thread.
+/// Advances States of one Model on the CPU. Not shared between threads: one Solver per thread. Members that take a State throw
+/// InputError if it is not of so many particles, clusters and springs as the Model.
 template <class Real>
 class Solver {
 public:
@@ -47,10 +48,11 @@ public:
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps,
                                       StepObserver<Real>* observer = nullptr);
 
-    /// One frame of the model: sets the muscles for the state's time, then updates by the model's time step.
+    /// One frame of the model: sets the muscles for the state's time, then updates by the model's time step. The gait must fit the
+    /// model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
     /// The same with muscles that `drive` drives, asked for the frame's start in scheme `flex`, else for the end of each
-    /// substep. Its values are in [-2, 2].
+    /// substep. Its values are in [-2, 2], one for each actuator, else InputError is thrown.
     std::optional<Instability> frame(State<Real>& state, const Drive& drive);
 
     /// Work that the muscles of all frames so far did by their changes of rest length, mass length^2/s^2: for each spring

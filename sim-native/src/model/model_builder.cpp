@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "body.h"
+#include "check_scene.h"
 #include "companions.h"
 #include "disorder_fluid.h"
 #include "fit_to_water.h"
@@ -157,6 +158,7 @@ Model model_of(const Scene& scene, const Creature& creature, const std::string& 
 }  // namespace
 
 Model build_model(const Scene& scene) {
+    check_scene(scene);
     check_size(scene);
     Model model = scene.creature ? model_of(scene, *scene.creature, "creature") : empty_model(scene);
     for (std::size_t k = 0; k < scene.companions.size(); ++k) {

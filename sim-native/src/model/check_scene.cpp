@@ -1,0 +1,101 @@
+#include "check_scene.h"
+
+#include <cmath>
+#include <string>
+
+#include "io/strict_json.h"
+#include "natator/error.h"
+
+namespace natator {
+namespace {
+
+/// Refuses what is below a place of a scene, by the names that files have for it.
+class Check {
+public:
+    explicit Check(std::string place) : place_(std::move(place)) {}
+
+    Check at(const std::string& key) const { return Check(place_ + key); }
+
+    void above_zero(const char* key, double value) const {
+        if (!(value > 0) || std::isinf(value)) refuse(key, value, "a finite number above 0");
+    }
+    void at_least(const char* key, int least, int value) const {
+        if (value < least) refuse(key, value, "at least " + std::to_string(least));
+    }
+    /// Of a list that may be empty.
+    void length_if_any(const char* key, std::size_t size, std::size_t wanted) const {
+        if (size > 0 && size != wanted)
+            throw InputError(place_ + key + " has length " + std::to_string(size) + ": must have length " + std::to_string(wanted));
+    }
+    void ascending(const char* key, const std::vector<int>& slices, int first, int last) const {
+        for (std::size_t i = 0; i < slices.size(); first = slices[i++] + 1)
+            if (slices[i] < first || slices[i] > last)
+                refuse(key + ("[" + std::to_string(i) + "]"), slices[i],
+                       "a slice in [" + std::to_string(first) + ", " + std::to_string(last) + "]");
+    }
+    [[noreturn]] void refuse(const std::string& key, double value, const std::string& must_be) const {
+        throw InputError(place_ + key + " = " + number_text(value) + ": must be " + must_be);
+    }
+
+private:
+    std::string place_;
+};
+
+void check_slice(const Slice& slice, const Check& check) {
+    check.at_least("height", 1, slice.height);
+    const auto rows = static_cast<std::size_t>(slice.height);
+    check.length_if_any("rows", slice.rows.size(), rows);
+    check.length_if_any("columns", slice.columns.size(), rows);
+    if (!slice.columns.empty()) return;  // a row may have none
+    for (int iy = 0; iy < slice.height; ++iy) check.at_least("width", 1, slice.row(iy));
+}
+
+void check_creature(const Creature& creature, const Check& check) {
+    const int slices = static_cast<int>(creature.slices.size()), last = slices - 1;
+    if (slices == 0) check.refuse("slices", slices, "at least one slice");
+    for (int i = 0; i < slices; ++i) check_slice(creature.slices[i], check.at("slices[" + std::to_string(i) + "]."));
+    check.ascending("joints", creature.joints, 1, last - 1);
+    check.ascending("muscleSlices", creature.muscle_slices, 0, last);
+    const auto gaps = static_cast<std::size_t>(creature.gaps());
+    check.length_if_any("bend", creature.bends.size(), gaps);
+    check.length_if_any("springStiffness", creature.spring_stiffnesses.size(), gaps);
+    check.length_if_any("clusterStiffness", creature.cluster_stiffnesses.size(), creature.joints.size() + 1);
+    check.above_zero("spacing", creature.spacing);
+    check.above_zero("particleMass", creature.particle_mass);
+    check.at_least("springsPerParticle", 1, creature.springs_per_particle);
+    check.at_least("refinement", 1, creature.refinement);
+}
+
+void check_fluid(const FluidBlock& fluid, const Check& check) {
+    for (const int count : fluid.count) check.at_least("count", 1, count);
+    check.above_zero("spacing", fluid.spacing);
+    check.above_zero("mass.bottom", fluid.bottom_mass);
+    check.above_zero("mass.top", fluid.top_mass);
+}
+
+void check_solver(const SolverParameters& solver, const Check& check) {
+    check.at_least("substeps", 1, solver.substeps);
+    check.at_least("numIterations", 1, solver.numIterations);
+    check.at_least("solidIterations", 1, solver.solidIterations);
+    check.above_zero("radius", solver.radius);
+    check.above_zero("solidRestDistance", solver.solidRestDistance);
+    check.above_zero("fluidRestDistance", solver.fluidRestDistance);
+    if (solver.fluidRestDistance >= solver.radius)
+        check.refuse("fluidRestDistance", solver.fluidRestDistance, "less than radius = " + number_text(solver.radius));
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+    const Check check("scene " + quoted(scene.name) + ": ");
+    check.above_zero("timeStep", scene.time_step);
+    check_solver(scene.solver, check.at("solver."));
+    if (scene.fluid) check_fluid(*scene.fluid, check.at("fluid."));
+    if (scene.creature) check_creature(*scene.creature, check.at("creature."));
+    for (std::size_t k = 0; k < scene.companions.size(); ++k)
+        check_creature(scene.companions[k].creature, check.at("companions[" + std::to_string(k) + "].creature."));
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k)
+        check.at("obstacles[" + std::to_string(k) + "].").above_zero("spacing", scene.obstacles[k].spacing);
+}
+
+}  // namespace natator
