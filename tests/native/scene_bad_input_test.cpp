@@ -17,7 +17,7 @@ const BadInput bad_scenes[] = {
     {R"({"solver":{"num_iterations":4}})", "solver.num_iterations", "did you mean numIterations?"},
     {R"({"solver":{"zzzzzz":0}})", "solver.zzzzzz", "allowed: wind, drag"},
     {R"({"durations":4})", "durations", "did you mean duration?"},
-    {R"({"base":"thesis/tank"})", "base", "left out: a scene that builds on another is read by load_scene"},
+    {R"({"base":"thesis/tank"})", "overrides.base = ", "left out: the scene is chosen before it is changed"},
     {R"({"bsae":"thesis/tank"})", "bsae", "did you mean base?"},
     {R"({"fluid":{"sapcing":1}})", "fluid.sapcing", "did you mean spacing?"},
     {R"({"fluid":{"mass":{"botom":1}}})", "fluid.mass.botom", "did you mean bottom?"},
@@ -42,7 +42,7 @@ const BadInput bad_scenes[] = {
     {R"({"planes":{}})", "planes = {}", "an array"},
     {R"({"planes":[[0,1,0]]})", "planes[0] = [0,1,0]", "4 numbers"},
     {R"({"fluid":5})", "fluid = 5", "an object"},
-    {R"({"creature":"creature-1"})", "creature = \"creature-1\"", "an object"},
+    {R"({"creature":"creature-1"})", "creature = \"creature-1\"", "an object, such as {\"name\": \"creature-1\"}"},
     {R"({"stopping":{"planeContact":1}})", "stopping.planeContact = 1", "true or false"},
     // Out of range.
     {R"({"duration":0})", "duration = 0", "(0, 1e+06] (s)"},

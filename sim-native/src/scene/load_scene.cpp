@@ -95,9 +95,10 @@ void replace_scale(json& of_file, const json& of_scene) {
 /// place of the others that the file may have.
 /// `holder`: the scene, or one of its companions.
 void resolve_creature(json& holder, const Place& place, const std::filesystem::path& data) {
-    if (!holder.contains("creature") || !holder.at("creature").is_object()) return;
+    if (!holder.contains("creature")) return;
     json& creature = holder.at("creature");
-    if (!is_of_file(creature)) return;
+    if (creature.is_string()) fields::refuse(place, creature, "an object, such as {\"name\": " + shown(creature) + "}");
+    if (!creature.is_object() || !is_of_file(creature)) return;
     const json name = fields::required(creature, place, "name");
     if (!name.is_string()) fields::refuse(place.key("name"), name, "the name of a creature");
     json merged;
@@ -135,6 +136,8 @@ void add_mesh_digest(json& holder, const Place& creature, const std::filesystem:
 json scene_definition(const std::string& name, const json& overrides, const std::filesystem::path& data) {
     const Place place{"scene " + quoted(name), ""};
     if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
+    if (fields::has(overrides, "base"))
+        fields::refuse(place.key("overrides").key("base"), overrides.at("base"), "left out: the scene is chosen before it is changed");
     json document = with_bases(name, data, 0);
     patch_scene(document, overrides);
     resolve_creature(document, place.key("creature"), data);
