@@ -64,7 +64,10 @@ Perturbation read_perturbation(const RunOptions& options) {
             read_perturbation_seed(seed.is_discarded() ? json(options.perturbation_seed) : seed, {"", "--perturbation-seed"})};
 }
 
-void check_outputs(const RunOptions& options) {
+void check_outputs(const RunOptions& options, const Scene& scene) {
+    if (!options.trajectory.empty() && !scene.creature)
+        throw InputError("--trajectory = " + natator::quoted(options.trajectory) +
+                         ": the scene has no creature; must be left out, or --snapshot");
     if (!options.trajectory.empty()) require_writable(options.trajectory);
     if (!options.snapshot.empty()) require_writable(options.snapshot);
     if (options.trajectory.empty() || options.snapshot.empty()) return;
@@ -138,7 +141,7 @@ int run_scene(RunOptions& options) {
         options.precision == "double" ? Precision::double_precision : Precision::single_precision;
 
     const Perturbation perturbation = read_perturbation(options);
-    check_outputs(options);
+    check_outputs(options, scene);
     EvaluationOptions evaluation{.precision = precision, .perturbation = perturbation};
     std::optional<TrajectoryCsv> trajectory;
     if (!options.trajectory.empty()) {

@@ -85,6 +85,7 @@ const BadValue bad_values[] = {
     {{"run", vacuum_scene, "--duration", "nan"}, "duration = NaN: must be a number in (0, 1e+06] (s)"},
     {{"run", vacuum_scene, "--duration", "inf"}, "duration = Infinity: must be"},
     {{"run", vacuum_scene, "--snapshot", "/dev/null", "--at", "-1"}, "--at = -1: must be a number of seconds from 0"},
+    {{"run", "pool/water", "--trajectory", "/dev/null"}, "--trajectory = \"/dev/null\": the scene has no creature; must be left out, or --snapshot"},
     {{"run", vacuum_scene, "--snapshot", "/dev/null", "--at", "5"}, "--at = 5: must be at most the duration, 4 s"},
     {{"run", vacuum_scene, "--snapshot", "/dev/null", "--trajectory", "/dev/null"},
      "--snapshot = \"/dev/null\": must be another file than that of --trajectory"},
