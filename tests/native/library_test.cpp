@@ -120,6 +120,7 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
         {[](Scene& scene) { scene.creature->refinement = 0; }, "creature.refinement = 0: must be at least 1"},
         {[](Scene& scene) { scene.companions.push_back({Creature(), Gait()}); }, "companions[0].creature.slices = 0: must be"},
         {[](Scene& scene) { scene.fluid = FluidBlock{.count = {-5, -5, 5}}; }, "fluid.count = -5: must be at least 1"},
+        {[](Scene& scene) { scene.fluid = FluidBlock{.count = {2000000000, 2000000000, 2000000000}}; }, "must be at most 16000000"},
         {[](Scene& scene) { scene.fluid = FluidBlock{.spacing = 0}; }, "fluid.spacing = 0: must be a finite number above 0"},
         {[](Scene& scene) { scene.solver.radius = NAN; }, "solver.radius = NaN: must be a finite number above 0"},
         {[](Scene& scene) { scene.solver.substeps = 0; }, "solver.substeps = 0: must be at least 1"},

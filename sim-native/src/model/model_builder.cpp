@@ -48,10 +48,8 @@ void check_size(const Scene& scene) {
                               " particles: must be at most " + std::to_string(limits::particles));
         particles += static_cast<std::int64_t>(most);
     }
-    if (scene.fluid) {
-        const auto count = scene.fluid->count.cast<std::int64_t>();
-        particles += count.x() * count.y() * count.z();
-    }
+    constexpr double countable = 1e18;  // of what a program asks for; files are held to less
+    if (scene.fluid) particles += static_cast<std::int64_t>(std::min(scene.fluid->count.cast<double>().prod(), countable));
     const std::string body = scene.creature ? shape_key(*scene.creature) : "slices";
     std::string parts = "creature." + body;
     if (!scene.companions.empty()) parts += ", companions";
