@@ -124,7 +124,7 @@ class Run:
         out = done.stdout.decode("utf-8", "strict")
         if code in (0, 3) and not out.strip():
             raise Fault(f"exit code {code} without an answer")
-        if re.search(r"\b(nan|inf)\b", out.split("Usage:")[0]):
+        if re.search(r"\b(nan|inf|NaN|Infinity)\b", out.split("Usage:")[0]):
             raise Fault(f"a number that is none in the summary: {out[:500]}")
         for name in os.listdir(folder):
             if not name.endswith(".csv"):
