@@ -70,6 +70,17 @@ TEST_F(LibraryTest, WithoutAFolderScenesAreBesideTheProgram) {
     EXPECT_TRUE(load_scene("thesis/creature-1").creature);
 }
 
+TEST_F(LibraryTest, AFileNamesOthersFromWhereItIs) {
+    std::ofstream(data_ / "base.json") << R"({"duration": 2, "fluid": {"count": [2, 2, 2]}})";
+    std::ofstream(data_ / "body.json") << R"({"slices": [{"height": 2, "width": 2, "count": 3}], "joints": []})";
+    std::ofstream(data_ / "scene.json")
+        << R"({"base": "base.json", "creature": {"name": "body.json"}, "companions": [{"creature": {"name": "./body.json"}}]})";
+    const Scene scene = load_scene((data_ / "scene.json").string(), {.data = data_});
+    EXPECT_EQ(scene.duration, 2);
+    EXPECT_EQ(scene.creature->slices.size(), 3u);
+    EXPECT_EQ(scene.companions.at(0).creature.slices.size(), 3u);
+}
+
 TEST_F(LibraryTest, OverridesAreText) {
     EXPECT_EQ(load_scene("my/base", {.overrides = R"({"duration": 1, "fluid": null})", .data = data_}).duration, 1);
     EXPECT_EQ(message_of("my/base", {.overrides = "{\"duration\":", .data = data_})

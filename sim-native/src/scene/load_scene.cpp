@@ -26,15 +26,29 @@ void place_mesh(json& mesh, const std::string& name, const std::filesystem::path
     if (!bundled || std::filesystem::exists(beside, failed)) mesh["file"] = beside.string();
 }
 
+/// The path of a scene or a creature that a file names is from where that file is; of one that is not there, from the working
+/// directory.
+std::string beside(const std::string& file, const std::string& path) {
+    constexpr std::string_view suffix = ".json";
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    if (!file.ends_with(suffix) || !path.ends_with(suffix) || folder.empty()) return path;
+    std::error_code failed;
+    const std::filesystem::path there = folder / path;  // `path` itself if it is absolute
+    return std::filesystem::exists(there, failed) ? there.string() : path;
+}
+
 /// The array under a key of a document; null if there is none. The readers refuse what is something else.
 json* array_in(json& document, const char* key) {
     return document.contains(key) && document.at(key).is_array() ? &document.at(key) : nullptr;
 }
 
-/// The same for the mesh of a creature that is written in the scene itself. `holder`: the scene, or one of its companions.
-void place_creature_mesh(json& holder, const std::string& name, const std::filesystem::path& data) {
+/// Places the file of a creature, and the mesh of one that is written in the scene itself. `holder`: the scene, or one of its
+/// companions.
+void place_creature(json& holder, const std::string& name, const std::filesystem::path& data) {
     if (!holder.is_object() || !holder.contains("creature") || !holder.at("creature").is_object()) return;
     json& creature = holder.at("creature");
+    if (creature.contains("name") && creature.at("name").is_string())
+        creature["name"] = beside(name, creature.at("name").get<std::string>());
     if (creature.contains("mesh")) place_mesh(creature.at("mesh"), name, data);
 }
 
@@ -68,9 +82,9 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     fields::drop_schema_key(document, place);
     if (json* const obstacles = array_in(document, "obstacles"))
         for (json& obstacle : *obstacles) place_mesh(obstacle, name, data);
-    place_creature_mesh(document, name, data);
+    place_creature(document, name, data);
     if (json* const companions = array_in(document, "companions"))
-        for (json& companion : *companions) place_creature_mesh(companion, name, data);
+        for (json& companion : *companions) place_creature(companion, name, data);
     if (!document.contains("base")) return document;
 
     const json base = document.at("base");
@@ -78,7 +92,7 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     if (!base.is_string()) fields::refuse(place.key("base"), base, "the name of a scene");
     if (level == max_bases)
         fields::refuse(place.key("base"), base, "part of a chain of at most 8 scenes without a loop");
-    json merged = with_bases(base.get<std::string>(), data, level + 1);
+    json merged = with_bases(beside(name, base.get<std::string>()), data, level + 1);
     patch_scene(merged, document);
     return merged;
 }
