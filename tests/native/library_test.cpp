@@ -145,6 +145,43 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
     }
 }
 
+/// Two particles and a spring, a cluster and a muscle, as a program may make them without a scene.
+Model own_model() {
+    Model model;
+    for (const double x : {0.0, 0.1}) {
+        model.position.emplace_back(x, 1, 0);
+        model.velocity.emplace_back(0, 0, 0);
+        model.inverse_mass.push_back(1);
+        model.phase.push_back(1);
+    }
+    model.springs = {{.a = 0, .b = 1, .rest_length = 0.1}};
+    model.clusters = {{.particles = {0, 1}, .rest_offset = {{-0.05, 0, 0}, {0.05, 0, 0}}}};
+    model.muscles = {{.spring = 0, .actuator = 0, .lateral = 1}};
+    model.actuators = 1;
+    return model;
+}
+
+TEST(OwnSceneTest, ASolverRefusesAModelWhoseListsDoNotBelongTogether) {
+    const std::pair<void (*)(Model&), const char*> changes[] = {
+        {[](Model&) {}, ""},
+        {[](Model& model) { model.velocity.pop_back(); }, "model: velocity has length 1: must have length 2"},
+        {[](Model& model) { model.phase.clear(); }, "model: phase has length 0: must have length 2"},
+        {[](Model& model) { model.springs[0].b = 2; }, "model: springs[0].b = 2: must be one of 2, numbered from 0"},
+        {[](Model& model) { model.clusters[0].particles[1] = -1; }, "model: clusters[0].particles[1] = -1: must be one of 2"},
+        {[](Model& model) { model.clusters[0].rest_offset.clear(); }, "model: clusters[0].rest_offset has length 0"},
+        {[](Model& model) { model.muscles[0].spring = 1; }, "model: muscles[0].spring = 1: must be one of 1"},
+        {[](Model& model) { model.actuators = 0; }, "model: muscles[0].actuator = 0: must be one of 0"},
+    };
+    for (const auto& [change, expected] : changes) {
+        Model model = own_model();
+        change(model);
+        EXPECT_EQ(message_of([&] { initial_state<float>(model); }), message_of([&] { const Solver<float> solver(model); }));
+        const std::string message = message_of([&] { initial_state<float>(model); });
+        EXPECT_NE(message.find(expected), std::string::npos) << message;
+        EXPECT_EQ(message.empty(), *expected == '\0') << message << expected;
+    }
+}
+
 TEST(OwnSceneTest, ASolverRefusesAGaitADriveAndAStateOfAnotherModel) {
     for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
         Scene scene = own_scene();

@@ -36,7 +36,8 @@ template <class Real>
 class Solver {
 public:
     /// Keeps a reference to `model`, which must live, unchanged, as long as the Solver; so must `execution.profile`, if
-    /// there is one. A temporary Model is refused by the compiler.
+    /// there is one. A temporary Model is refused by the compiler. Throws InputError unless the Model's lists belong together: of
+    /// as many particles, and of particles, springs and actuators that are there.
     explicit Solver(const Model& model, const Execution& execution = {});
     explicit Solver(const Model&& model, const Execution& execution = {}) = delete;
     ~Solver();

@@ -25,7 +25,7 @@ struct State {
     double time = 0;                                        ///< s since the end of settling
 };
 
-/// The State that a Model starts from.
+/// The State that a Model starts from. Throws InputError as a Solver of the Model does.
 template <class Real>
 State<Real> initial_state(const Model& model);
 

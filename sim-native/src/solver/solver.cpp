@@ -4,6 +4,7 @@
 #include <string>
 #include <variant>
 
+#include "check_model.h"
 #include "cpu/conserving/conserving_stages.h"
 #include "cpu/flex/flex_stages.h"
 #include "natator/actuate.h"
@@ -66,6 +67,7 @@ struct NoHook {
 
 template <class Real>
 State<Real> initial_state(const Model& model) {
+    check_model(model);
     State<Real> state;
     for (int i = 0; i < model.particles(); ++i) {
         state.position.push_back(model.position[i].cast<Real>());
@@ -86,7 +88,7 @@ public:
     Implementation(const Model& model, const Execution& execution)
         : model_(model),
           execution_(execution),
-          stages_(stages_for(model, execution.skip ? make_plan(model) : make_unskipped_plan(model))) {
+          stages_(stages_for(model, plan_for(model, execution.skip))) {
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
         if (execution.forces) std::visit([](auto& stages) { stages->keep_forces(); }, stages_);
     }
@@ -127,6 +129,11 @@ public:
 private:
     using AnyStages =
         std::variant<std::unique_ptr<cpu::FlexStages<Real>>, std::unique_ptr<cpu::ConservingStages<Real>>>;
+
+    static Plan plan_for(const Model& model, bool skip) {
+        check_model(model);
+        return skip ? make_plan(model) : make_unskipped_plan(model);
+    }
 
     static AnyStages stages_for(const Model& model, const Plan& plan) {
         if (model.scheme == Scheme::conserving) return std::make_unique<cpu::ConservingStages<Real>>(model, plan);

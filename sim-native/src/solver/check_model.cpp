@@ -1,0 +1,53 @@
+#include "check_model.h"
+
+#include <string>
+
+#include "natator/error.h"
+
+namespace natator {
+namespace {
+
+std::string item(const char* list, std::size_t index) { return list + ("[" + std::to_string(index) + "]"); }
+
+void require_length(const std::string& name, std::size_t length, std::size_t wanted) {
+    if (length != wanted)
+        throw InputError("model: " + name + " has length " + std::to_string(length) + ": must have length " + std::to_string(wanted));
+}
+
+/// `count`: of the things of which `index` is one. `name` gives the name of the index.
+template <class Name>
+void require_one_of(int index, std::size_t count, const Name& name) {
+    if (index >= 0 && static_cast<std::size_t>(index) < count) return;
+    throw InputError("model: " + name() + " = " + std::to_string(index) + ": must be one of " + std::to_string(count) +
+                     ", numbered from 0");
+}
+
+}  // namespace
+
+void check_model(const Model& model) {
+    const std::size_t particles = model.position.size();
+    require_length("velocity", model.velocity.size(), particles);
+    require_length("inverse_mass", model.inverse_mass.size(), particles);
+    require_length("phase", model.phase.size(), particles);
+    if (!model.rest_position.empty()) require_length("rest_position", model.rest_position.size(), particles);
+    for (std::size_t s = 0; s < model.springs.size(); ++s) {
+        require_one_of(model.springs[s].a, particles, [s] { return item("springs", s) + ".a"; });
+        require_one_of(model.springs[s].b, particles, [s] { return item("springs", s) + ".b"; });
+    }
+    for (std::size_t c = 0; c < model.clusters.size(); ++c) {
+        const Cluster& cluster = model.clusters[c];
+        require_length(item("clusters", c) + ".rest_offset", cluster.rest_offset.size(), cluster.particles.size());
+        for (std::size_t i = 0; i < cluster.particles.size(); ++i)
+            require_one_of(cluster.particles[i], particles, [c, i] { return item("clusters", c) + item(".particles", i); });
+    }
+    std::size_t actuators = static_cast<std::size_t>(model.actuators);
+    for (const CompanionBody& companion : model.companions) actuators += companion.gait.amplitude.size();
+    for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+        require_one_of(model.muscles[m].spring, model.springs.size(), [m] { return item("muscles", m) + ".spring"; });
+        require_one_of(model.muscles[m].actuator, actuators, [m] { return item("muscles", m) + ".actuator"; });
+    }
+    for (std::size_t i = 0; i < model.body.particles.size(); ++i)
+        require_one_of(model.body.particles[i], particles, [i] { return item("body.particles", i); });
+}
+
+}  // namespace natator
