@@ -256,6 +256,16 @@ TEST(RunTest, AShiftedStartTakesAnotherCourse) {
     EXPECT_NE(hash(run("1")), hash(run("2")));
 }
 
+// With room for the stacks of one or two. The same bits, as for any number.
+TEST(RunTest, TakesFewerThreadsWhereThereAreNotSoMany) {
+    if (sanitized()) GTEST_SKIP() << "a sanitizer takes more address space";
+    const std::vector<std::string> run = {"run", "bench/small-tank", "--duration", "0.02", "--threads", "8"};
+    const Outcome outcome = run_limited("ulimit -s 1000000; ulimit -v 3000000", run);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto hash = [](const std::string& text) { return text.substr(text.find("hash"), 27); };
+    EXPECT_EQ(hash(outcome.out), hash(run_simulator(run).out));
+}
+
 TEST(RunTest, PrintsASummary) {
     const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--gait", gait, "--duration", "0.1"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -1,5 +1,6 @@
 #include "thread_team.h"
 
+#include <system_error>
 #include <utility>
 
 #if defined(__SSE2__)
@@ -32,7 +33,11 @@ void wait(const std::atomic<T>& value, T old) {
 }  // namespace
 
 ThreadTeam::ThreadTeam(int threads) : shares_(std::max(1, threads)), inside_(closed) {
-    for (int k = 1; k < threads; ++k) helpers_.emplace_back([this, k] { help(k); });
+    helpers_.reserve(shares_.size() - 1);
+    try {
+        for (int k = 1; k < threads; ++k) helpers_.emplace_back([this, k] { help(k); });
+    } catch (const std::system_error&) {  // there are no more to be had: fewer do the same
+    }
 }
 
 ThreadTeam::~ThreadTeam() {

@@ -13,7 +13,7 @@ namespace natator::cpu {
 /// no helper that has not begun, so that other programs cost a team little.
 class ThreadTeam {
 public:
-    /// A team of one runs all loops in the caller's thread.
+    /// A team of one runs all loops in the caller's thread. It is smaller where the machine does not give so many threads.
     explicit ThreadTeam(int threads);
     ~ThreadTeam();
     ThreadTeam(const ThreadTeam&) = delete;
