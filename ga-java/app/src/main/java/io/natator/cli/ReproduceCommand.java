@@ -57,9 +57,8 @@ final class ReproduceCommand implements Callable<Integer> {
     private QueueOptions queueOptions;
 
     @Section(Topic.SCENE)
-    @Option(names = "--creature", paramLabel = "N", split = ",", defaultValue = "1,2,3,4",
-            description = "Creatures of the thesis, 1 to 4. Default: ${DEFAULT-VALUE}.")
-    private List<Integer> creatures;
+    @Option(names = "--creature", paramLabel = "N", split = ",", description = "Creatures of the thesis, 1 to 4. Default: all.")
+    private List<Integer> creatures = CREATURES;
 
     @Section(Topic.SCENE)
     @Option(names = "--water", paramLabel = "WATER", split = ",", defaultValue = "flex,open-water",
