@@ -190,15 +190,15 @@ final class EvolveCommand implements Callable<Integer> {
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());
         if (islands != null) {
-            begin(Archipelago.create(directory, islands), preview, execution);
+            beginIslands(Archipelago.create(directory, islands), preview, execution);
         } else {
-            begin(RunFolder.create(directory, settings), preview, execution);
+            beginRun(RunFolder.create(directory, settings), preview, execution);
         }
         return ExitCode.OK;
     }
 
     /** Evolves; what is refused with the first evaluation leaves no folder that would be in the way of the corrected command. */
-    private void begin(RunFolder folder, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
+    private void beginRun(RunFolder folder, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
         try (folder) {
             preview.printAnyway(folder.directory(), spec.commandLine().getOut());
             new RunLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(folder, execution, stopAfter);
@@ -209,7 +209,7 @@ final class EvolveCommand implements Callable<Integer> {
     }
 
     /** The same of islands. */
-    private void begin(Archipelago archipelago, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
+    private void beginIslands(Archipelago archipelago, RunPreview preview, ExecutionSettings execution) throws InterruptedException {
         try {
             preview.printAnyway(archipelago.directory(), spec.commandLine().getOut());
             new IslandsLauncher(spec.commandLine().getOut(), spec.commandLine().getErr()).run(archipelago, execution, stopAfter);
