@@ -112,11 +112,20 @@ public final class Json {
 
     /** Why the text was refused, as one line with the field, and the place if that is known. */
     public static String reason(JsonProcessingException e) {
+        return reason(e, "line " + (e.getLocation() == null ? 0 : e.getLocation().getLineNr()) + ", ");
+    }
+
+    /** The same of a text that is a line of a file, whose number the caller tells. */
+    public static String reasonInLine(JsonProcessingException e) {
+        return reason(e, "");
+    }
+
+    private static String reason(JsonProcessingException e, String line) {
         String message = JsonErrors.message(e);
         String field = e instanceof JsonMappingException mapping ? mapping.getPath().stream()
                 .map(JsonMappingException.Reference::getFieldName).filter(Objects::nonNull)
                 .collect(Collectors.joining(".")) : "";
         return (field.isEmpty() ? "" : field + ": ") + message + (e.getLocation() == null || e.getLocation().getLineNr() < 1 ? ""
-                : " (line " + e.getLocation().getLineNr() + ", column " + e.getLocation().getColumnNr() + ")");
+                : " (" + line + "column " + e.getLocation().getColumnNr() + ")");
     }
 }

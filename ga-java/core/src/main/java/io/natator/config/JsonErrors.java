@@ -34,13 +34,15 @@ final class JsonErrors {
             return isMissing(e.getCause()) ? e.getCause().getMessage() + " is missing" : "expected an object with all its keys";
         }
         String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON");
+        if (message.startsWith("No content")) {
+            return "is empty; expected a JSON text";
+        }
         if (e instanceof MismatchedInputException mismatch && mismatch.getTargetType() != null
                 && !message.startsWith("Trailing token") && !message.startsWith("no value")) {
             return "expected " + described(mismatch.getTargetType())
                     + (e instanceof InvalidFormatException invalid ? ", not " + shortened(invalid.getValue()) : taken(message));
         }
-        return message.replaceFirst(" \\(set .*", "").replaceAll(" ?\\((start marker )?at \\[Source:.*", "")
-                .replaceAll(" \\(bound as [^)]*\\).*", "");
+        return SyntaxErrors.plain(message);
     }
 
     /** Whether a record required a key by its name and did not get it. */

@@ -126,7 +126,7 @@ public final class JsonLines<T> implements AutoCloseable {
         try {
             return Json.parse(line, type);
         } catch (JsonProcessingException e) {
-            throw new InvalidInputException(file + ", line " + (rows.size() + 1) + ": " + Json.reason(e), e);
+            throw new InvalidInputException(file + ", line " + (rows.size() + 1) + ": " + Json.reasonInLine(e), e);
         }
     }
 
