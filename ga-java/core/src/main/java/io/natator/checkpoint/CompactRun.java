@@ -11,6 +11,7 @@ import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.function.LongSupplier;
 
 /** Makes the folder of a finished run some hundred times smaller, to be kept for long. */
 public final class CompactRun {
@@ -45,19 +46,33 @@ public final class CompactRun {
         }
     }
 
-    /** The state after the last finished generation, with its population unless an older program dropped that; or null. */
-    static EvolutionState lastState(Path directory) {
+    /**
+     * What a run goes on from.
+     *
+     * @param state   after the last finished generation, with its population unless an older program dropped that; or null
+     * @param dropped how many of the first evaluations are not recorded any more
+     */
+    record Last(EvolutionState state, long dropped) {
+    }
+
+    /** The same of a folder, with the evaluations that are recorded. */
+    static Last last(Path directory, List<EvaluationRecord> recorded) {
         EvolutionState state = StoredRun.state(directory);
         boolean isWhole = state != null && !state.population().isEmpty();
-        return !isWhole && Files.exists(directory.resolve(WHOLE)) ? whole(directory) : state;
+        if (isWhole || !Files.exists(directory.resolve(WHOLE))) {
+            return new Last(state, dropped(directory, recorded));
+        }
+        EvolutionState whole = whole(directory);
+        return new Last(whole, dropped(recorded, whole::evaluations));
     }
 
     /** How many of the first evaluations are not recorded any more, beside those that are. */
     static long dropped(Path directory, List<EvaluationRecord> recorded) {
-        if (!Files.exists(directory.resolve(WHOLE))) {
-            return 0;
-        }
-        return recorded.isEmpty() ? whole(directory).evaluations() : recorded.get(0).result().id();
+        return Files.exists(directory.resolve(WHOLE)) ? dropped(recorded, () -> whole(directory).evaluations()) : 0;
+    }
+
+    private static long dropped(List<EvaluationRecord> recorded, LongSupplier all) {
+        return recorded.isEmpty() ? all.getAsLong() : recorded.get(0).result().id();
     }
 
     private static EvolutionState whole(Path directory) {

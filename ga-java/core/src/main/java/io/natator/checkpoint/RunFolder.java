@@ -64,8 +64,9 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         this.genome = settings.genome();
         this.log = JsonLines.locked(directory.resolve(EVALUATIONS), EvaluationRecord.class);
         try {
-            this.checkpoint = CompactRun.lastState(directory);
-            this.dropped = CompactRun.dropped(directory, log.rows());
+            CompactRun.Last last = CompactRun.last(directory, log.rows());
+            this.checkpoint = last.state();
+            this.dropped = last.dropped();
             this.departures = JsonLines.of(directory.resolve(MIGRANTS), Departure.class);
         } catch (InvalidInputException e) {
             log.close();
