@@ -2,9 +2,13 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import ch.qos.logback.classic.Logger;
+import ch.qos.logback.classic.spi.ILoggingEvent;
+import ch.qos.logback.core.read.ListAppender;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.CompactRun;
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
 import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
@@ -13,8 +17,10 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.stream.Collectors;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
+import org.slf4j.LoggerFactory;
 
 /** {@code natator resume}: a run that was stopped, moved or damaged goes on. */
 class ResumeCommandTest extends FakeSimulatorTest {
@@ -59,15 +65,34 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(evolve("run")).isZero();
         String best = file("run", "best.json");
         out.getBuffer().setLength(0);
-        Files.writeString(folder.resolve("run/best.json"), best.substring(0, best.length() / 2));
+        Files.writeString(folder.resolve("run/best.json"), best.lines().limit(8).collect(Collectors.joining("\n")));
         Files.writeString(folder.resolve("run/savings.json"), "{");
 
-        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
-        assertThat(out.toString()).contains("best gait of pool/creature-1 after 3 generations",
-                "  flow        Reynolds number 131, Strouhal number 0.313\n");
-
-        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(warnings(() -> {
+            assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
+            assertThat(out.toString()).contains("best gait of pool/creature-1 after 3 generations",
+                    "  flow        Reynolds number 131, Strouhal number 0.313\n");
+            assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        })).as("each once").containsExactly(
+                "savings " + folder.resolve("run/savings.json") + ": ends too early; expected the rest of the JSON text "
+                        + "(line 1, column 2); shown without it",
+                "best " + folder.resolve("run/best.json") + ": ends too early; expected the rest of the JSON text "
+                        + "(line 8, column 5); taken from checkpoint.json instead");
         assertThat(file("run", "best.json")).isEqualTo(best);
+    }
+
+    /** What reading a run warns of meanwhile. */
+    private static List<String> warnings(Runnable commands) {
+        Logger logger = (Logger) LoggerFactory.getLogger(StoredRun.class);
+        ListAppender<ILoggingEvent> seen = new ListAppender<>();
+        seen.start();
+        logger.addAppender(seen);
+        try {
+            commands.run();
+        } finally {
+            logger.detachAppender(seen);
+        }
+        return seen.list.stream().map(ILoggingEvent::getFormattedMessage).toList();
     }
 
     @Test

@@ -20,8 +20,10 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
+import java.util.Set;
 import java.util.SortedMap;
 import java.util.TreeMap;
+import java.util.concurrent.ConcurrentHashMap;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -40,6 +42,8 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         Recorded recorded, EvaluationStatistics statistics, List<VacuumRecord> vacuum) {
 
     private static final Logger LOG = LoggerFactory.getLogger(StoredRun.class);
+    /** What has been said of damaged files: a page, for one, reads them again and again. */
+    private static final Set<String> WARNINGS = ConcurrentHashMap.newKeySet();
 
     /** Copies the list. */
     public StoredRun {
@@ -58,11 +62,17 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         try {
             statistics = statistics(directory);
         } catch (InvalidInputException e) {
-            LOG.warn("{}; shown without it", e.getMessage());
+            warn(e.getMessage() + "; shown without it");
             statistics = null;
         }
         return new StoredRun(directory, settings, state, best(directory, settings, state),
                 recorded(directory), statistics, vacuumRecords(directory));
+    }
+
+    private static void warn(String warning) {
+        if (WARNINGS.add(warning)) {
+            LOG.warn(warning);
+        }
     }
 
     /** All evaluations, in the order of their ids; none of a run that was made small, also if it has gone on since. */
@@ -153,7 +163,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
                 return written;
             }
         } catch (InvalidInputException e) {
-            LOG.warn("{}; taken from {} instead", e.getMessage(), RunFolder.CHECKPOINT);
+            warn(e.getMessage() + "; taken from " + RunFolder.CHECKPOINT + " instead");
         }
         return state == null || state.best() == null ? null : BestGait.of(settings.scene(), state.best(),
                 settings.genome().decode(state.best().genes()));
