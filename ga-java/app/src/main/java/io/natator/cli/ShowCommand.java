@@ -12,6 +12,7 @@ import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
+import io.natator.evolution.Recorded;
 import io.natator.file.ShellWord;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.ControlVerdict;
@@ -101,15 +102,24 @@ final class ShowCommand implements Callable<Integer> {
     }
 
     private String progress(StoredRun run) {
+        boolean isOneOfSeveral = run.settings().migration() != null && !Archipelago.exists(folder);
+        String how = "; continue by: " + ProgramName.asCalled() + " resume "
+                + ShellWord.of(isOneOfSeveral ? folder.toAbsolutePath().normalize().getParent() : folder);
         if (run.state() == null) {
-            return "generation 0 under way: " + run.evaluations().size() + " evaluations";
+            return begun(run.recorded()) + how;
         }
         GenerationSummary last = run.state().history().get(run.state().generation());
         long more = Math.max(run.recorded().end() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
                 RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
-                        : "not finished, " + more + " evaluations of the next; continue by: " + ProgramName.asCalled()
-                                + " resume " + ShellWord.of(folder));
+                        : "not finished, " + more + " evaluations of the next" + how);
+    }
+
+    /** Of a run without a checkpoint: that it has none yet, or has lost it. */
+    private static String begun(Recorded recorded) {
+        long first = recorded.rows().stream().filter(one -> one.generation() == 0).count();
+        return recorded.end() > first ? "no checkpoint.json, " + recorded.end() + " evaluations of several generations"
+                : "no generation finished, " + first + " evaluations of the first";
     }
 
     /** What no other gait is better than in all objectives. */

@@ -76,6 +76,17 @@ class IslandsFolderTest {
     }
 
     @Test
+    void anIslandThatIsNotFinishedGoesOnWithTheOthers() throws IOException {
+        Path config = other.resolve("config.json");
+        String settings = Files.readString(config);
+        Files.writeString(config, settings.replace("\"generations\" : 2", "\"generations\" : 3"));
+        String told = natator("show", other.toString());
+        Files.writeString(config, settings);
+
+        assertThat(told).contains("not finished, 0 evaluations of the next; continue by: natator resume " + islands + "\n");
+    }
+
+    @Test
     void checkAndReportAreInTheWinnersFolder() {
         assertThat(swim("check", "--starts", "2", islands.toString())).contains("\nverdict: ");
         swim("report", islands.toString());

@@ -71,6 +71,22 @@ class ShowCommandTest extends FakeSimulatorTest {
         assertThat(err.toString()).isEmpty();
     }
 
+    @Test
+    void aRunWithoutAGenerationTellsWhatItHas() throws IOException {
+        evolved("jgap");
+        List<String> lines = Files.readAllLines(file("evaluations.jsonl"));
+        Files.delete(file("checkpoint.json"));
+        Files.delete(file("best.json"));
+        for (int left : new int[] {5, 0}) {
+            Files.write(file("evaluations.jsonl"), lines.subList(0, left));
+            assertThat(natator("show", folder.resolve("run").toString())).isZero();
+            assertThat(out.toString().lines()).contains("no generation finished, " + left + " evaluations of the first; continue by: natator resume "
+                    + folder.resolve("run"));
+            forget();
+        }
+        assertThat(err.toString()).isEmpty();
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"{}|generation: expected a whole number", "null|no value", "{'generation':0}|genes is missing",
         "{'generation':0,'genes':[1]}|result is missing", "{'generation':zero}|found 'zero'; expected JSON (column 15)"})
