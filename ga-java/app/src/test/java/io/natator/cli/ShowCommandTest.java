@@ -2,7 +2,10 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.CompactRun;
+import io.natator.config.Json;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -96,5 +99,44 @@ class ShowCommandTest extends FakeSimulatorTest {
 
         assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
         assertThat(err.toString()).startsWith("natator show: " + file("evaluations.jsonl") + ", line 1: " + message).hasLineCount(1);
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "config.json|scene|2|scene is missing",
+        "config.json|encoding|2|encoding is missing",
+        "checkpoint.json|history|2|history is missing",
+        "checkpoint.json|best/result|2|best: result is missing",
+        "checkpoint.json|best/result/distance|2|best.result: distance is missing",
+        "best.json|scene|0|scene is missing",
+        "best.json|gait|0|gait is missing",
+        "best.json|result|0|result is missing",
+        "best.json|vacuum/simulated|0|vacuum: simulated is missing",
+        "best.json|fresh/judge|0|fresh: judge is missing",
+        "best.json|fresh/base|0|fresh: base is missing",
+        "best.json|fresh/base/speed|0|fresh.base: speed is missing",
+        "best.json|fresh/base/stopped|0|fresh.base: stopped is null; expected how many runs ended how"})
+    void aKeyThatLacksIsNamed(String name, String key, int status, String message) throws IOException {
+        evolved("jgap");
+        ObjectNode content = Json.read(file(name), ObjectNode.class, name);
+        ((ObjectNode) content.at(key.contains("/") ? "/" + key.substring(0, key.lastIndexOf('/')) : "")).remove(key.substring(key.lastIndexOf('/') + 1));
+        Files.writeString(file(name), Json.document(content));
+
+        assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isEqualTo(status);
+        if (status == 2) {
+            assertThat(err.toString()).contains(file(name) + ": " + message).hasLineCount(1);
+        }
+    }
+
+    @Test
+    void aHistoryWithoutAllGenerationsIsNamed() throws IOException {
+        evolved("jgap");
+        ObjectNode checkpoint = Json.read(file("checkpoint.json"), ObjectNode.class, "checkpoint");
+        ((ArrayNode) checkpoint.get("history")).remove(0);
+        Files.writeString(file("checkpoint.json"), Json.document(checkpoint));
+
+        assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(err.toString()).startsWith("natator show: checkpoint " + file("checkpoint.json")
+                + ": history has 3 generations; expected those from 0 to generation, 3").hasLineCount(1);
     }
 }

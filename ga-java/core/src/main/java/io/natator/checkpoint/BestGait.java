@@ -8,6 +8,7 @@ import io.natator.encoding.Gait;
 import io.natator.evolution.Individual;
 import io.natator.simulator.SimulationResult;
 import java.util.List;
+import java.util.Objects;
 
 /**
  * The best gait of a run; {@code best.json}. What is to be reported of it is {@code fresh}; {@code result} is one run,
@@ -32,6 +33,14 @@ import java.util.List;
 public record BestGait(String scene, List<Double> genes, Gait gait, JsonNode body, double distance, double speed,
         SimulationResult result, Double bodyLength, SimulationResult vacuum, Double selected, Integer runs,
         FreshRuns fresh) {
+
+    /** Has to have who swam where, and how far. */
+    public BestGait {
+        Objects.requireNonNull(scene, "scene");
+        Objects.requireNonNull(genes, "genes");
+        Objects.requireNonNull(gait, "gait");
+        Objects.requireNonNull(result, "result");
+    }
 
     /** As old folders have it. */
     public BestGait(String scene, List<Double> genes, Gait gait, double distance, double speed,

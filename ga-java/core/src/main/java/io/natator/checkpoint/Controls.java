@@ -9,6 +9,7 @@ import io.natator.encoding.Gait;
 import io.natator.file.AtomicFile;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.Objects;
 
 /**
  * A winner beside what should not swim, and beside itself under other conditions; {@code check.json}. All samples are of
@@ -33,6 +34,13 @@ import java.nio.file.Path;
 public record Controls(Gait gait, JsonNode body, String scheme, double duration, Double bodyLength, SwimSample water, SwimSample resting,
         SwimSample vacuum, SwimSample clampOff, SwimSample halfStep, SwimSample mirrored, SwimSample otherBackend,
         String backend, Double underWater) {
+
+    /** Has to have the gait, its swims and those of the dead body. */
+    public Controls {
+        Objects.requireNonNull(gait, "gait");
+        Objects.requireNonNull(water, "water");
+        Objects.requireNonNull(resting, "resting");
+    }
 
     /** Distance of the swimmer less that of the dead body, in scene units. */
     public double net() {

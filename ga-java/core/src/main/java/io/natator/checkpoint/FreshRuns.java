@@ -2,6 +2,7 @@ package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.config.Judge;
+import java.util.Objects;
 
 /**
  * A winner as a reader gets it again: by runs from starts that had no part in choosing it.
@@ -18,6 +19,12 @@ import io.natator.config.Judge;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
         int selectedRuns, double again, Double selectionLoss) {
+
+    /** Has to have the runs as the run simulates, and how they are judged. */
+    public FreshRuns {
+        Objects.requireNonNull(base, "base");
+        Objects.requireNonNull(judge, "judge");
+    }
 
     /** With the loss that follows. */
     public static FreshRuns of(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,

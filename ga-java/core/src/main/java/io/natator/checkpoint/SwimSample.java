@@ -1,6 +1,7 @@
 package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
+import io.natator.config.InvalidInputException;
 import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.SwimmingNumbers;
@@ -34,6 +35,22 @@ import java.util.function.Function;
 public record SwimSample(int substeps, int runs, double completed, Map<String, Integer> stopped, Spread distance,
         Spread speed, Spread bodyLengths, Spread perBeat, Double reynolds, Double strouhal, Double cavities, Double work,
         Double costOfTransport, Spread goals) {
+
+    /**
+     * Has to have a distance and a speed, and with body lengths those per beat.
+     *
+     * @throws InvalidInputException if it does not say how its runs ended
+     */
+    public SwimSample {
+        Objects.requireNonNull(distance, "distance");
+        Objects.requireNonNull(speed, "speed");
+        if (bodyLengths != null) {
+            Objects.requireNonNull(perBeat, "perBeat");
+        }
+        if (stopped == null || stopped.isEmpty() || stopped.containsValue(null)) {
+            throw new InvalidInputException("stopped is " + stopped + "; expected how many runs ended how");
+        }
+    }
 
     /**
      * Of these results, at least one.

@@ -7,6 +7,7 @@ import io.natator.encoding.Encoding;
 import io.soabase.recordbuilder.core.RecordBuilder;
 import java.util.List;
 import java.util.Locale;
+import java.util.Objects;
 import java.util.stream.Collectors;
 
 /**
@@ -60,6 +61,9 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
      * @throws InvalidInputException naming the setting that is out of range
      */
     public EvolutionSettings {
+        Objects.requireNonNull(scene, "scene");
+        Objects.requireNonNull(encoding, "encoding");
+        operators = operators == null ? OperatorSet.CORRECTED : operators;
         require(population >= 2 && population <= Limits.POPULATION, "population", population,
                 "a whole number from 2 to " + Limits.POPULATION);
         require(generations >= 0, "generations", generations, "a whole number from 0");

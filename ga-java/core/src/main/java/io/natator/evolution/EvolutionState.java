@@ -2,7 +2,9 @@ package io.natator.evolution;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
 import java.util.List;
+import java.util.Objects;
 
 /**
  * All that the next generation depends on, and what is to be told of the ones before: an evolution that continues from
@@ -19,10 +21,18 @@ import java.util.List;
 public record EvolutionState(int generation, long evaluations, List<Individual> population, Individual best,
         List<GenerationSummary> history, @JsonInclude(JsonInclude.Include.NON_NULL) List<Individual> champions) {
 
-    /** Copies the lists. */
+    /**
+     * Copies the lists.
+     *
+     * @throws InvalidInputException if the history is not that of all generations
+     */
     public EvolutionState {
-        population = List.copyOf(population);
-        history = List.copyOf(history);
+        population = List.copyOf(Objects.requireNonNull(population, "population"));
+        history = List.copyOf(Objects.requireNonNull(history, "history"));
+        if (generation < 0 || history.size() != generation + 1L) {
+            throw new InvalidInputException("history has " + history.size() + " generations; expected those from 0 to generation, "
+                    + generation);
+        }
         champions = champions == null ? null : List.copyOf(champions);
     }
 

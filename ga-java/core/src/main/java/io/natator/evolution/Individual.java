@@ -4,6 +4,7 @@ import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.simulator.Effort;
 import io.natator.simulator.SimulationResult;
 import java.util.List;
+import java.util.Objects;
 
 /**
  * An evaluated chromosome.
@@ -16,9 +17,10 @@ import java.util.List;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record Individual(List<Double> genes, int age, SimulationResult result, Estimate estimate) {
 
-    /** Copies the genes. */
+    /** Copies the genes, which it has to have as well as a result. */
     public Individual {
-        genes = List.copyOf(genes);
+        genes = List.copyOf(Objects.requireNonNull(genes, "genes"));
+        Objects.requireNonNull(result, "result");
     }
 
     /** Of a single run. */

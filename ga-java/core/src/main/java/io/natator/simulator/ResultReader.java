@@ -38,8 +38,8 @@ final class ResultReader {
             return "no id";
         }
         if (result.status() == SimulationResult.Status.OK) {
-            return result.distance() == null || !Double.isFinite(result.distance()) ? "no finite distance"
-                    : result.simulated() == null || !(result.simulated() >= 0) ? "no simulated time" : null;
+            return !Double.isFinite(result.distance()) ? "no finite distance"
+                    : !(result.simulated() >= 0) ? "no simulated time" : null;
         }
         return result.status() == SimulationResult.Status.UNSTABLE ? null : "status " + result.status();
     }

@@ -5,6 +5,7 @@ import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import io.soabase.recordbuilder.core.RecordBuilder;
 import java.util.List;
+import java.util.Objects;
 
 /**
  * What came of an evaluation; the JSON form is {@code sim-native/protocol/result.schema.json}, of which unknown fields
@@ -41,8 +42,13 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         Effort effort)
         implements SimulationResultBuilder.With {
 
-    /** Copies the lists. */
+    /** Copies the lists. What is {@code ok} has to have a distance and a time. */
     public SimulationResult {
+        Objects.requireNonNull(status, "status");
+        if (status == Status.OK) {
+            Objects.requireNonNull(distance, "distance");
+            Objects.requireNonNull(simulated, "simulated");
+        }
         goals = goals == null ? null : List.copyOf(goals);
         objectives = objectives == null ? null : List.copyOf(objectives);
     }

@@ -9,12 +9,14 @@ import io.natator.config.Judge;
 import io.natator.encoding.Gait;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionState;
+import io.natator.evolution.GenerationSummary;
 import io.natator.file.CompressedJson;
 import io.natator.simulator.SimulationResult;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 import java.util.stream.Collectors;
 import org.junit.jupiter.api.Test;
@@ -40,7 +42,8 @@ class FinalistsTest {
     /** Worth and number of runs of each, the best first, after this generation; the log begins with evaluation `from`. */
     private String kept(int generation, int from) throws IOException {
         Files.writeString(run.resolve("config.json"), Json.document(SETTINGS.withGenerations(generation)));
-        EvolutionState state = new EvolutionState(generation, evaluations.size(), List.of(), null, List.of());
+        EvolutionState state = new EvolutionState(generation, evaluations.size(), List.of(), null,
+                Collections.nCopies(generation + 1, new GenerationSummary(0, 0, 0, 0, 0, 0, 0, 0, 0)));
         Files.writeString(run.resolve("checkpoint.json"), Json.document(state));
         if (from > 0) {
             CompressedJson.write(run.resolve("checkpoint.json.gz"), state);
