@@ -3,6 +3,7 @@ package io.natator.cli;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EncodingKind;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.file.GeneratedPage;
@@ -126,7 +127,7 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
             spec.commandLine().getOut().println(new ClusterStudy(cluster, EvaluationTimes.read(times), seed)
                     .writeTo(directory, CommandText.of(spec, List.of("--simulator-path"))));
         } catch (IOException e) {
-            throw new UncheckedIOException(directory + ": cannot be written: " + e.getMessage(), e);
+            throw new UncheckedIOException(directory + " cannot be written: " + FileErrors.whyNotMade(directory, e), e);
         }
         return ExitCode.OK;
     }

@@ -293,7 +293,7 @@ final class EvolveCommand implements Callable<Integer> {
     }
 
     private static InvalidInputException cannotBeMade(Path folder, IOException e) {
-        return new InvalidInputException("output folder " + folder + " cannot be made: " + FileErrors.reason(folder, e), e);
+        return new InvalidInputException("output folder " + folder + " cannot be made: " + FileErrors.whyNotMade(folder, e), e);
     }
 
     /** runs/creature-1-seed-7, or with -2, -3 … if that is taken. */

@@ -100,7 +100,7 @@ final class NewCommand implements Callable<Integer> {
             throw new InvalidInputException(occupied(file), e);
         } catch (IOException e) {
             file.toFile().delete();
-            throw new UncheckedIOException("cannot write " + file + ": " + FileErrors.reason(file, e), e);
+            throw new UncheckedIOException("cannot write " + file + ": " + FileErrors.whyNotMade(file, e), e);
         }
     }
 

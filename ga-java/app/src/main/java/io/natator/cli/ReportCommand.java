@@ -55,7 +55,7 @@ final class ReportCommand implements Callable<Integer> {
             }
         } catch (IOException e) {
             throw new UncheckedIOException("cannot write the report to " + folder + ": "
-                    + FileErrors.reason(folder, e), e);
+                    + FileErrors.whyNotMade(folder, e), e);
         }
         return ExitCode.OK;
     }

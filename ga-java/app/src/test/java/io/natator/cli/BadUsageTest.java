@@ -8,6 +8,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -47,10 +48,16 @@ class BadUsageTest extends FakeSimulatorTest {
 
     @Test
     void anOutputFolderThatCannotBeIsSaidInWords() throws IOException {
-        Files.writeString(folder.resolve("file"), "");
-        assertThat(evolve("file/run")).isEqualTo(2);
-        assertThat(err.toString().strip()).startsWith("natator evolve: output folder " + folder.resolve("file/run")
-                + " cannot be made: ").doesNotContain("java.", "Exception");
+        Path file = Files.writeString(folder.resolve("file"), "");
+        Path link = Files.createSymbolicLink(folder.resolve("link"), Path.of("nowhere/at/all"));
+        Map<Path, String> reasons = Map.of(file, "is a file, not a folder", file.resolve("a/b"), file + " is a file, not a folder",
+                link, "is a link that leads nowhere", Path.of("/proc/run"), "/proc takes no new files or folders",
+                Path.of("/proc/a/run"), "/proc takes no new files or folders");
+        for (var one : reasons.entrySet()) {
+            err.getBuffer().setLength(0);
+            assertThat(evolve(one.getKey().toString())).isEqualTo(2);
+            assertThat(err.toString()).isEqualTo("natator evolve: output folder " + one.getKey() + " cannot be made: " + one.getValue() + "\n");
+        }
     }
 
     @Test

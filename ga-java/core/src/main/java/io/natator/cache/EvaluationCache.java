@@ -82,7 +82,7 @@ public final class EvaluationCache {
 
     private void complain(IOException e) {
         if (refused.compareAndSet(false, true)) {
-            LOG.warn("evaluations are not cached in {}: {}", folder, FileErrors.reason(folder, e));
+            LOG.warn("evaluations are not cached in {}: {}", folder, FileErrors.whyNotMade(folder, e));
         }
     }
 

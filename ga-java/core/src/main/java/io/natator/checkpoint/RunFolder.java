@@ -100,7 +100,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             }
         } catch (IOException e) {
             throw new InvalidInputException("output folder " + directory + " cannot be made: "
-                    + FileErrors.reason(directory, e), e);
+                    + FileErrors.whyNotMade(directory, e), e);
         }
         try {
             AtomicFile.write(directory.resolve(name), Json.document(content));

@@ -40,10 +40,26 @@ public final class FileErrors {
     public static String reason(Path file, IOException e) {
         String why = e instanceof AccessDeniedException ? "permission denied"
                 : e instanceof NoSuchFileException ? "no such file or folder"
-                : e instanceof FileAlreadyExistsException ? "is a file, not a folder"
+                : e instanceof FileAlreadyExistsException
+                ? Files.exists(file) ? "is a file, not a folder" : "is a link that leads nowhere"
                 : e instanceof FileSystemException system && system.getReason() != null ? system.getReason()
                 : String.valueOf(e.getMessage());
         String about = e instanceof FileSystemException system ? system.getFile() : null;
         return about == null || about.equals(file.toString()) || why.contains(about) ? why : about + ": " + why;
+    }
+
+    /** Why a file or folder could not be made, likewise: that it was not there is no reason, but what it was to be in may be. */
+    public static String whyNotMade(Path file, IOException e) {
+        String about = e instanceof FileSystemException system ? system.getFile() : null;
+        Path place = about == null ? null : Path.of(about).toAbsolutePath().getParent();
+        Path there = place;
+        while (there != null && !Files.exists(there)) {
+            there = there.getParent();
+        }
+        if (there != null && !Files.isDirectory(there)) {
+            return there + " is a file, not a folder";
+        }
+        return e instanceof NoSuchFileException && place != null && place.equals(there) ? place + " takes no new files or folders"
+                : reason(file, e);
     }
 }

@@ -65,7 +65,7 @@ public final class OutputFile {
             Files.move(fresh, target, StandardCopyOption.REPLACE_EXISTING);
         } catch (IOException e) {
             fresh.toFile().delete();
-            throw new UncheckedIOException("cannot write " + named + ": " + FileErrors.reason(named, e), e);
+            throw new UncheckedIOException("cannot write " + named + ": " + FileErrors.whyNotMade(named, e), e);
         }
     }
 }

@@ -44,7 +44,7 @@ public record FlexStudy(Path variantsFile, Path directory, int runs) {
             Files.createDirectories(directory);
         } catch (IOException e) {
             throw new InvalidInputException("--output-dir " + directory + " cannot be made: "
-                    + FileErrors.reason(directory, e), e);
+                    + FileErrors.whyNotMade(directory, e), e);
         }
         Environment environment = Environment.present(execution);
         List<Comparison> comparisons;

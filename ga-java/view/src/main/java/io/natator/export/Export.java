@@ -80,7 +80,7 @@ public final class Export {
             target.commit();
             return written;
         } catch (IOException e) {
-            throw new UncheckedIOException("no export to " + folder + ": " + FileErrors.reason(folder, e), e);
+            throw new UncheckedIOException("no export to " + folder + ": " + FileErrors.whyNotMade(folder, e), e);
         }
     }
 
