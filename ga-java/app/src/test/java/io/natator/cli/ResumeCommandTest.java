@@ -6,6 +6,8 @@ import ch.qos.logback.classic.Logger;
 import ch.qos.logback.classic.spi.ILoggingEvent;
 import ch.qos.logback.core.read.ListAppender;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.CompactRun;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
@@ -93,6 +95,22 @@ class ResumeCommandTest extends FakeSimulatorTest {
             logger.detachAppender(seen);
         }
         return seen.list.stream().map(ILoggingEvent::getFormattedMessage).toList();
+    }
+
+    @Test
+    void genesThatStandForNothingAreNamed() throws IOException {
+        assertThat(evolve("run")).isZero();
+        Files.delete(folder.resolve("run/best.json"));
+        Path checkpoint = folder.resolve("run/checkpoint.json");
+        ObjectNode state = Json.read(checkpoint, ObjectNode.class, "checkpoint");
+        ((ArrayNode) state.get("best").get("genes")).set(0, 99);
+        Files.writeString(checkpoint, Json.document(state));
+        for (String command : List.of("show", "resume")) {
+            err.getBuffer().setLength(0);
+            assertThat(natator(command, folder.resolve("run").toString())).isEqualTo(2);
+            assertThat(err.toString()).isEqualTo("natator " + command + ": " + folder.resolve("run")
+                    + " is damaged: genes of checkpoint.json: gene 1 (frequency) is 99.0; expected a number from 0.5 to 2.0\n");
+        }
     }
 
     @Test

@@ -129,6 +129,16 @@ class ShowCommandTest extends FakeSimulatorTest {
     }
 
     @Test
+    void settingsOfNoMusclesAreRefused() throws IOException {
+        evolved("jgap");
+        Files.writeString(file("config.json"), Files.readString(file("config.json")).replace("\"actuators\" : 2", "\"actuators\" : 0"));
+
+        assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(err.toString()).startsWith("natator show: settings " + file("config.json")
+                + ": dense encoding of 0 actuators; expected at least 1").hasLineCount(1);
+    }
+
+    @Test
     void aHistoryWithoutAllGenerationsIsNamed() throws IOException {
         evolved("jgap");
         ObjectNode checkpoint = Json.read(file("checkpoint.json"), ObjectNode.class, "checkpoint");

@@ -162,12 +162,11 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
-        String lost = folder.checkpoint != null && folder.checkpoint.population().isEmpty()
+        folder.refuse(folder.checkpoint != null && folder.checkpoint.population().isEmpty()
                 ? directory + " has no population any more, which it would go on from: it lacks " + CompactRun.WHOLE
-                : damage(directory, folder.checkpoint, folder.recorded().end());
-        String damage = lost != null ? lost
-                : damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size());
-        folder.refuse(damage);
+                : damage(directory, folder.checkpoint, folder.recorded().end()));
+        folder.refuse(damagedGenes(directory, folder.genome, folder.checkpoint));
+        folder.refuse(damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size()));
         folder.dropFailures();
         return folder;
     }
@@ -195,6 +194,20 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
         return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
                 + " has " + recorded + " whole lines; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
+    }
+
+    /** Which genes of a checkpoint stand for nothing, in one line; null if none do. */
+    static String damagedGenes(Path directory, Genome genome, EvolutionState checkpoint) {
+        if (checkpoint == null) {
+            return null;
+        }
+        try {
+            Stream.concat(checkpoint.population().stream(), Stream.ofNullable(checkpoint.best()))
+                    .forEach(one -> genome.decode(one.genes()));
+            return null;
+        } catch (IllegalArgumentException e) {
+            return directory + " is damaged: genes of " + CHECKPOINT + ": " + e.getMessage();
+        }
     }
 
     /**

@@ -165,8 +165,14 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         } catch (InvalidInputException e) {
             warn(e.getMessage() + "; taken from " + RunFolder.CHECKPOINT + " instead");
         }
-        return state == null || state.best() == null ? null : BestGait.of(settings.scene(), state.best(),
-                settings.genome().decode(state.best().genes()));
+        if (state == null || state.best() == null) {
+            return null;
+        }
+        String damage = RunFolder.damagedGenes(directory, settings.genome(), state);
+        if (damage != null) {
+            throw new InvalidInputException(damage);
+        }
+        return BestGait.of(settings.scene(), state.best(), settings.genome().decode(state.best().genes()));
     }
 
     /** What the run in a folder did not have to simulate; null if that was not recorded. */
