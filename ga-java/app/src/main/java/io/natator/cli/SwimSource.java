@@ -13,6 +13,7 @@ import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.Limits;
 import io.natator.config.MergePatch;
 import io.natator.config.Scheme;
 import io.natator.encoding.Gait;
@@ -110,8 +111,9 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
     double seconds(Double given, JsonNode overrides, Path simulator) throws InterruptedException {
         Double known = given != null ? given : duration;
         double seconds = known != null ? known : SceneInfo.of(scene, overrides, simulator).duration();
-        if (!(seconds > 0) || Double.isInfinite(seconds)) {
-            throw new InvalidInputException("--duration is " + seconds + "; expected a number of seconds above 0");
+        if (!(seconds > 0 && seconds <= Limits.DURATION)) {
+            throw new InvalidInputException("--duration is " + seconds + "; expected a number of seconds above 0, up to "
+                    + (long) Limits.DURATION);
         }
         return seconds;
     }

@@ -6,6 +6,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.config.Json;
+import io.natator.evolution.EvolutionState;
+import io.natator.evolution.GenerationSummary;
 import io.natator.export.ExportFormat;
 import io.natator.stream.StreamBytes;
 import java.io.IOException;
@@ -14,6 +16,7 @@ import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
@@ -87,11 +90,11 @@ class ExportCommandTest {
                     + line.formatted(0, 1.5, 1.5, result.formatted(1, 0.125))
                     + line.formatted(1, 1.75, 1.75, result.formatted(2, 0.5)));
         }
-        Files.writeString(run.resolve("checkpoint.json"),
-                "{\"generation\":1,\"evaluations\":3,\"population\":[],\"best\":null,\"history\":[]}");
+        Files.writeString(run.resolve("checkpoint.json"), Json.document(new EvolutionState(1, 3, List.of(), null,
+                Collections.nCopies(2, new GenerationSummary(0, 0, 0, 0, 0, 0, 0, 0, 0)))));
         Files.writeString(run.resolve("best.json"), """
                 {"scene":"thesis/creature-1","genes":[1.75,0.5,0.5,0.5],"gait":{"frequency":1.75,"amplitude":[0.5,0.5],
-                 "phase":[0,0.5]},"distance":0.5,"speed":0.125,"result":{"id":2,"status":"ok","distance":0.5}}""");
+                 "phase":[0,0.5]},"distance":0.5,"speed":0.125,"result":{"id":2,"status":"ok","distance":0.5,"simulated":3}}""");
         return run;
     }
 
@@ -159,7 +162,8 @@ class ExportCommandTest {
         "test/pool --duration 1 --water-surface|--water-surface and --format csv: expected a format that holds meshes of many shapes",
         "test/pool --fields velocity,velocity|--fields has velocity twice; expected each once",
         "test/pool --every 0|--every is 0; expected a whole number from 1",
-        "test/pool --duration 0|--duration is 0.0; expected a number of seconds above 0"})
+        "test/pool --duration 0|--duration is 0.0; expected a number of seconds above 0",
+        "test/pool --duration 1e300|--duration is 1.0E300; expected a number of seconds above 0, up to 1000000"})
     void badUsageIsOneLine(String arguments, String message) throws IOException {
         Path run = run(true);
         Files.writeString(folder.resolve("gait.json"), "{\"frequency\":1,\"amplitude\":[1,1],\"phase\":[0,0]}");
