@@ -4,6 +4,7 @@ import io.natator.config.InvalidInputException;
 import io.natator.evolution.EvolutionFailedException;
 import io.natator.simulator.RequestRejectedException;
 import java.io.UncheckedIOException;
+import java.util.regex.Pattern;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 import picocli.CommandLine;
@@ -18,6 +19,8 @@ import picocli.CommandLine.UnmatchedArgumentException;
 final class OneLineErrors {
 
     private static final Logger LOG = LoggerFactory.getLogger(OneLineErrors.class);
+    /** What picocli calls an argument that is no option; in it, the name that the help has for it. */
+    private static final Pattern PLACE = Pattern.compile("positional parameter at index \\S+ \\((.*?)\\)");
 
     private OneLineErrors() {
     }
@@ -25,8 +28,8 @@ final class OneLineErrors {
     static int badUsage(ParameterException error, String[] arguments) {
         CommandLine command = error.getCommandLine();
         String unmatched = unmatched(error);
-        String what = unmatched != null ? unknown(unmatched, command, error.getMessage())
-                : NumberValues.isNone(error) ? NumberValues.message(error) : error.getMessage();
+        String what = unmatched != null ? unknown(unmatched, command)
+                : NumberValues.isNone(error) ? NumberValues.message(error) : PLACE.matcher(error.getMessage()).replaceAll("$1");
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
         return ExitCode.USAGE;
     }
@@ -42,12 +45,12 @@ final class OneLineErrors {
     }
 
     /** What is unknown, with the nearest known name if one is near. */
-    private static String unknown(String argument, CommandLine command, String otherwise) {
+    private static String unknown(String argument, CommandLine command) {
         if (argument.startsWith("-")) {
             String name = argument.replaceFirst("=.*", "");
             return name + " is no option of this command" + Closest.hint(name, command.getCommandSpec().optionsMap().keySet());
         }
-        return command.getSubcommands().isEmpty() ? otherwise
+        return command.getSubcommands().isEmpty() ? "'" + argument + "' is one argument too many"
                 : "'" + argument + "' is no command" + Closest.hint(argument, command.getSubcommands().keySet());
     }
 

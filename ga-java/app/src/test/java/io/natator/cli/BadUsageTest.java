@@ -216,7 +216,10 @@ class BadUsageTest extends FakeSimulatorTest {
         "evaluate --sceen pool/creature-1 --gait|--sceen is no option of this command; did you mean --scene? See natator evaluate --help",
         "compare --startss 3|--startss is no option of this command; did you mean --starts? See natator compare --help",
         "evolve --seed|Missing required parameter for option '--seed' (N); see natator evolve --help",
-        "show|Missing required parameter: 'RUN'; see natator show --help"})
+        "show|Missing required parameter: 'RUN'; see natator show --help",
+        "show one two|'two' is one argument too many; see natator show --help",
+        "compare one|RUN requires at least 2 values, but only 1 were specified: [one]; see natator compare --help",
+        "new fish minnow|`Invalid value for scene|creature|gait: expected scene, creature or gait but was 'fish'; see natator new --help`"})
     void theMistypedIsNamed(String arguments, String message) {
         CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
 
