@@ -145,6 +145,7 @@ describe() {
     fi
     case $1 in
     pool/eel) actuators=8 ;;
+    thesis/tank) actuators=0 ;;
     thesis/creature-2 | pool/creature-2) actuators=8 ;;
     thesis/creature-3 | pool/creature-3) actuators=5 ;;
     thesis/* | pool/* | fault/*) actuators=2 ;;

@@ -116,9 +116,12 @@ final class EvaluateCommand implements Callable<Integer> {
     }
 
     private Gait gait(int actuators) {
+        if (actuators == 0) {
+            throw new InvalidInputException("--scene is " + scene + ", where nothing can move by itself: it has no actuators");
+        }
         List<Double> genes = numbers();
         // Of two actuators both encodings are the same.
-        boolean dense = genes.size() == new DenseEncoding(Math.max(actuators, 1)).genes().size() || genes.size() != 4;
+        boolean dense = genes.size() == new DenseEncoding(actuators).genes().size() || genes.size() != 4;
         try {
             return (dense ? EncodingKind.DENSE : EncodingKind.SPARSE).forActuators(actuators).decode(genes);
         } catch (IllegalArgumentException e) {
