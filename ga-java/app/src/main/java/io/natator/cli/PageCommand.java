@@ -62,7 +62,7 @@ final class PageCommand implements Callable<Integer> {
     private int best;
 
     @Section(Topic.OUTPUT)
-    @Option(names = "--output", paramLabel = "FILE", defaultValue = "swim.html",
+    @Option(names = {"-o", "--output"}, paramLabel = "FILE", defaultValue = "swim.html",
             description = "Default: ${DEFAULT-VALUE}.")
     private Path output;
 
