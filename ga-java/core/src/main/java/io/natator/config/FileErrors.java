@@ -1,6 +1,9 @@
 package io.natator.config;
 
 import java.io.IOException;
+import java.io.InputStream;
+import java.nio.ByteBuffer;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.AccessDeniedException;
 import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.FileSystemException;
@@ -26,14 +29,23 @@ public final class FileErrors {
     }
 
     /**
-     * Refuses a file that is too large to be read as a whole.
+     * The text of a file that is not too large to be read as a whole; of a device or a pipe, which tells no size, no more is read.
      *
-     * @throws IOException that says so
+     * @throws IOException that says that it is, or is no UTF-8
      */
-    static void checkSize(Path file) throws IOException {
-        if (Files.size(file) > Limits.FILE_BYTES) {
+    static String text(Path file) throws IOException {
+        byte[] content = {};
+        boolean isSmall = Files.size(file) <= Limits.FILE_BYTES;
+        if (isSmall) {
+            try (InputStream in = Files.newInputStream(file)) {
+                content = in.readNBytes(Limits.FILE_BYTES);
+                isSmall = in.read() < 0;
+            }
+        }
+        if (!isSmall) {
             throw new IOException("larger than " + Limits.FILE_BYTES + " bytes");
         }
+        return StandardCharsets.UTF_8.newDecoder().decode(ByteBuffer.wrap(content)).toString();
     }
 
     /** Why, without the file's name where the error is about the file itself. */

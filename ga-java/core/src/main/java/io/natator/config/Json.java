@@ -14,7 +14,6 @@ import com.fasterxml.jackson.databind.json.JsonMapper;
 import com.fasterxml.jackson.databind.type.LogicalType;
 import java.io.IOException;
 import java.nio.charset.CharacterCodingException;
-import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
 import java.util.Objects;
@@ -92,8 +91,7 @@ public final class Json {
      */
     public static <T> T read(Path file, Class<T> type, String what) {
         try {
-            FileErrors.checkSize(file);
-            return parse(Files.readString(file), type);
+            return parse(FileErrors.text(file), type);
         } catch (NoSuchFileException e) {
             throw new InvalidInputException(what + " " + file + " does not exist", e);
         } catch (JsonProcessingException e) {
