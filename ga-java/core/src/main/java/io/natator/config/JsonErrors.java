@@ -35,7 +35,7 @@ final class JsonErrors {
         }
         String message = e.getOriginalMessage().lines().findFirst().orElse("not JSON");
         if (message.startsWith("No content")) {
-            return "is empty; expected a JSON text";
+            return "found nothing; expected a JSON text";
         }
         if (e instanceof MismatchedInputException mismatch && mismatch.getTargetType() != null
                 && !message.startsWith("Trailing token") && !message.startsWith("no value")) {

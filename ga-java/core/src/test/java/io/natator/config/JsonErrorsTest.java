@@ -30,7 +30,7 @@ class JsonErrorsTest {
         "{'amplitude':['1']}|amplitude: expected a number, not '1'",
         "{'frequency':1,'amplitude':[1],'phase':[0],'speed':1}|speed: unknown key; expected some of ",
         "[]|expected an object",
-        "``|is empty; expected a JSON text",
+        "``|found nothing; expected a JSON text",
         "{'frequency':1|ends too early; expected the rest of the JSON text",
         "{'frequency':|ends too early; expected the rest of the JSON text",
         "{'amplitude':[1,|amplitude: ends too early; expected the rest of the JSON text",
