@@ -35,10 +35,10 @@ final class IslandsReport {
         for (int i = 1; i <= archipelago.plan().islands(); i++) {
             Path folder = archipelago.folder(i);
             EvolutionState state = StoredRun.exists(folder) ? StoredRun.state(folder) : null;
+            boolean hasGait = state != null && state.best() != null;
             out.printf(ROW, i, archipelago.plan().settings(i).seed(), state == null ? "-" : state.generation(),
-                    state == null ? "-" : state.evaluations(),
-                    state == null || state.best() == null ? "-" : RunReport.number(state.best().score()),
-                    (state == null ? 0 : arrived(archipelago, i, state)) + (i == winner ? "   winner" : ""));
+                    state == null ? "-" : state.evaluations(), hasGait ? RunReport.number(state.best().score()) : "-",
+                    (state == null ? 0 : arrived(archipelago, i, state)) + (i == winner && hasGait ? "   winner" : ""));
         }
     }
 

@@ -87,6 +87,17 @@ class IslandsFolderTest {
     }
 
     @Test
+    void nobodyWinsWithoutAGait() throws IOException {
+        for (String name : List.of("islands.json", "island-1/config.json", "island-2/config.json")) {
+            Files.createDirectories(folder.resolve(name).getParent());
+            Files.copy(islands.resolve(name), folder.resolve(name));
+        }
+
+        assertThat(natator("show", folder.toString())).contains("  1       1       -  ", "no generation finished, 0 evaluations of the first")
+                .doesNotContain("winner");
+    }
+
+    @Test
     void checkAndReportAreInTheWinnersFolder() {
         assertThat(swim("check", "--starts", "2", islands.toString())).contains("\nverdict: ");
         swim("report", islands.toString());
