@@ -38,6 +38,19 @@ final class NativeProgram implements AutoCloseable {
 
     /** What a finished program left: exit status, standard output, and the end of standard error as one line. */
     record Output(int exitStatus, String text, String errorText) {
+
+        /**
+         * Why it failed: its own words, or how it ended, after the name of what it was asked for unless they have it.
+         *
+         * @param subject for example {@code scene pool/eel}
+         */
+        String failure(String subject) {
+            if (errorText.isEmpty()) {
+                return subject + ": simulator ended with exit status " + exitStatus;
+            }
+            String said = errorText.replaceFirst("^natator-sim: ", "");
+            return said.contains("\"" + subject.replaceFirst("^scene ", "") + "\"") ? said : subject + ": " + said;
+        }
     }
 
     NativeProgram(Path program, Duration timeout) {

@@ -94,11 +94,10 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
         try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
             NativeProgram.Output output = program.call(arguments, "");
             if (output.exitStatus() == BAD_INPUT) {
-                throw new RefusedSceneException(subject + ": " + output.errorText());
+                throw new RefusedSceneException(output.failure(subject));
             }
             if (output.exitStatus() != 0) {
-                throw new InvalidInputException(subject + ": " + (output.errorText().isEmpty()
-                        ? "simulator ended with exit status " + output.exitStatus() : output.errorText()));
+                throw new InvalidInputException(output.failure(subject));
             }
             return output.text();
         } catch (SimulatorFailure e) {

@@ -53,8 +53,7 @@ public final class TrajectoryRecorder {
         try (NativeProgram program = new NativeProgram(execution.simulator(), execution.timeout())) {
             NativeProgram.Output output = program.call(arguments, "");
             if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
-                throw new InvalidInputException("scene " + request.scene() + ": " + (output.errorText().isEmpty()
-                        ? "simulator ended with exit status " + output.exitStatus() : output.errorText()));
+                throw new InvalidInputException(output.failure("scene " + request.scene()));
             }
             return output.exitStatus() == 0;
         } catch (SimulatorFailure e) {

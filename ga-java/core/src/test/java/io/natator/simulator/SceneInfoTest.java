@@ -7,6 +7,7 @@ import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -14,6 +15,17 @@ class SceneInfoTest {
 
     @TempDir
     private Path folder;
+
+    /** As the simulator of today puts it. */
+    @Test
+    void aRefusalNamesTheSceneOnce() {
+        for (String said : List.of("scene \"pool/eel\": solver.substeps = -3: must be a whole number", "unknown scene \"pool/eel\"")) {
+            assertThat(new NativeProgram.Output(2, "", "natator-sim: " + said).failure("scene pool/eel")).isEqualTo(said);
+        }
+        assertThat(new NativeProgram.Output(2, "", "natator-sim: file \"eel.json\": not valid JSON").failure("scene pool/eel"))
+                .isEqualTo("scene pool/eel: file \"eel.json\": not valid JSON");
+        assertThat(new NativeProgram.Output(7, "", "").failure("itself")).isEqualTo("itself: simulator ended with exit status 7");
+    }
 
     @Test
     void tellsTheNumberOfActuators() throws InterruptedException {
