@@ -91,7 +91,7 @@ class ShowCommandTest extends FakeSimulatorTest {
     }
 
     @ParameterizedTest
-    @CsvSource(delimiter = '|', value = {"{}|generation: expected a whole number", "null|no value", "{'generation':0}|genes is missing",
+    @CsvSource(delimiter = '|', value = {"{}|generation: expected a whole number", "null|expected an object", "{'generation':0}|genes is missing",
         "{'generation':0,'genes':[1]}|result is missing", "{'generation':zero}|found 'zero'; expected JSON (column 15)"})
     void aLineThatIsNoEvaluationIsNamed(String line, String message) throws IOException {
         evolved("map-elites");

@@ -38,7 +38,7 @@ final class JsonErrors {
             return "found nothing; expected a JSON text";
         }
         if (e instanceof MismatchedInputException mismatch && mismatch.getTargetType() != null
-                && !message.startsWith("Trailing token") && !message.startsWith("no value")) {
+                && !message.startsWith("Trailing token")) {
             return "expected " + described(mismatch.getTargetType())
                     + (e instanceof InvalidFormatException invalid ? ", not " + shortened(invalid.getValue()) : taken(message));
         }
