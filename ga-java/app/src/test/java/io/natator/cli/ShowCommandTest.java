@@ -128,14 +128,15 @@ class ShowCommandTest extends FakeSimulatorTest {
         }
     }
 
-    @Test
-    void settingsOfNoMusclesAreRefused() throws IOException {
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {"0|dense encoding of 0 actuators; expected at least 1",
+        "2000000000|actuators is 2000000000; expected at most 100000"})
+    void settingsOfAbsurdMusclesAreRefused(String actuators, String message) throws IOException {
         evolved("jgap");
-        Files.writeString(file("config.json"), Files.readString(file("config.json")).replace("\"actuators\" : 2", "\"actuators\" : 0"));
+        Files.writeString(file("config.json"), Files.readString(file("config.json")).replace("\"actuators\" : 2", "\"actuators\" : " + actuators));
 
         assertThat(natator("show", folder.resolve("run").toString())).isEqualTo(2);
-        assertThat(err.toString()).startsWith("natator show: settings " + file("config.json")
-                + ": dense encoding of 0 actuators; expected at least 1").hasLineCount(1);
+        assertThat(err.toString()).startsWith("natator show: settings " + file("config.json") + ": " + message).hasLineCount(1);
     }
 
     @Test

@@ -63,6 +63,7 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
     public EvolutionSettings {
         Objects.requireNonNull(scene, "scene");
         Objects.requireNonNull(encoding, "encoding");
+        require(actuators <= Limits.ACTUATORS, "actuators", actuators, "at most " + Limits.ACTUATORS);
         encoding.forActuators(actuators);  // refuses what it cannot be of
         operators = operators == null ? OperatorSet.CORRECTED : operators;
         require(population >= 2 && population <= Limits.POPULATION, "population", population,

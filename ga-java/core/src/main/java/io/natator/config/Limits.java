@@ -7,6 +7,8 @@ public final class Limits {
     public static final int AT_ONCE = 1024;
     /** Chromosomes of a generation. */
     public static final int POPULATION = 100_000;
+    /** Actuators of a creature. */
+    public static final int ACTUATORS = 100_000;
     /** Runs of a gait, each from a start of its own. */
     public static final int STARTS = 1000;
     /** Seeds, or repetitions, of a study. */
