@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <iostream>
 #include <memory>
 
@@ -38,8 +40,9 @@ int run_evaluate(EvaluateOptions& options) {
     try {
         return evaluate_request(options, id);
     } catch (const std::exception& error) {
-        // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code.
-        if (!options.plain)
+        // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code. A person who sees
+        // both needs it once.
+        if (!options.plain && !isatty(STDOUT_FILENO))
             print(error_json(id, error.what()).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
         throw;
     }

@@ -1,8 +1,10 @@
 // natator-sim evaluate: what a caller on the other end of the pipes relies on.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -240,6 +242,22 @@ TEST(EvaluateProtocolTest, AFullDiskBehindStandardOutputIsAFailure) {
     const Outcome outcome = run_simulator({"evaluate"}, request("thesis/creature-1-vacuum", 0.05).dump(), "/dev/full");
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+}
+
+/// Whoever reads a pipe gets the error as an answer, too; who sees both, once.
+TEST(EvaluateProtocolTest, AnErrorIsToldOnceOnATerminal) {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    ASSERT_GE(terminal, 0);
+    ASSERT_EQ(grantpt(terminal) + unlockpt(terminal), 0);
+    const Outcome piped = run_simulator({"evaluate"}, "{}");
+    const Outcome seen = run_simulator({"evaluate"}, "{}", ptsname(terminal));
+    char written[100];
+    EXPECT_LE(read(terminal, written, sizeof written), 0) << "nothing but the line on standard error";
+    close(terminal);
+    EXPECT_EQ(json::parse(piped.out).at("status"), "error");
+    EXPECT_EQ(seen.exit_code, piped.exit_code);
+    EXPECT_EQ(seen.err, piped.err);
+    EXPECT_EQ(lines(seen.err), 1);
 }
 
 }  // namespace
