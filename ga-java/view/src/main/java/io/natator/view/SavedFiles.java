@@ -92,10 +92,22 @@ final class SavedFiles implements AutoCloseable {
         stamps.put(file, Stamp.of(file));
         try {
             JsonNode content = Json.read(file, JsonNode.class, "scene");
-            add(content.path("base").asText(), stamps, levels - 1);
-            add(content.at("/creature/name").asText(), stamps, 0);
+            addNamed(file, content.path("base").asText(), stamps, levels - 1);
+            addNamed(file, content.at("/creature/name").asText(), stamps, 0);
         } catch (InvalidInputException e) {
             // The simulator says what is wrong with it.
+        }
+    }
+
+    /** Of what a file names there are two places: beside the file, and from the working directory, where it is looked for next. */
+    private static void addNamed(Path file, String name, Map<Path, Stamp> stamps, int levels) {
+        if (!name.endsWith(FILE_ENDING)) {
+            return;
+        }
+        Path beside = file.resolveSibling(name);
+        add(beside.toString(), stamps, levels);
+        if (!Files.exists(beside)) {
+            add(name, stamps, levels);
         }
     }
 

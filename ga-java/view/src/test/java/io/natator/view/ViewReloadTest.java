@@ -37,7 +37,7 @@ class ViewReloadTest extends BrowserTest {
     /** A scene in vacuum whose creature is a file too. */
     private Path scene(String solver) throws IOException {
         return Files.writeString(folder.resolve("mine.json"), "{\"solver\":{\"gravity\":[0,0,0]," + solver
-                + "},\"creature\":{\"name\":\"" + folder.resolve("body.json") + "\"}}");
+                + "},\"creature\":{\"name\":\"body.json\"}}");
     }
 
     private void body(String joints) throws IOException {
