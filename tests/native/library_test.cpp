@@ -113,7 +113,9 @@ std::string message_of(const std::function<void()>& work) {
 /// A body of twelve slices with three joints.
 Scene own_scene() {
     Scene scene;
-    scene.creature = Creature{.slices = std::vector<Slice>(12, Slice{.height = 3, .width = 3}), .joints = {3, 6, 9}};
+    Creature& creature = scene.creature.emplace();
+    creature.slices.assign(12, Slice{.height = 3, .width = 3});
+    creature.joints = {3, 6, 9};
     return scene;
 }
 

@@ -29,9 +29,9 @@ void place_mesh(json& mesh, const std::string& name, const std::filesystem::path
 /// The path of a scene or a creature that a file names is from where that file is; of one that is not there, from the working
 /// directory.
 std::string beside(const std::string& file, const std::string& path) {
-    constexpr std::string_view suffix = ".json";
+    constexpr std::string_view ending = ".json";
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (!file.ends_with(suffix) || !path.ends_with(suffix) || folder.empty()) return path;
+    if (!file.ends_with(ending) || !path.ends_with(ending) || folder.empty()) return path;
     std::error_code failed;
     const std::filesystem::path there = folder / path;  // `path` itself if it is absolute
     return std::filesystem::exists(there, failed) ? there.string() : path;

@@ -7,7 +7,7 @@
 namespace natator {
 namespace {
 
-std::string item(const char* list, std::size_t index) { return list + ("[" + std::to_string(index) + "]"); }
+std::string item(const std::string& list, std::size_t index) { return list + "[" + std::to_string(index) + "]"; }
 
 void require_length(const std::string& name, std::size_t length, std::size_t wanted) {
     if (length != wanted)
