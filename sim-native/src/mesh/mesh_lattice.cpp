@@ -89,7 +89,7 @@ void add_inside(std::vector<Crossing>& line, const MeshLattice& lattice, int row
         const double from = line[i].x, to = line[i + 1].x;
         if ((winding < 0 || winding > 1) && to - from > least)
             throw InputError(std::string(winding < 0 ? "has a part whose faces look inwards" : "has a part inside another") +
-                             ", at " + shown({(from + to) / 2, lattice.y(row), lattice.z(column)}) +
+                             ", at " + shown(Eigen::Vector3d((from + to) / 2, lattice.y(row), lattice.z(column))) +
                              " (forward, up, right); faces must bound one solid");
         if (winding < 1) continue;
         // Slices count against x: those with from <= x < to.
