@@ -111,10 +111,7 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
     double seconds(Double given, JsonNode overrides, Path simulator) throws InterruptedException {
         Double known = given != null ? given : duration;
         double seconds = known != null ? known : SceneInfo.of(scene, overrides, simulator).duration();
-        if (!(seconds > 0 && seconds <= Limits.DURATION)) {
-            throw new InvalidInputException("--duration is " + seconds + "; expected a number of seconds above 0, up to "
-                    + (long) Limits.DURATION);
-        }
+        Limits.checkDuration("--duration", seconds);
         return seconds;
     }
 

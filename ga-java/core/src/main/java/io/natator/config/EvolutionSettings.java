@@ -72,8 +72,9 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
         require(evaluations == null || evaluations >= 1, "evaluations", evaluations, "a whole number from 1");
         require(gaussianDeviation > 0 && gaussianDeviation <= 1, "gaussian-deviation", gaussianDeviation,
                 "a number above 0 and up to 1");
-        require(duration == null || duration > 0 && duration <= Limits.DURATION, "duration", duration,
-                "a number of seconds above 0, up to " + (long) Limits.DURATION);
+        if (duration != null) {
+            Limits.checkDuration("duration", duration);
+        }
         optimizer = optimizer == null ? OptimizerKind.JGAP : optimizer;
         fitness = fitness == null ? FitnessKind.DISTANCE : fitness;
         vacuumCheck = vacuumCheck != null && vacuumCheck;

@@ -38,6 +38,17 @@ public final class Limits {
     }
 
     /**
+     * Checks a simulated time.
+     *
+     * @throws InvalidInputException if it is not above 0, or beyond {@link #DURATION}
+     */
+    public static void checkDuration(String name, double value) {
+        if (!(value > 0 && value <= DURATION)) {
+            throw new InvalidInputException(name + " is " + value + "; expected a number of seconds above 0, up to " + (long) DURATION);
+        }
+    }
+
+    /**
      * Checks a time by the clock.
      *
      * @throws InvalidInputException if it is not above 0, or beyond {@link #SECONDS}

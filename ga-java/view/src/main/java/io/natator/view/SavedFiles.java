@@ -101,9 +101,6 @@ final class SavedFiles implements AutoCloseable {
 
     /** Of what a file names there are two places: beside the file, and from the working directory, where it is looked for next. */
     private static void addNamed(Path file, String name, Map<Path, Stamp> stamps, int levels) {
-        if (!name.endsWith(FILE_ENDING)) {
-            return;
-        }
         Path beside = file.resolveSibling(name);
         add(beside.toString(), stamps, levels);
         if (!Files.exists(beside)) {
