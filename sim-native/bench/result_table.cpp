@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <iostream>
 #include <sstream>
-#include <stdexcept>
 #include <system_error>
 
 #include "io/strict_json.h"
+#include "io/whole_file.h"
 #include "natator/error.h"
 
 namespace natator::bench {
@@ -43,7 +43,7 @@ ResultTable::ResultTable(const std::string& path, Row columns, std::size_t key_c
     if (whole_lines > 0) std::filesystem::resize_file(path, whole_lines);
     file_.open(path, whole_lines > 0 ? std::ios::app : std::ios::trunc);
     if (whole_lines == 0) file_ << text() << std::flush;
-    if (!file_) throw std::runtime_error("file " + natator::quoted(path) + ": cannot be written: " + std::generic_category().message(errno));
+    if (!file_) throw cannot_be_written(path, std::generic_category().message(errno));
 }
 
 ResultTable::~ResultTable() {
@@ -81,7 +81,7 @@ void ResultTable::add(const Row& row) {
     keep(row);
     if (path_.empty()) return;
     file_ << line_of(row) << std::flush;
-    if (!file_) throw std::runtime_error("file " + natator::quoted(path_) + ": cannot be written");
+    if (!file_) throw cannot_be_written(path_);
 }
 
 std::string ResultTable::text() const {
@@ -93,7 +93,7 @@ std::string ResultTable::text() const {
 void ResultTable::write(const std::string& path) const {
     std::ofstream file(path, std::ios::trunc);
     file << text() << std::flush;
-    if (!file) throw std::runtime_error("file " + natator::quoted(path) + ": cannot be written");
+    if (!file) throw cannot_be_written(path);
 }
 
 std::string joined(const Row& row, const std::string& separator) {

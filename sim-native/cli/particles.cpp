@@ -48,7 +48,7 @@ void run_particles(const ParticlesOptions& options, int& status) {
     }
     WholeFile file(options.output);
     file.stream() << results.dump() << '\n';
-    if (!file.finish()) throw std::runtime_error("file " + natator::quoted(options.output) + ": cannot be written");
+    if (!file.finish()) throw cannot_be_written(options.output);
 }
 
 }  // namespace

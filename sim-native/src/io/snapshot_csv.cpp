@@ -1,6 +1,3 @@
-#include <stdexcept>
-
-#include "io/strict_json.h"
 #include "io/whole_file.h"
 #include "natator/snapshot.h"
 
@@ -18,7 +15,7 @@ void write_snapshot(const std::string& path, const Model& model, const Snapshot&
              << x.x() << ',' << x.y() << ',' << x.z() << ',' << v.x() << ',' << v.y() << ',' << v.z() << ','
              << snapshot.density[i] << '\n';
     }
-    if (!whole.finish()) throw std::runtime_error("file " + quoted(path) + ": cannot be written");
+    if (!whole.finish()) throw cannot_be_written(path);
 }
 
 }  // namespace natator

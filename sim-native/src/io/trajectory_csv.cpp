@@ -1,6 +1,3 @@
-#include <stdexcept>
-
-#include "io/strict_json.h"
 #include "io/whole_file.h"
 #include "natator/trajectory.h"
 
@@ -43,7 +40,7 @@ void TrajectoryCsv::add_row(double time, std::size_t index, const Eigen::Vector3
 }
 
 void TrajectoryCsv::check(bool written) const {
-    if (!written) throw std::runtime_error("file " + quoted(path_) + ": cannot be written");
+    if (!written) throw cannot_be_written(path_);
 }
 
 }  // namespace natator

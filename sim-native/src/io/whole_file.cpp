@@ -5,6 +5,8 @@
 
 #include <system_error>
 
+#include "io/strict_json.h"
+
 namespace natator {
 namespace {
 
@@ -37,6 +39,10 @@ fs::path beside(fs::path file) {
 }
 
 }  // namespace
+
+std::runtime_error cannot_be_written(const std::string& path, const std::string& why) {
+    return std::runtime_error("file " + quoted(path) + ": cannot be written" + (why.empty() ? "" : ": " + why));
+}
 
 WholeFile::WholeFile(const fs::path& path, std::ios::openmode mode)
     : target_(place_of(path)),
