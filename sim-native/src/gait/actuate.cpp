@@ -1,8 +1,6 @@
 #include "natator/actuate.h"
 
-#include <string>
-
-#include "natator/error.h"
+#include "check_values.h"
 #include "physics/muscle.h"
 
 namespace natator {
@@ -17,12 +15,6 @@ void add_drive(const Gait& gait, double ramp, double time, std::vector<double>& 
     }
 }
 
-void require_one_each(const Model& model, const char* name, std::size_t values) {
-    if (values != static_cast<std::size_t>(model.actuators))
-        throw InputError(std::string(name) + " has length " + std::to_string(values) + ": must have length " +
-                         std::to_string(model.actuators) + ", one value per actuator of the creature");
-}
-
 double ramp_at(const Model& model, double time) {
     return model.scheme != Scheme::flex ? physics::start_ramp(time) : 1.0;
 }
@@ -30,9 +22,9 @@ double ramp_at(const Model& model, double time) {
 }  // namespace
 
 std::vector<double> drive(const Model& model, const Gait& gait, double time) {
-    require_one_each(model, "gait.amplitude", gait.amplitude.size());
-    require_one_each(model, "gait.phase", gait.phase.size());
-    if (!gait.offset.empty()) require_one_each(model, "gait.offset", gait.offset.size());
+    check_length("gait.amplitude", gait.amplitude.size(), model.actuators);
+    check_length("gait.phase", gait.phase.size(), model.actuators);
+    if (!gait.offset.empty()) check_length("gait.offset", gait.offset.size(), model.actuators);
     std::vector<double> driven;
     add_drive(gait, ramp_at(model, time), time, driven);
     return driven;
@@ -45,7 +37,7 @@ void actuate(const Model& model, const Gait& gait, double time, State<Real>& sta
 
 template <class Real>
 void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state) {
-    require_one_each(model, "drive", driven.size());
+    check_length("drive", driven.size(), model.actuators);
     for (const CompanionBody& companion : model.companions) add_drive(companion.gait, ramp_at(model, time), time, driven);
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;
