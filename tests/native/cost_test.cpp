@@ -13,6 +13,7 @@
 #include "natator/limits.h"
 #include "natator/live.h"
 #include "natator/model_builder.h"
+#include "refusal_of.h"
 #include "scene/scene_json.h"
 #include "test_name.h"
 
@@ -25,12 +26,7 @@ Scene with(const std::string& name, const std::string& overrides) {
 
 /// The line that an evaluation of the scene is refused with; empty if it is not.
 std::string refusal(const Scene& scene) {
-    try {
-        check_evaluation_cost(scene, build_model(scene));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { check_evaluation_cost(scene, build_model(scene)); });
 }
 
 /// Sets a variable of the environment for as long as it lives.

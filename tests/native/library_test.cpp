@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <type_traits>
 
 #include "natator/natator.h"
+#include "refusal_of.h"
 
 namespace natator {
 namespace {
@@ -23,12 +23,7 @@ static_assert(keeps_no_temporary<Solver<float>> && keeps_no_temporary<Solver<dou
 static_assert(keeps_no_temporary<GpuSolver<float>> && keeps_no_temporary<GpuSolver<double>>);
 
 std::string message_of(const std::string& name, const SceneOptions& options) {
-    try {
-        load_scene(name, options);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { load_scene(name, options); });
 }
 
 /// A folder with a scene and a creature of its own.
@@ -101,15 +96,6 @@ TEST_F(LibraryTest, WithoutAGpuASolverOnItSaysSo) {
     EXPECT_THROW(evaluate_on_gpu(load_scene("my/base", {.data = data_}), {BatchMember{}}), NoDevice);
 }
 
-std::string message_of(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 /// A body of twelve slices with three joints.
 Scene own_scene() {
     Scene scene;
@@ -141,7 +127,7 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
     for (const auto& [change, expected] : changes) {
         Scene scene = own_scene();
         change(scene);
-        const std::string message = message_of([&] { build_model(scene); });
+        const std::string message = test::refusal_of([&] { build_model(scene); });
         EXPECT_NE(message.find(expected), std::string::npos) << message;
         EXPECT_EQ(message.empty(), *expected == '\0') << message << expected;
     }
@@ -177,8 +163,8 @@ TEST(OwnSceneTest, ASolverRefusesAModelWhoseListsDoNotBelongTogether) {
     for (const auto& [change, expected] : changes) {
         Model model = own_model();
         change(model);
-        EXPECT_EQ(message_of([&] { initial_state<float>(model); }), message_of([&] { const Solver<float> solver(model); }));
-        const std::string message = message_of([&] { initial_state<float>(model); });
+        EXPECT_EQ(test::refusal_of([&] { initial_state<float>(model); }), test::refusal_of([&] { const Solver<float> solver(model); }));
+        const std::string message = test::refusal_of([&] { initial_state<float>(model); });
         EXPECT_NE(message.find(expected), std::string::npos) << message;
         EXPECT_EQ(message.empty(), *expected == '\0') << message << expected;
     }
@@ -191,15 +177,15 @@ TEST(OwnSceneTest, ASolverRefusesAGaitADriveAndAStateOfAnotherModel) {
         const Model model = build_model(scene);
         Solver<float> solver(model);
         State<float> state = initial_state<float>(model);
-        EXPECT_EQ(message_of([&] { solver.frame(state, resting_gait(2)); }), "");
-        EXPECT_NE(message_of([&] { solver.frame(state, Gait{}); }).find("gait.amplitude has length 0: must have length 2"),
+        EXPECT_EQ(test::refusal_of([&] { solver.frame(state, resting_gait(2)); }), "");
+        EXPECT_NE(test::refusal_of([&] { solver.frame(state, Gait{}); }).find("gait.amplitude has length 0: must have length 2"),
                   std::string::npos);
-        EXPECT_NE(message_of([&] { solver.frame(state, Gait{.amplitude = {1, 1}, .phase = {0}}); }).find("gait.phase has length 1"),
+        EXPECT_NE(test::refusal_of([&] { solver.frame(state, Gait{.amplitude = {1, 1}, .phase = {0}}); }).find("gait.phase has length 1"),
                   std::string::npos);
-        EXPECT_NE(message_of([&] { solver.frame(state, [](double) { return std::vector<double>{1}; }); }).find("drive has length 1"),
+        EXPECT_NE(test::refusal_of([&] { solver.frame(state, [](double) { return std::vector<double>{1}; }); }).find("drive has length 1"),
                   std::string::npos);
         state.position.pop_back();
-        EXPECT_NE(message_of([&] { solver.update(state, 0.01, 1); }).find("must have 108, 4, "), std::string::npos);
+        EXPECT_NE(test::refusal_of([&] { solver.update(state, 0.01, 1); }).find("must have 108, 4, "), std::string::npos);
     }
 }
 

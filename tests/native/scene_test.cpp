@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "natator/error.h"
+#include "refusal_of.h"
 #include "scene/scene_json.h"
 
 namespace natator {
@@ -36,12 +37,7 @@ protected:
 };
 
 std::string message_of(const std::string& scene) {
-    try {
-        load_scene(scene);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { load_scene(scene); });
 }
 
 TEST(SceneTest, AllNamedScenesAreThere) {

@@ -2,18 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "natator/actuate.h"
-#include "natator/error.h"
 #include "natator/evaluate.h"
 #include "natator/live.h"
 #include "natator/load_scene.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/steering.h"
+#include "refusal_of.h"
 
 namespace natator {
 namespace {
@@ -30,15 +29,6 @@ std::uint64_t run_to(LiveSimulation<float>& simulation, int frames) {
 
 LiveSimulation<float> by_gait_in(const std::string& scene, const std::string& overrides = "") {
     return LiveSimulation<float>({.scene = scene, .overrides = overrides, .gait = steered_gait});
-}
-
-std::string refusal_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
 }
 
 TEST(SteeringTest, NoSteeringChangesNoBit) {
@@ -155,28 +145,28 @@ TEST(SteeringTest, WhatCannotBeIsRefusedAndChangesNothing) {
     LiveSimulation<float> simulation = by_gait_in(steered_vacuum), other = by_gait_in(steered_vacuum);
     simulation.drive({0.5, 0.5});
     other.drive({0.5, 0.5});
-    EXPECT_EQ(refusal_of([&] { simulation.drive({1}); }),
+    EXPECT_EQ(test::refusal_of([&] { simulation.drive({1}); }),
               "drive has length 1: must have length 2, one value per actuator of the creature");
-    EXPECT_EQ(refusal_of([&] { simulation.drive({1, none}); }), "drive[1] = NaN: must be a number in [-2, 2]");
-    EXPECT_EQ(refusal_of([&] { simulation.drive({2.5, 0}); }), "drive[0] = 2.5: must be a number in [-2, 2]");
-    EXPECT_EQ(refusal_of([&] { simulation.steer({{1, -1}, {0, 0}}); }), "scale[1] = -1: must be a number in [0, 4]");
-    EXPECT_EQ(refusal_of([&] { simulation.steer({{1, 1}, {0, none}}); }), "offset[1] = NaN: must be a number in [-2, 2]");
-    EXPECT_EQ(refusal_of([&] { simulation.steer({{1, 1}, {}}); }),
+    EXPECT_EQ(test::refusal_of([&] { simulation.drive({1, none}); }), "drive[1] = NaN: must be a number in [-2, 2]");
+    EXPECT_EQ(test::refusal_of([&] { simulation.drive({2.5, 0}); }), "drive[0] = 2.5: must be a number in [-2, 2]");
+    EXPECT_EQ(test::refusal_of([&] { simulation.steer({{1, -1}, {0, 0}}); }), "scale[1] = -1: must be a number in [0, 4]");
+    EXPECT_EQ(test::refusal_of([&] { simulation.steer({{1, 1}, {0, none}}); }), "offset[1] = NaN: must be a number in [-2, 2]");
+    EXPECT_EQ(test::refusal_of([&] { simulation.steer({{1, 1}, {}}); }),
               "offset has length 0: must have length 2, one value per actuator of the creature");
-    EXPECT_EQ(refusal_of([&] { simulation.steer({{2, 1}, {0.5, 0}}); }),
+    EXPECT_EQ(test::refusal_of([&] { simulation.steer({{2, 1}, {0.5, 0}}); }),
               "scale[0] = 2 and offset[0] = 0.5: scale times the gait's own largest drive, 0.973, plus |offset| must be at most "
               "2, is 2.446 (a muscle has no length below 0)");
     EXPECT_EQ(run_to(simulation, 3), run_to(other, 3));
     Gait bent = steered_gait;
     bent.offset = {0.9, 0};
-    EXPECT_NE(refusal_of([&] { check_steering({{1, 1}, {0.2, 0}}, bent, 2); }).find("drive, 1.873, plus"), std::string::npos);
+    EXPECT_NE(test::refusal_of([&] { check_steering({{1, 1}, {0.2, 0}}, bent, 2); }).find("drive, 1.873, plus"), std::string::npos);
 
     simulation.steer({{2, 2}, {0, 0}});
     Gait stronger = steered_gait;
     stronger.amplitude[0] = 1.5;
-    EXPECT_NE(refusal_of([&] { simulation.set_gait(stronger); }).find("scale[0] = 2 and offset[0] = 0"), std::string::npos);
+    EXPECT_NE(test::refusal_of([&] { simulation.set_gait(stronger); }).find("scale[0] = 2 and offset[0] = 0"), std::string::npos);
     EXPECT_EQ(simulation.gait().amplitude[0], steered_gait.amplitude[0]);
-    EXPECT_EQ(refusal_of([] { LiveSimulation<float>(LiveSetup{.scene = "thesis/tank"}).drive({1}); }),
+    EXPECT_EQ(test::refusal_of([] { LiveSimulation<float>(LiveSetup{.scene = "thesis/tank"}).drive({1}); }),
               "drive has length 1: must have length 0, one value per actuator of the creature (there is none)");
 }
 

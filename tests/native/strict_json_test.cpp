@@ -2,18 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "io/strict_json.h"
-#include "natator/error.h"
+#include "refusal_of.h"
 
 namespace natator {
 namespace {
 
 std::string refusal(const std::string& text) {
-    try {
-        parse_json(text, "here");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { parse_json(text, "here"); });
 }
 
 TEST(StrictJsonTest, ReadsWhatIsValid) {
