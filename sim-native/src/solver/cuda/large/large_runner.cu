@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #include "natator/actuate.h"
@@ -104,6 +103,18 @@ void LargeRunner<Real>::allocate() {
     if (plan.fluid) make_room_in_fluid(std::min(size.most_neighbours, usual_neighbours));
 }
 
+namespace {
+
+/// A new array in a buffer, in place of the old one: both are never there.
+template <class T>
+void renew(DeviceBuffer<T>& buffer, std::size_t count, T*& array) {
+    buffer = {};
+    buffer = DeviceBuffer<T>(count);
+    array = buffer.data();
+}
+
+}  // namespace
+
 /// In the water's lists of each State.
 template <class Real>
 void LargeRunner<Real>::make_room_for_rows(int rows) {
@@ -111,12 +122,8 @@ void LargeRunner<Real>::make_room_for_rows(int rows) {
     const std::size_t entries = static_cast<std::size_t>(rows) * water_row * base_.states;
     graphs_.clear();  // they know the old place
     base_.slots.water_room.lists = rows;
-    neighbour_room_ = {};
-    neighbour_room_ = DeviceBuffer<unsigned>(entries);
-    water.neighbour = neighbour_room_.data();
-    pair_room_ = {};
-    pair_room_ = DeviceBuffer<PairGradient<Real>>(entries);
-    water.pair = pair_room_.data();
+    renew(neighbour_room_, entries, water.neighbour);
+    renew(pair_room_, entries, water.pair);
 }
 
 /// Of the water's particles in each State: themselves and their ghosts.
@@ -126,12 +133,8 @@ void LargeRunner<Real>::make_room_for_copies(int copies) {
     const std::size_t all = static_cast<std::size_t>(copies) * base_.states;
     graphs_.clear();
     base_.slots.water_room.copies = copies;
-    key_room_ = {};
-    key_room_ = DeviceBuffer<std::uint64_t>(all);
-    water.keys = key_room_.data();
-    candidate_room_ = {};
-    candidate_room_ = DeviceBuffer<Quad<Real>>(all);
-    water.candidate = candidate_room_.data();
+    renew(key_room_, all, water.keys);
+    renew(candidate_room_, all, water.candidate);
 }
 
 /// Likewise in the lists of scheme flex.
@@ -139,19 +142,16 @@ template <class Real>
 void LargeRunner<Real>::make_room_in_fluid(int neighbours) {
     Slots<Real>& slots = base_.slots;
     graphs_.clear();
-    chunk_room_ = {};
     slots.chunks = (neighbours + 3) / 4;
     slots.list_chunks = static_cast<std::size_t>(blocks_for(base_.model.fluid, 32)) * 32 * slots.chunks;
-    chunk_room_ = DeviceBuffer<uint4>(slots.list_chunks * base_.states);
-    slots.at.neighbour = chunk_room_.data();
+    renew(chunk_room_, slots.list_chunks * base_.states, slots.at.neighbour);
 }
 
 template <class Real>
 void LargeRunner<Real>::make_room(ListRoom needed) {
-    const bool water = base_.model.plan.water;
     if (needed.copies > room().copies) make_room_for_copies(needed.copies);
     if (needed.lists <= room().lists) return;
-    if (water)
+    if (base_.model.plan.water)
         make_room_for_rows(needed.lists);
     else
         make_room_in_fluid(std::min(needed.lists, base_.model.most_neighbours));

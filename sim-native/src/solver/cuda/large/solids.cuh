@@ -108,7 +108,7 @@ __device__ void solve_springs(const ModelView<Real>& model, const Slots<Real>& s
     __syncthreads();
 }
 
-/// Calls visit(k, cluster, lane) for each cluster that pulls at its particles, a warp for each.
+/// Calls visit(k, cluster, lane) for each cluster, by a warp for each.
 template <class Real, class Visit>
 __device__ void for_each_cluster(const ModelView<Real>& model, const Visit& visit) {
     const int lane = static_cast<int>(threadIdx.x) % 32;
