@@ -79,7 +79,7 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--population", paramLabel = "N",
-            description = "Chromosomes selected in each generation, from 2. Default: 150.")
+            description = "Chromosomes selected in each generation, from 2. Default: 150 in flex, 60 in open water.")
     private Integer population;
 
     @Section(Topic.EXTENT)
@@ -89,7 +89,7 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--duration", paramLabel = "SECONDS",
-            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 2.")
+            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 1.75.")
     private Double duration;
 
     @Section(Topic.OUTPUT)

@@ -18,10 +18,10 @@ public enum Water {
     FLEX(Scheme.FLEX, "thesis", new Evolving(150, 25, 2, null, null)),
     /**
      * Incompressible water, wide and deep against the creatures, which are as heavy as the water that they displace. A
-     * simulated second costs some twenty times as much as in the thesis' tank; so evolutions search at half of the scene's substeps, in less
-     * water and for less time. What they find is judged in the scene as it is.
+     * simulated second costs some twenty times as much as in the thesis' tank; so evolutions are smaller and search at half of the scene's
+     * substeps, in less water and for less time. What they find is judged in the scene as it is.
      */
-    OPEN_WATER(Scheme.CONSERVING, "open-water", new Evolving(150, 25, 2, 2.0, search()));
+    OPEN_WATER(Scheme.CONSERVING, "open-water", new Evolving(60, 25, 2, 1.75, search()));
 
     /** Of a frame, in the scenes as they are. */
     static final int SUBSTEPS = 4;
@@ -49,15 +49,15 @@ public enum Water {
     }
 
     /**
-     * An eighth of the passes over the water, as many iterations of the body in a frame, and a tank shorter and shallower by a quarter, under as
+     * An eighth of the passes over the water, as many iterations of the body in a frame, and a tank shorter and shallower by a third, under as
      * much more gravity: at the swimmer the water's pressure is the scene's.
      * Gaits come in the same order ({@code results/thesis/search_steps.py}).
      */
     private static ObjectNode search() {
-        double length = 4.5, height = 1.2, width = 1.6, spacing = 0.1;
+        double length = 4, height = 1, width = 1.6, spacing = 0.1;
         ObjectNode overrides = JsonNodeFactory.instance.objectNode();
         overrides.putObject("solver").put("substeps", 2).put("numIterations", 1).put("solidIterations", 128)
-                .set("gravity", array(0, -4, 0));
+                .set("gravity", array(0, -4.8, 0));
         overrides.putArray("planes").add(array(0, 1, 0, 0)).add(array(1, 0, 0, 0)).add(array(-1, 0, 0, length))
                 .add(array(0, 0, 1, 0)).add(array(0, 0, -1, width));
         overrides.putObject("fluid").putArray("count").add(Math.round(length / spacing)).add(Math.round(height / spacing))
