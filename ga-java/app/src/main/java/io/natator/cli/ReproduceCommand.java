@@ -79,12 +79,13 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.EXTENT)
     @Option(names = "--population", paramLabel = "N",
-            description = "Chromosomes selected in each generation, from 2. Default: 150 in flex, 60 in open water.")
+            description = "Chromosomes selected in each generation, from 2. Default: 150 in flex, 60 in open water, or that of the "
+                    + "evolutions in DIR.")
     private Integer population;
 
     @Section(Topic.EXTENT)
     @Option(names = "--starts", paramLabel = "K", description = "Runs of each new gait of an evolution, each from a start of its "
-            + "own. Default: 2.")
+            + "own. Default: 2, or those of the evolutions in DIR.")
     private Integer starts;
 
     @Section(Topic.SCENE)

@@ -36,7 +36,7 @@ public final class EvolutionPlan {
     private final List<EvolvedRun> runs = new ArrayList<>();
 
     /**
-     * How large the evolutions are; what is null is as {@link Water} has it.
+     * How large the evolutions are; what is null is as in those that were begun, or as {@link Water} has it.
      *
      * @param population  chromosomes, at least 2 (thesis: 150)
      * @param generations after the random one (thesis: 100)
@@ -45,8 +45,7 @@ public final class EvolutionPlan {
      */
     public record Size(Integer population, Integer generations, Integer starts, Double duration) {
 
-        private EvolutionSettings of(EvolutionSettings settings, Water water) {
-            Water.Evolving usual = water.evolving();
+        private EvolutionSettings of(EvolutionSettings settings, Water water, Water.Evolving usual) {
             return settings.withSize(population != null ? population : usual.population(),
                             generations != null ? generations : usual.generations())
                     .withStarts(starts != null ? starts : usual.starts(), Judge.MEAN)
@@ -89,11 +88,10 @@ public final class EvolutionPlan {
         for (int seed = 1; seed <= most; seed++) {
             for (Water water : waters) {
                 for (int creature : seed <= counts.get(water) ? creatures : List.<Integer>of()) {
-                    EvolutionSettings settings = size.of(settings(creature, water, simulator), water).withBackend(backend);
                     Path folder = seeds(creature, water, directory).resolve(SEED + seed);
-                    int generations = size.generations() != null ? size.generations() : held(folder, settings.generations());
+                    EvolutionSettings settings = size.of(settings(creature, water, simulator), water, evolving(folder, water));
                     runs.add(new EvolvedRun(creature, water, seed,
-                            new PlannedRun(settings.withGenerations(generations).withSeed(seed), folder)));
+                            new PlannedRun(settings.withBackend(backend).withSeed(seed), folder)));
                 }
             }
         }
@@ -103,10 +101,10 @@ public final class EvolutionPlan {
         return directory.resolve(RUNS).resolve("creature-" + creature).resolve(water.label());
     }
 
-    /** Generations of the evolution in a folder, else of the first seed beside it, else the usual number. */
-    private static int held(Path folder, int usual) {
+    /** As in the evolution in a folder, else as in the first seed beside it, else as usual. */
+    private static Water.Evolving evolving(Path folder, Water water) {
         return Stream.of(folder, folder.resolveSibling(SEED + 1)).filter(StoredRun::exists)
-                .map(one -> StoredRun.settings(one).generations()).findFirst().orElse(usual);
+                .map(one -> Water.Evolving.of(StoredRun.settings(one))).findFirst().orElse(water.evolving());
     }
 
     /** The largest seed of a finished evolution, of any of the creatures; 0 without one. */

@@ -1,12 +1,15 @@
 package io.natator.study.thesis;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Scheme;
 import java.util.Arrays;
 import java.util.Locale;
+import java.util.stream.DoubleStream;
 
 /**
  * What the study's creatures swim in: scenes of one kind, simulated by one scheme. The thesis' tank in scheme
@@ -35,7 +38,11 @@ public enum Water {
      * @param duration    of a run in seconds, or null for the scene's own
      * @param overrides   on the scene, or null
      */
-    record Evolving(int population, int generations, int starts, Double duration, ObjectNode overrides) {
+    record Evolving(int population, int generations, int starts, Double duration, JsonNode overrides) {
+
+        static Evolving of(EvolutionSettings settings) {
+            return new Evolving(settings.population(), settings.generations(), settings.starts(), settings.duration(), settings.overrides());
+        }
     }
 
     private final Scheme scheme;
@@ -60,8 +67,8 @@ public enum Water {
                 .set("gravity", array(0, -4.8, 0));
         overrides.putArray("planes").add(array(0, 1, 0, 0)).add(array(1, 0, 0, 0)).add(array(-1, 0, 0, length))
                 .add(array(0, 0, 1, 0)).add(array(0, 0, -1, width));
-        overrides.putObject("fluid").putArray("count").add(Math.round(length / spacing)).add(Math.round(height / spacing))
-                .add(Math.round(width / spacing));
+        ArrayNode count = overrides.putObject("fluid").putArray("count");
+        DoubleStream.of(length, height, width).forEach(side -> count.add((int) Math.round(side / spacing)));
         overrides.putObject("creature").set("rearCentre", array(0.5, height / 2, width / 2));
         return overrides;
     }

@@ -2,8 +2,12 @@ package io.natator.study.thesis;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.Json;
+import io.natator.config.Scheme;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -81,6 +85,28 @@ class EvolutionPlanTest {
         EvolutionPlan more = new EvolutionPlan(List.of(1), List.of(Water.FLEX), 1, new EvolutionPlan.Size(null, generations + 1, null, null),
                 Backend.CUDA, SIMULATOR, folder);
         assertThat(more.finished()).as("it is to go on").isEmpty();
+    }
+
+    /** An evolution goes on as it was begun, also where newer ones search otherwise. */
+    @Test
+    void theSearchIsTheFolders() throws InterruptedException, IOException {
+        hold("creature-1/flex/seed-1", "config.json", "checkpoint.json", "best.json");
+        Path config = folder.resolve("runs/creature-1/flex/seed-1/config.json");
+        EvolutionSettings begun = StoredRun.settings(config.getParent()).withSize(20, generations)
+                .withScene(Scheme.FLEX, 1.5, Json.parse("{\"fluid\": {\"count\": [10, 11, 12]}, \"solver\": {\"gravity\": [0, -4.8, 0]}}", JsonNode.class));
+        Files.writeString(config, Json.document(begun));
+
+        EvolutionSettings planned = plan(2).runs().get(0).plan().settings();
+        assertThat(planned).isEqualTo(begun.withBackend(Backend.CPU).withSize(20, 7).withSeed(1));
+    }
+
+    /** Numbers of a search are of the types that a run folder gives back: it could not go on otherwise. */
+    @Test
+    void searchesReadBackAsTheyWere() throws IOException {
+        for (Water water : Water.values()) {
+            JsonNode search = water.evolving().overrides();
+            assertThat(search == null ? null : Json.parse(Json.line(search), JsonNode.class)).isEqualTo(search);
+        }
     }
 
     @Test
