@@ -50,11 +50,14 @@ final class ShowCommand implements Callable<Integer> {
         if (!Archipelago.exists(folder)) {
             OneLineErrors.warn(spec.commandLine(), run.damage());
         }
+        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {
             new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
-            printControls(run, out);
+            if (controls != null) {
+                out.println("  checked     " + ControlVerdict.of(controls).text());
+            }
             printFront(run, out);
             if (run.elites() != null) {
                 out.printf("map of gaits: the best of %d kinds; natator view --run %s swims them, natator report draws them%n",
@@ -134,13 +137,6 @@ final class ShowCommand implements Callable<Integer> {
         for (Individual one : front) {
             out.println("  " + one.objectives().stream().map(value -> String.format("%-14s", RunReport.number(value)))
                     .collect(Collectors.joining()) + String.format("%-6d", one.runs()) + RunReport.row(one.genes()));
-        }
-    }
-
-    private static void printControls(StoredRun run, PrintWriter out) {
-        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
-        if (controls != null) {
-            out.println("  checked     " + ControlVerdict.of(controls).text());
         }
     }
 

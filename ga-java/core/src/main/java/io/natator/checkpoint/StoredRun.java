@@ -58,15 +58,8 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     public static StoredRun in(Path directory) {
         EvolutionSettings settings = settings(directory);
         EvolutionState state = state(directory);
-        EvaluationStatistics statistics;
-        try {
-            statistics = statistics(directory);
-        } catch (InvalidInputException e) {
-            warn(e.getMessage() + "; shown without it");
-            statistics = null;
-        }
-        return new StoredRun(directory, settings, state, best(directory, settings, state),
-                recorded(directory), statistics, vacuumRecords(directory));
+        return new StoredRun(directory, settings, state, best(directory, settings, state), recorded(directory),
+                readable(directory, RunFolder.SAVINGS, EvaluationStatistics.class), vacuumRecords(directory));
     }
 
     private static void warn(String warning) {
@@ -110,6 +103,16 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         Path file = directory.resolve(name);
         FileErrors.checkRegular(file);
         return Files.exists(file) ? Json.read(file, type, name.replace(".json", "")) : null;
+    }
+
+    /** What a file holds that a run can be shown without; null if it is not there, or is damaged, of which it is warned. */
+    static <T> T readable(Path directory, String name, Class<T> type) {
+        try {
+            return optional(directory, name, type);
+        } catch (InvalidInputException e) {
+            warn(e.getMessage() + "; shown without it");
+            return null;
+        }
     }
 
     /** Whether there is a run in this folder. */
