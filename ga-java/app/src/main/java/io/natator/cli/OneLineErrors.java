@@ -54,18 +54,25 @@ final class OneLineErrors {
                 : "'" + argument + "' is no command" + Closest.hint(argument, command.getSubcommands().keySet());
     }
 
-    /** Makes a command, and those below it, tell in one line that Java has too little memory for what was asked. */
-    static void installMemory(CommandLine command) {
+    /** Makes a command, and those below it, tell in one line what Java itself lacks: memory for what was asked, or a part of the program. */
+    static void installJava(CommandLine command) {
         IExecutionStrategy usual = command.getExecutionStrategy();
         command.setExecutionStrategy(parsed -> {
             try {
                 return usual.execute(parsed);
             } catch (OutOfMemoryError e) {
-                print(parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1), "not enough memory: Java may take "
-                        + (Runtime.getRuntime().maxMemory() >> 20) + " MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say");
-                return ExitCode.SOFTWARE;
+                return lacking(parsed, "not enough memory: Java may take " + (Runtime.getRuntime().maxMemory() >> 20)
+                        + " MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say");
+            } catch (LinkageError e) {
+                return lacking(parsed, "a part of the program cannot be loaded: " + e.getMessage()
+                        + "; expected more open files than ulimit -n allows, or the jar as it was at the start");
             }
         });
+    }
+
+    private static int lacking(ParseResult parsed, String what) {
+        print(parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1), what);
+        return ExitCode.SOFTWARE;
     }
 
     static int failure(Exception error, CommandLine command, ParseResult parsed) {

@@ -6,6 +6,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.SimulatorMode;
 import io.natator.encoding.GeneRange;
+import io.natator.evolution.EvolutionFailedException;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SceneInfo;
@@ -64,7 +65,7 @@ final class RunPreview {
     void printAnyway(Path folder, PrintWriter out) throws InterruptedException {
         try {
             print(folder, out);
-        } catch (InvalidInputException | IllegalStateException e) {
+        } catch (InvalidInputException | EvolutionFailedException | IllegalStateException e) {
             out.println("  time        not known: " + e.getMessage());
             out.flush();
         }

@@ -12,7 +12,9 @@ import java.util.Map;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.Arguments;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.MethodSource;
 import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
@@ -227,20 +229,34 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(err.toString()).isEqualTo("natator " + arguments.split(" ")[0] + ": " + message + "\n");
     }
 
-    @Command(name = "swallow")
-    static final class Swallow implements Runnable {
+    @Command(name = "end")
+    record End(Error error) implements Runnable {
         @Override
         public void run() {
-            throw new OutOfMemoryError();
+            throw error;
         }
     }
 
-    @Test
-    void tooLittleMemoryIsOneLine() {
-        CommandLine command = Main.commandLine().addSubcommand(new Swallow()).setErr(new PrintWriter(err, true));
+    private static Stream<Arguments> lacks() {
+        return Stream.of(Arguments.of(new OutOfMemoryError(),
+                        "not enough memory: Java may take \\d+ MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say"),
+                Arguments.of(new NoClassDefFoundError("io/natator/Part"), "a part of the program cannot be loaded: io/natator/Part; "
+                        + "expected more open files than ulimit -n allows, or the jar as it was at the start"));
+    }
 
-        assertThat(command.execute("swallow")).isEqualTo(1);
-        assertThat(err.toString()).matches("natator swallow: not enough memory: Java may take \\d+ MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say\n");
+    @ParameterizedTest
+    @MethodSource("lacks")
+    void whatJavaLacksIsOneLine(Error error, String message) {
+        CommandLine command = Main.commandLine().addSubcommand(new End(error)).setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute("end")).isEqualTo(1);
+        assertThat(err.toString()).matches("natator end: " + message + "\n");
+    }
+
+    @Test
+    void aDryRunThatCannotTryTellsWhy() {
+        assertThat(evolve("run", "--scene", "fault/exit", "--dry-run")).isEqualTo(1);
+        assertThat(err.toString()).startsWith("natator evolve: a trial evaluation failed: ").contains("out of luck").hasLineCount(1);
     }
 
     @Test
