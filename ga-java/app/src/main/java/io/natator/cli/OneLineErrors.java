@@ -21,6 +21,8 @@ final class OneLineErrors {
     private static final Logger LOG = LoggerFactory.getLogger(OneLineErrors.class);
     /** What picocli calls an argument that is no option; in it, the name that the help has for it. */
     private static final Pattern PLACE = Pattern.compile("positional parameter at index \\S+ \\((.*?)\\)");
+    /** How picocli tells of several arguments that it has too few of. */
+    private static final Pattern TOO_FEW = Pattern.compile("(\\S+) requires at least (\\d+) values, but only (\\d+) were specified: .*");
 
     private OneLineErrors() {
     }
@@ -29,7 +31,8 @@ final class OneLineErrors {
         CommandLine command = error.getCommandLine();
         String unmatched = unmatched(error);
         String what = unmatched != null ? unknown(unmatched, command)
-                : NumberValues.isNone(error) ? NumberValues.message(error) : PLACE.matcher(error.getMessage()).replaceAll("$1");
+                : NumberValues.isNone(error) ? NumberValues.message(error) : TOO_FEW.matcher(PLACE.matcher(error.getMessage()).replaceAll("$1"))
+                        .replaceFirst("found $3 $1; expected at least $2");
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
         return ExitCode.USAGE;
     }

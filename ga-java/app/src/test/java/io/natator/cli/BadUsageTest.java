@@ -220,7 +220,7 @@ class BadUsageTest extends FakeSimulatorTest {
         "evolve --seed|Missing required parameter for option '--seed' (N); see natator evolve --help",
         "show|Missing required parameter: 'RUN'; see natator show --help",
         "show one two|'two' is one argument too many; see natator show --help",
-        "compare one|RUN requires at least 2 values, but only 1 were specified: [one]; see natator compare --help",
+        "compare one|found 1 RUN; expected at least 2; see natator compare --help",
         "new fish minnow|`Invalid value for scene|creature|gait: expected scene, creature or gait but was 'fish'; see natator new --help`"})
     void theMistypedIsNamed(String arguments, String message) {
         CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));

@@ -254,7 +254,7 @@ class ExportCommandTest {
             assertThat(export(simulator, "test/pool", "--format", format.text(), "--duration", "1", "--force",
                     "--no-water")).as(err.toString()).isZero();
         }
-        assertThat(out.toString()).contains("1 frames of 0 particles of water and 8 others");
+        assertThat(out.toString()).contains("1 frame of 0 particles of water and 8 others");
     }
 
     /** Killed at some moment as by kill -9: nothing has the name of the export; the next one takes its place. */

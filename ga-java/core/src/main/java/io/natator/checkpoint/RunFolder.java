@@ -7,6 +7,7 @@ import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Migration;
+import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.Departure;
 import io.natator.evolution.EvaluationRecord;
@@ -193,7 +194,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             return directory + " is damaged: evaluations of " + CHECKPOINT + " is " + checkpoint.evaluations() + "; expected at least 0";
         }
         return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
-                + " has " + recorded + " whole lines; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
+                + " has " + Numbers.count(recorded, "whole line") + "; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
     }
 
     /** Which genes of a checkpoint stand for nothing, in one line; null if none do. */
@@ -216,7 +217,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     static String damage(Path directory, Migration migration, EvolutionState checkpoint, int left) {
         int expected = migration == null || checkpoint == null ? 0 : Math.max(checkpoint.generation() - 1, 0) / migration.every();
-        return left >= expected ? null : directory + " is damaged: " + MIGRANTS + " has " + left + " whole lines; expected at least "
+        return left >= expected ? null : directory + " is damaged: " + MIGRANTS + " has " + Numbers.count(left, "whole line") + "; expected at least "
                 + expected + ", one for each exchange before generation " + checkpoint.generation();
     }
 

@@ -145,7 +145,7 @@ public final class GaitReport {
             page.text("**This run is not finished.** Done are generation " + run.state().generation()
                     + (run.settings().generations() == EvolutionSettings.NO_LIMIT ? ""
                             : " of " + run.settings().generations())
-                    + " and " + run.state().evaluations() + " evaluations; this is the best gait so far. It goes on by `natator "
+                    + " and " + Numbers.count(run.state().evaluations(), "evaluation") + "; this is the best gait so far. It goes on by `natator "
                     + "resume " + run.directory() + "`.");
         }
     }
