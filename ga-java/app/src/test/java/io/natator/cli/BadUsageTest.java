@@ -120,6 +120,10 @@ class BadUsageTest extends FakeSimulatorTest {
         "--scene no/such.json|expected a named scene or an existing file",
         "--overrides no-such.json|no-such.json does not exist",
         "--overrides {\"solver\":|--overrides: ",
+        "--overrides [1]|--overrides is [1]; expected a JSON object, or a file that holds one",
+        "--overrides \"solver\"|--overrides is \"solver\"; expected a JSON object, or a file that holds one",
+        "--overrides -1.5e3|--overrides is -1.5e3; expected a JSON object, or a file that holds one",
+        "--overrides null|--overrides is null; expected a JSON object, or a file that holds one",
         "--seed|Missing required parameter for option '--seed'",
         "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help",
         "--resume no/such/folder|no/such/folder is not a run folder"})
