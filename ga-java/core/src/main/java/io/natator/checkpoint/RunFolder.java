@@ -166,6 +166,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         folder.refuse(folder.checkpoint != null && folder.checkpoint.population().isEmpty()
                 ? directory + " has no population any more, which it would go on from: it lacks " + CompactRun.WHOLE
                 : damage(directory, folder.checkpoint, folder.recorded().end()));
+        folder.refuse(damage(directory, folder.recorded()));
         folder.refuse(damagedGenes(directory, folder.genome, folder.checkpoint));
         folder.refuse(damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size()));
         folder.dropFailures();
@@ -195,6 +196,18 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
         return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
                 + " has " + Numbers.count(recorded, "whole line") + "; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
+    }
+
+    /** Which evaluation stands where another should, in one line; null if none does. */
+    static String damage(Path directory, Recorded recorded) {
+        for (int i = 0; i < recorded.rows().size(); i++) {
+            long id = recorded.rows().get(i).result().id();
+            if (id != recorded.first() + i) {
+                return directory + " is damaged: " + EVALUATIONS + ", line " + (i + 1) + ": id is " + id + "; expected "
+                        + (recorded.first() + i);
+            }
+        }
+        return null;
     }
 
     /** Which genes of a checkpoint stand for nothing, in one line; null if none do. */

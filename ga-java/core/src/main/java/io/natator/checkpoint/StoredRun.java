@@ -20,10 +20,12 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
+import java.util.Objects;
 import java.util.Set;
 import java.util.SortedMap;
 import java.util.TreeMap;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.stream.Stream;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -74,13 +76,14 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /**
-     * What of the run is lost though nobody trimmed it, in one line; null if nothing is. It was trimmed where there is no
-     * population either; {@link CompactRun}.
+     * What of the run is lost though nobody trimmed it, or stands where it should not, in one line; null if nothing is. It was
+     * trimmed where there is no population either; {@link CompactRun}.
      */
     public String damage() {
         boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
-        String damage = compact ? null : RunFolder.damage(directory, state, recorded.end());
-        return damage != null ? damage : RunFolder.damage(directory, settings.migration(), state, departures(directory).size());
+        return Stream.of(compact ? null : RunFolder.damage(directory, state, recorded.end()), RunFolder.damage(directory, recorded),
+                RunFolder.damage(directory, settings.migration(), state, departures(directory).size()))
+                .filter(Objects::nonNull).findFirst().orElse(null);
     }
 
     /**

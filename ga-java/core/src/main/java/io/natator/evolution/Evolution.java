@@ -2,6 +2,7 @@ package io.natator.evolution;
 
 import io.natator.body.Genome;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
 import io.natator.config.Numbers;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
@@ -234,7 +235,7 @@ public final class Evolution {
     private EvaluationRecord replayed(Run run) {
         EvaluationRecord found = recorded.get(evaluations);
         if (!found.genes().equals(run.genes()) || !Objects.equals(found.start(), run.start())) {
-            throw new EvolutionFailedException("recorded evaluation " + evaluations
+            throw new InvalidInputException("recorded evaluation " + evaluations
                     + " is of other genes, or from another start, than this evolution's: the run folder was changed, or made by another version");
         }
         return found;
