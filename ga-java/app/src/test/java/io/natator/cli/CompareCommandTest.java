@@ -140,7 +140,7 @@ class CompareCommandTest extends FakeSimulatorTest {
     @Test
     void aCheckThatCannotBeKeptIsToldAllTheSame() throws IOException {
         assertThat(evolve("run")).isZero();
-        Files.createDirectories(folder.resolve("run/check.json/in the way"));
+        Files.createDirectories(folder.resolve("run/check.json.new/in the way"));
         out.getBuffer().setLength(0);
         err.getBuffer().setLength(0);
 

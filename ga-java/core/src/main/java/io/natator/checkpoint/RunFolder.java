@@ -141,9 +141,9 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
     }
 
-    /** Refuses a pipe, or the like, in place of a file that a run writes. */
+    /** Refuses a folder, a pipe, or the like, in place of a file that a run writes. */
     static void checkRegular(Path directory) {
-        FILES.forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
+        FILES.stream().filter(name -> !name.equals(PLOTS) && !name.equals(".")).forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
     }
 
     /** Whether there is anything at this path but an empty folder. */
