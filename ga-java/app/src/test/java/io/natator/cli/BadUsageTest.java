@@ -188,6 +188,17 @@ class BadUsageTest extends FakeSimulatorTest {
     }
 
     @Test
+    void aReportHasItsFolderBeforeItSimulates() throws IOException {
+        assertThat(evolve("run")).isZero();
+        Path file = Files.writeString(folder.resolve("file"), "");
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("report", folder.resolve("run").toString(), "--output-dir", file.resolve("a").toString())).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator report: output folder " + file.resolve("a") + " cannot be made: "
+                + file + " is a file, not a folder\n");
+    }
+
+    @Test
     void aReportNeedsACheckpoint() throws IOException {
         assertThat(evolve("run")).isZero();
         Files.delete(folder.resolve("run/checkpoint.json"));

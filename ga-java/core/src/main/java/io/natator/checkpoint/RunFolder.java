@@ -16,6 +16,7 @@ import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Recorded;
 import io.natator.file.AtomicFile;
 import io.natator.file.JsonLines;
+import io.natator.file.OutputFolder;
 import io.natator.simulator.SimulationResult;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -89,7 +90,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     /** Makes a new folder with a first file, a JSON document; also where a kill ended that before the file was whole. */
     static void make(Path directory, String name, Object content) {
         try {
-            Files.createDirectories(directory);
+            OutputFolder.make(directory);
             AtomicFile.deleteUnfinished(directory.resolve(name));
             boolean isRun = Files.exists(directory.resolve(CHECKPOINT)) || Files.exists(directory.resolve(EVALUATIONS));
             if (isRun && !Files.exists(directory.resolve(name))) {
@@ -100,8 +101,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
                         + "--output-dir, or continue the run in it by --resume " + directory);
             }
         } catch (IOException e) {
-            throw new InvalidInputException("output folder " + directory + " cannot be made: "
-                    + FileErrors.whyNotMade(directory, e), e);
+            throw OutputFolder.cannotBeMade(directory, e);
         }
         try {
             AtomicFile.write(directory.resolve(name), Json.document(content));
