@@ -18,6 +18,7 @@ import io.natator.file.ShellWord;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.ControlVerdict;
 import java.io.PrintWriter;
+import java.io.StringWriter;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Locale;
@@ -40,9 +41,18 @@ final class ShowCommand implements Callable<Integer> {
     @Parameters(paramLabel = "RUN", description = "Run folder.")
     private Path folder;
 
+    /** Prints all or, of a folder that is refused, nothing. */
     @Override
     public Integer call() {
+        StringWriter text = new StringWriter();
+        print(new PrintWriter(text));
         PrintWriter out = spec.commandLine().getOut();
+        out.print(text);
+        out.flush();
+        return ExitCode.OK;
+    }
+
+    private void print(PrintWriter out) {
         if (Archipelago.exists(folder)) {
             IslandsReport.print(Archipelago.in(folder), out);
             Archipelago.in(folder).damages().forEach(one -> OneLineErrors.warn(spec.commandLine(), one));
@@ -68,8 +78,6 @@ final class ShowCommand implements Callable<Integer> {
         }
         printVacuum(run.vacuum(), out);
         printFailures(run.evaluations(), out);
-        out.flush();
-        return ExitCode.OK;
     }
 
     /** On one line, what makes a run another one. */
