@@ -185,7 +185,8 @@ final class EvolveCommand implements Callable<Integer> {
         Archipelago.Plan islands = islandOptions.plan(settings);
         RunPreview preview = new RunPreview(settings, islands, execution);
         if (dryRun) {
-            preview.print(outputDir != null ? outputDir : freeFolder(settings.scene()), spec.commandLine().getOut());
+            Path folder = outputDir != null ? outputDir : freeFolder(settings.scene());
+            WholeOutput.print(spec.commandLine(), out -> preview.print(folder, out));
             return ExitCode.OK;
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());

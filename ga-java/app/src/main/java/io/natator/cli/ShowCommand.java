@@ -18,7 +18,6 @@ import io.natator.file.ShellWord;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.ControlVerdict;
 import java.io.PrintWriter;
-import java.io.StringWriter;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Locale;
@@ -41,14 +40,9 @@ final class ShowCommand implements Callable<Integer> {
     @Parameters(paramLabel = "RUN", description = "Run folder.")
     private Path folder;
 
-    /** Prints all or, of a folder that is refused, nothing. */
     @Override
-    public Integer call() {
-        StringWriter text = new StringWriter();
-        print(new PrintWriter(text));
-        PrintWriter out = spec.commandLine().getOut();
-        out.print(text);
-        out.flush();
+    public Integer call() throws InterruptedException {
+        WholeOutput.print(spec.commandLine(), this::print);
         return ExitCode.OK;
     }
 

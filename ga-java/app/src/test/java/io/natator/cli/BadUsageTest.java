@@ -272,6 +272,7 @@ class BadUsageTest extends FakeSimulatorTest {
     void aDryRunThatCannotTryTellsWhy() {
         assertThat(evolve("run", "--scene", "fault/exit", "--dry-run")).isEqualTo(1);
         assertThat(err.toString()).startsWith("natator evolve: a trial evaluation failed: ").contains("out of luck").hasLineCount(1);
+        assertThat(out.toString()).isEmpty();
     }
 
     @Test
