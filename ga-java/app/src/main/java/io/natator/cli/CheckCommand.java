@@ -13,6 +13,7 @@ import io.natator.report.WaterCheck;
 import io.natator.run.ControlRuns;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.SimulationRequest;
+import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.Callable;
@@ -64,11 +65,20 @@ final class CheckCommand implements Callable<Integer> {
                 cacheOptions.in(executionOptions.execution(settings.backend())), settings);
         Swimmer swimmer = run.best().swimmer();
         Controls controls = new ControlRuns(settings, execution, starts).of(swimmer);
-        Double underWater = WaterCheck.shareUnderWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),
-                List.of(controls.duration() / 2, controls.duration()), execution);
-        Controls all = controls.withUnderWater(underWater);
+        Controls all = controls.withUnderWater(underWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),
+                controls.duration(), execution));
         new ControlReport(spec.commandLine().getOut()).print(all);
         all.write(run.directory());
         return ExitCode.OK;
+    }
+
+    /** Halfway and at the end; null without water, and, with a warning, if that fails: the controls are worth having without. */
+    private Double underWater(SimulationRequest request, double duration, ExecutionSettings execution) throws InterruptedException {
+        try {
+            return WaterCheck.shareUnderWater(request, List.of(duration / 2, duration), execution);
+        } catch (InvalidInputException | UncheckedIOException e) {
+            OneLineErrors.warn(spec.commandLine(), e.getMessage() + "; how much of the body is under water is left out");
+            return null;
+        }
     }
 }

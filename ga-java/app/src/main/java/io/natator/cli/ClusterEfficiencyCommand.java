@@ -7,6 +7,7 @@ import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.file.GeneratedPage;
+import io.natator.file.OutputFolder;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SceneInfo;
 import io.natator.simulator.TimeLimit;
@@ -116,9 +117,9 @@ final class ClusterEfficiencyCommand implements Callable<Integer> {
         check("--slow-share", slowShare, 0, 1);
         check("--slow-factor", slowFactor, 1, MOST_TIMES_AS_SLOW);
         GeneratedPage.check(directory);
+        OutputFolder.make(directory);
         Path times = directory.resolve("times.csv");
         try {
-            Files.createDirectories(directory);
             if (!Files.exists(times)) {
                 measure(times);
             }

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import io.natator.body.Swimmer;
 import io.natator.config.EvolutionSettings;
+import io.natator.evolution.EvolutionFailedException;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
@@ -30,6 +31,7 @@ final class EvaluationTime {
      *
      * @param together how many, at least 1
      * @param duration simulated seconds of each
+     * @throws EvolutionFailedException if a trial fails
      */
     double of(int together, double duration) throws InterruptedException {
         double trial = Math.min(SHORT_TRIAL, duration);
@@ -50,7 +52,7 @@ final class EvaluationTime {
         long start = System.nanoTime();
         evaluator.evaluateAll(requests, result -> {
             if (result.status() == SimulationResult.Status.FAILED) {
-                throw new IllegalStateException("a trial evaluation failed: " + result.error());
+                throw new EvolutionFailedException("a trial evaluation failed: " + result.error());
             }
         });
         return (System.nanoTime() - start) / NANOSECONDS;

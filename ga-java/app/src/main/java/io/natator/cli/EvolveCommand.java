@@ -9,7 +9,6 @@ import io.natator.config.EncodingKind;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.FileErrors;
 import io.natator.config.FitnessKind;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Judge;
@@ -18,6 +17,7 @@ import io.natator.config.OperatorSet;
 import io.natator.config.OptimizerKind;
 import io.natator.config.Preset;
 import io.natator.config.WeightedObjective;
+import io.natator.file.OutputFolder;
 import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.SceneInfo;
@@ -185,7 +185,8 @@ final class EvolveCommand implements Callable<Integer> {
         Archipelago.Plan islands = islandOptions.plan(settings);
         RunPreview preview = new RunPreview(settings, islands, execution);
         if (dryRun) {
-            preview.print(outputDir != null ? outputDir : freeFolder(settings.scene()), spec.commandLine().getOut());
+            Path folder = outputDir != null ? outputDir : freeFolder(settings.scene());
+            WholeOutput.print(spec.commandLine(), out -> preview.print(folder, out));
             return ExitCode.OK;
         }
         Path directory = outputDir != null ? outputDir : reserveFolder(settings.scene());
@@ -280,20 +281,16 @@ final class EvolveCommand implements Callable<Integer> {
         while (true) {
             Path folder = freeFolder(sceneName);
             try {
-                Files.createDirectories(folder.toAbsolutePath().getParent());
+                OutputFolder.make(folder.toAbsolutePath().getParent());
                 return Files.createDirectory(folder);
             } catch (FileAlreadyExistsException e) {
                 if (!Files.isDirectory(folder)) {
-                    throw cannotBeMade(folder, e);
+                    throw OutputFolder.cannotBeMade(folder, e);
                 }
             } catch (IOException e) {
-                throw cannotBeMade(folder, e);
+                throw OutputFolder.cannotBeMade(folder, e);
             }
         }
-    }
-
-    private static InvalidInputException cannotBeMade(Path folder, IOException e) {
-        return new InvalidInputException("output folder " + folder + " cannot be made: " + FileErrors.whyNotMade(folder, e), e);
     }
 
     /** runs/creature-1-seed-7, or with -2, -3 … if that is taken. */

@@ -3,6 +3,7 @@ package io.natator.cli;
 import io.natator.checkpoint.CompactRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
+import io.natator.config.Numbers;
 import io.natator.run.RunQueue;
 import io.natator.simulator.Evaluator;
 import io.natator.study.thesis.EvolutionPlan;
@@ -62,7 +63,7 @@ final class EvolvePhase {
 
     /** Says how many evaluations are left and how long they will take, judged by a few short ones. */
     void forecast(PrintWriter out) throws InterruptedException {
-        out.printf("%d evolutions, %d of them finished; about %d evaluations left%n", plan.runs().size(),
+        out.printf("%s, %d of them finished; about %d evaluations left%n", Numbers.count(plan.runs().size(), "evolution"),
                 plan.finished().size(), left(plan.runs()));
         int together = execution.trials(plan.runs().get(0).plan().settings().population());
         double seconds = 0;

@@ -4,6 +4,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
+import io.natator.config.Numbers;
 import io.natator.config.Scheme;
 import io.natator.export.Export;
 import io.natator.export.ExportContent;
@@ -138,8 +139,8 @@ final class ExportCommand implements Callable<Integer> {
             spec.commandLine().getErr().println(difference);
         }
         spec.commandLine().getOut().printf(format.holdsParticles()
-                ? "%s: %d frames of %d particles of water and %d others%n" : "%s: %d frames of bodies alone%n", folder,
-                written.frames(), written.water(), written.solids());
+                ? "%s: %s of %d particles of water and %d others%n" : "%s: %s of bodies alone%n", folder,
+                Numbers.count(written.frames(), "frame"), written.water(), written.solids());
         return ExitCode.OK;
     }
 }

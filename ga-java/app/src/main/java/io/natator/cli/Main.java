@@ -73,7 +73,7 @@ public final class Main implements Callable<Integer> {
         EnumNames.install(command);
         SectionedHelp.install(command);
         EmptyValues.refuse(command);
-        OneLineErrors.installMemory(command);
+        OneLineErrors.installJava(command);
         return command;
     }
 

@@ -1,6 +1,7 @@
 package io.natator.cli;
 
 import io.natator.config.ExecutionSettings;
+import io.natator.config.Numbers;
 import io.natator.simulator.Evaluator;
 import io.natator.study.thesis.ThesisStudy;
 import java.io.PrintWriter;
@@ -33,7 +34,7 @@ final class MeasurePhase {
                     ShutdownHandler shutdown = new ShutdownHandler(evaluator, stopAfter,
                             () -> QueueOptions.sayGoodbye(err))) {
                 study.measure(evaluator, execution, found -> {
-                    err.printf(progress.all() == 0 ? "%d evaluations to measure%n" : "%d more evaluations to measure%n", found);
+                    err.println(Numbers.count(found, progress.all() == 0 ? "evaluation" : "more evaluation") + " to measure");
                     progress.expect(found);
                 }, progress::done);
             } catch (InterruptedException e) {
@@ -42,7 +43,8 @@ final class MeasurePhase {
         }
         int levels = study.missingLevels();
         int recordings = study.missingRecordings();
-        err.printf("%d gaits to run at half the spacing, %d runs to record or measure on the processor%n", levels, recordings);
+        err.println(Numbers.count(levels, "gait") + " to run at half the spacing, " + Numbers.count(recordings, "run")
+                + " to record or measure on the processor");
         err.flush();
         Double left = stopAfter == null ? null : Math.max(1, stopAfter - (System.nanoTime() - started) / NANOSECONDS);
         Thread worker = Thread.currentThread();

@@ -21,6 +21,8 @@ final class OneLineErrors {
     private static final Logger LOG = LoggerFactory.getLogger(OneLineErrors.class);
     /** What picocli calls an argument that is no option; in it, the name that the help has for it. */
     private static final Pattern PLACE = Pattern.compile("positional parameter at index \\S+ \\((.*?)\\)");
+    /** How picocli tells of several arguments that it has too few of. */
+    private static final Pattern TOO_FEW = Pattern.compile("(\\S+) requires at least (\\d+) values, but only (\\d+) were specified: .*");
 
     private OneLineErrors() {
     }
@@ -29,7 +31,8 @@ final class OneLineErrors {
         CommandLine command = error.getCommandLine();
         String unmatched = unmatched(error);
         String what = unmatched != null ? unknown(unmatched, command)
-                : NumberValues.isNone(error) ? NumberValues.message(error) : PLACE.matcher(error.getMessage()).replaceAll("$1");
+                : NumberValues.isNone(error) ? NumberValues.message(error) : TOO_FEW.matcher(PLACE.matcher(error.getMessage()).replaceAll("$1"))
+                        .replaceFirst("found $3 $1; expected at least $2");
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
         return ExitCode.USAGE;
     }
@@ -54,18 +57,25 @@ final class OneLineErrors {
                 : "'" + argument + "' is no command" + Closest.hint(argument, command.getSubcommands().keySet());
     }
 
-    /** Makes a command, and those below it, tell in one line that Java has too little memory for what was asked. */
-    static void installMemory(CommandLine command) {
+    /** Makes a command, and those below it, tell in one line what Java itself lacks: memory for what was asked, or a part of the program. */
+    static void installJava(CommandLine command) {
         IExecutionStrategy usual = command.getExecutionStrategy();
         command.setExecutionStrategy(parsed -> {
             try {
                 return usual.execute(parsed);
             } catch (OutOfMemoryError e) {
-                print(parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1), "not enough memory: Java may take "
-                        + (Runtime.getRuntime().maxMemory() >> 20) + " MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say");
-                return ExitCode.SOFTWARE;
+                return lacking(parsed, "not enough memory: Java may take " + (Runtime.getRuntime().maxMemory() >> 20)
+                        + " MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say");
+            } catch (LinkageError e) {
+                return lacking(parsed, "a part of the program cannot be loaded: " + e.getMessage()
+                        + "; expected more open files than ulimit -n allows, or the jar as it was at the start");
             }
         });
+    }
+
+    private static int lacking(ParseResult parsed, String what) {
+        print(parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1), what);
+        return ExitCode.SOFTWARE;
     }
 
     static int failure(Exception error, CommandLine command, ParseResult parsed) {

@@ -125,7 +125,7 @@ final class PageCommand implements Callable<Integer> {
         StoredRun run = StoredRun.in(first.run());
         List<Swimmer> gaits = run.gaits().stream().map(JudgedGait::swimmer).distinct().limit(best).toList();
         if (gaits.size() < best) {
-            throw new InvalidInputException("--best is " + best + "; " + source + " knows " + gaits.size() + " gaits");
+            throw new InvalidInputException("--best is " + best + "; " + source + " knows " + Numbers.count(gaits.size(), "gait"));
         }
         return gaits.stream().map(one -> SwimSource.of(run, null, one, one.equals(run.best().swimmer()) ? run.best() : null))
                 .toList();

@@ -8,6 +8,7 @@ import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import io.natator.run.EvolutionRun;
 import io.natator.run.IslandsRun;
@@ -91,7 +92,8 @@ final class ResumeCommand implements Callable<Integer> {
         int done = state == null ? 0 : state.generation();
         folder.refuse(generations < done ? "--generations is " + generations + "; expected at least the " + done + " that are done"
                 : state != null && generations > done && state.isLastOf(folder.settings().withGenerations(generations))
-                ? folder.directory() + " ends after its " + state.evaluations() + " evaluations, however many --generations it may have" : null);
+                ? folder.directory() + " ends after its " + Numbers.count(state.evaluations(), "evaluation")
+                        + ", however many --generations it may have" : null);
         if (generations != folder.settings().generations()) {
             folder.changeGenerations(generations);
         }

@@ -4,8 +4,10 @@ import io.natator.checkpoint.Archipelago;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Numbers;
 import io.natator.config.SimulatorMode;
 import io.natator.encoding.GeneRange;
+import io.natator.evolution.EvolutionFailedException;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SceneInfo;
@@ -43,8 +45,8 @@ final class RunPreview {
         ProgressEstimate estimate = new ProgressEstimate(settings, System::nanoTime);
         estimate.generationStarted(0, settings.population());
         out.println(ShowCommand.settings(settings));
-        out.printf(Locale.ROOT, "  scene       %d particles, %d actuators, %.2f s%n", scene.particles(),
-                scene.actuators(), duration);
+        out.printf(Locale.ROOT, "  scene       %s, %s, %.2f s%n", Numbers.count(scene.particles(), "particle"),
+                Numbers.count(scene.actuators(), "actuator"), duration);
         out.printf("  genes       %s%n", String.join(", ", settings.genome().genes().stream().map(GeneRange::name).toList()));
         if (islands != null) {
             out.printf("  islands     %s%n", IslandsReport.exchange(islands));
@@ -64,7 +66,7 @@ final class RunPreview {
     void printAnyway(Path folder, PrintWriter out) throws InterruptedException {
         try {
             print(folder, out);
-        } catch (InvalidInputException | IllegalStateException e) {
+        } catch (InvalidInputException | EvolutionFailedException | IllegalStateException e) {
             out.println("  time        not known: " + e.getMessage());
             out.flush();
         }
@@ -75,9 +77,9 @@ final class RunPreview {
         int together = execution.trials(settings.population());
         try (Evaluator evaluator = EvolutionRun.telling(settings, Evaluator.open(limited.withCache(null)), scene)) {
             double whole = new EvaluationTime(settings, evaluator).of(together, duration);
-            out.printf(Locale.ROOT, "  time        about %s if no evaluation ends early: %d take %.2f s%n",
+            out.printf(Locale.ROOT, "  time        about %s if no evaluation ends early: %d %s %.2f s%n",
                     ProgressEstimate.readable(Math.round(Math.ceil((double) evaluations / together) * whole)),
-                    together, whole);
+                    together, together == 1 ? "takes" : "take", whole);
         }
     }
 }

@@ -37,12 +37,11 @@ final class RunReport {
      */
     void print(EvolutionSettings settings, EvolutionState state, BestGait best, Path folder) {
         if (best == null) {
-            out.println("no gait was measured: all " + state.evaluations() + " evaluations were unstable, refused or failed");
+            out.println("no gait was measured in " + Numbers.count(state.evaluations(), "evaluation") + ": unstable, refused or failed");
             return;
         }
         out.println("best " + (settings.evolve() == null ? "gait" : "swimmer") + " of " + settings.scene() + " after "
-                + state.generation() + " generations and "
-                + state.evaluations() + " evaluations");
+                + Numbers.count(state.generation(), "generation") + " and " + Numbers.count(state.evaluations(), "evaluation"));
         line("frequency", number(best.gait().frequency()) + " 1/s");
         line("amplitude", row(best.gait().amplitude()));
         line("phase", row(best.gait().phase()));
@@ -93,8 +92,8 @@ final class RunReport {
     private void printFailures(EvolutionState state, Path folder) {
         int failed = state.history().stream().mapToInt(GenerationSummary::failed).sum();
         if (failed > 0) {
-            line("failed", failed + " of " + state.evaluations() + " evaluations gave no answer, so the same seed may find another gait elsewhere; "
-                    + "why: " + ProgramName.asCalled() + " show " + ShellWord.of(folder));
+            line("failed", failed + " of " + Numbers.count(state.evaluations(), "evaluation") + " gave no answer, so the same seed may "
+                    + "find another gait elsewhere; why: " + ProgramName.asCalled() + " show " + ShellWord.of(folder));
         }
     }
 

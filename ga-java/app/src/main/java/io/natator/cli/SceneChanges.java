@@ -6,6 +6,7 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Scheme;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import picocli.CommandLine.Option;
 
@@ -30,6 +31,9 @@ class SceneChanges {
         if (overrides == null) {
             return null;
         }
+        if (isOtherJson(overrides)) {
+            throw new InvalidInputException("--overrides is " + overrides.strip() + "; expected a JSON object, or a file that holds one");
+        }
         if (!overrides.stripLeading().startsWith("{")) {
             return Json.read(Path.of(overrides), ObjectNode.class, "--overrides");
         }
@@ -38,5 +42,10 @@ class SceneChanges {
         } catch (JsonProcessingException e) {
             throw new InvalidInputException("--overrides: " + Json.reason(e), e);
         }
+    }
+
+    /** Whether a text that names no file is meant as JSON, but as no object: a list or a text, also a broken one, or a single value. */
+    private static boolean isOtherJson(String text) {
+        return text.strip().matches("(?s)[\\[\"].*|-?\\d[\\d.eE+-]*|true|false|null") && !Files.exists(Path.of(text));
     }
 }

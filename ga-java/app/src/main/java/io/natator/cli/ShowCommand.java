@@ -8,6 +8,7 @@ import io.natator.checkpoint.VacuumRecord;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
+import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
@@ -40,8 +41,12 @@ final class ShowCommand implements Callable<Integer> {
     private Path folder;
 
     @Override
-    public Integer call() {
-        PrintWriter out = spec.commandLine().getOut();
+    public Integer call() throws InterruptedException {
+        WholeOutput.print(spec.commandLine(), this::print);
+        return ExitCode.OK;
+    }
+
+    private void print(PrintWriter out) {
         if (Archipelago.exists(folder)) {
             IslandsReport.print(Archipelago.in(folder), out);
             Archipelago.in(folder).damages().forEach(one -> OneLineErrors.warn(spec.commandLine(), one));
@@ -50,22 +55,23 @@ final class ShowCommand implements Callable<Integer> {
         if (!Archipelago.exists(folder)) {
             OneLineErrors.warn(spec.commandLine(), run.damage());
         }
+        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {
             new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
-            printControls(run, out);
+            if (controls != null) {
+                out.println("  checked     " + ControlVerdict.of(controls).text());
+            }
             printFront(run, out);
             if (run.elites() != null) {
-                out.printf("map of gaits: the best of %d kinds; natator view --run %s swims them, natator report draws them%n",
-                        run.elites().moving().size(), ShellWord.of(run.directory()));
+                out.printf("map of gaits: the best of %s; natator view --run %s swims them, natator report draws them%n",
+                        Numbers.count(run.elites().moving().size(), "kind"), ShellWord.of(run.directory()));
             }
             printSavings(run, out);
         }
         printVacuum(run.vacuum(), out);
         printFailures(run.evaluations(), out);
-        out.flush();
-        return ExitCode.OK;
     }
 
     /** On one line, what makes a run another one. */
@@ -74,10 +80,10 @@ final class ShowCommand implements Callable<Integer> {
         text.append(", ").append(OptimizerName.of(settings));
         text.append(", population ").append(settings.population());
         if (settings.generations() != EvolutionSettings.NO_LIMIT) {
-            text.append(", ").append(settings.generations()).append(" generations");
+            text.append(", ").append(Numbers.count(settings.generations(), "generation"));
         }
         if (settings.evaluations() != null) {
-            text.append(", ").append(settings.evaluations()).append(" evaluations");
+            text.append(", ").append(Numbers.count(settings.evaluations(), "evaluation"));
         }
         text.append(settings.evolve() == null ? "" : settings.evolve().what() == Evolved.BODY ? ", bodies with one gait"
                 : ", gaits and bodies");
@@ -111,15 +117,15 @@ final class ShowCommand implements Callable<Integer> {
         GenerationSummary last = run.state().history().get(run.state().generation());
         long more = Math.max(run.recorded().end() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
-                RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()), run.state().isLastOf(run.settings()) ? "finished"
-                        : "not finished, " + more + " evaluations of the next" + how);
+                RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()),
+                run.state().isLastOf(run.settings()) ? "finished" : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
     }
 
     /** Of a run without a checkpoint: that it has none yet, or has lost it. */
     private static String begun(Recorded recorded) {
         long first = recorded.rows().stream().filter(one -> one.generation() == 0).count();
-        return recorded.end() > first ? "no checkpoint.json, " + recorded.end() + " evaluations of several generations"
-                : "no generation finished, " + first + " evaluations of the first";
+        return recorded.end() > first ? "no checkpoint.json, " + Numbers.count(recorded.end(), "evaluation") + " of several generations"
+                : "no generation finished, " + Numbers.count(first, "evaluation") + " of the first";
     }
 
     /** What no other gait is better than in all objectives. */
@@ -137,22 +143,15 @@ final class ShowCommand implements Callable<Integer> {
         }
     }
 
-    private static void printControls(StoredRun run, PrintWriter out) {
-        Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
-        if (controls != null) {
-            out.println("  checked     " + ControlVerdict.of(controls).text());
-        }
-    }
-
     private static void printSavings(StoredRun run, PrintWriter out) {
         EvaluationStatistics statistics = run.statistics();
         if (statistics != null) {
             out.println("not simulated");
-            out.printf(Locale.ROOT, "  early stop  %.1f %% of the time: %d of %d evaluations ended early, as if %.0f "
+            out.printf(Locale.ROOT, "  early stop  %.1f %% of the time: %d of %s ended early, as if %.0f "
                     + "had not been made%n", 100 * statistics.shareOfEarlyStops(), statistics.stoppedEarly(),
-                    statistics.simulations(), statistics.shareOfEarlyStops() * statistics.simulations());
-            out.printf("  unchanged   %d chromosomes, evaluated in an earlier generation%n", statistics.unchanged());
-            out.printf("  cache       %d evaluations, made by an earlier run%n", statistics.fromCache());
+                    Numbers.count(statistics.simulations(), "evaluation"), statistics.shareOfEarlyStops() * statistics.simulations());
+            out.printf("  unchanged   %s, evaluated in an earlier generation%n", Numbers.count(statistics.unchanged(), "chromosome"));
+            out.printf("  cache       %s, made by an earlier run%n", Numbers.count(statistics.fromCache(), "evaluation"));
         }
     }
 

@@ -1,5 +1,6 @@
 package io.natator.cli;
 
+import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.EvolutionStoppedException;
@@ -90,7 +91,7 @@ final class ShutdownHandler implements AutoCloseable {
                 if (deadline != null && now + (now - started) > deadline) {
                     timeIsUp = true;
                     throw new EvolutionStoppedException("stopped after generation " + state.generation() + " and "
-                            + state.evaluations() + " evaluations");
+                            + Numbers.count(state.evaluations(), "evaluation"));
                 }
             }
         };

@@ -12,7 +12,9 @@ import java.util.Map;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.Arguments;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.MethodSource;
 import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
@@ -118,6 +120,10 @@ class BadUsageTest extends FakeSimulatorTest {
         "--scene no/such.json|expected a named scene or an existing file",
         "--overrides no-such.json|no-such.json does not exist",
         "--overrides {\"solver\":|--overrides: ",
+        "--overrides [1]|--overrides is [1]; expected a JSON object, or a file that holds one",
+        "--overrides \"solver\"|--overrides is \"solver\"; expected a JSON object, or a file that holds one",
+        "--overrides -1.5e3|--overrides is -1.5e3; expected a JSON object, or a file that holds one",
+        "--overrides null|--overrides is null; expected a JSON object, or a file that holds one",
         "--seed|Missing required parameter for option '--seed'",
         "--sed 3|--sed is no option of this command; did you mean --seed? See natator evolve --help",
         "--resume no/such/folder|no/such/folder is not a run folder"})
@@ -182,6 +188,17 @@ class BadUsageTest extends FakeSimulatorTest {
     }
 
     @Test
+    void aReportHasItsFolderBeforeItSimulates() throws IOException {
+        assertThat(evolve("run")).isZero();
+        Path file = Files.writeString(folder.resolve("file"), "");
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("report", folder.resolve("run").toString(), "--output-dir", file.resolve("a").toString())).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator report: output folder " + file.resolve("a") + " cannot be made: "
+                + file + " is a file, not a folder\n");
+    }
+
+    @Test
     void aReportNeedsACheckpoint() throws IOException {
         assertThat(evolve("run")).isZero();
         Files.delete(folder.resolve("run/checkpoint.json"));
@@ -218,7 +235,7 @@ class BadUsageTest extends FakeSimulatorTest {
         "evolve --seed|Missing required parameter for option '--seed' (N); see natator evolve --help",
         "show|Missing required parameter: 'RUN'; see natator show --help",
         "show one two|'two' is one argument too many; see natator show --help",
-        "compare one|RUN requires at least 2 values, but only 1 were specified: [one]; see natator compare --help",
+        "compare one|found 1 RUN; expected at least 2; see natator compare --help",
         "new fish minnow|`Invalid value for scene|creature|gait: expected scene, creature or gait but was 'fish'; see natator new --help`"})
     void theMistypedIsNamed(String arguments, String message) {
         CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));
@@ -227,20 +244,35 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(err.toString()).isEqualTo("natator " + arguments.split(" ")[0] + ": " + message + "\n");
     }
 
-    @Command(name = "swallow")
-    static final class Swallow implements Runnable {
+    @Command(name = "end")
+    record End(Error error) implements Runnable {
         @Override
         public void run() {
-            throw new OutOfMemoryError();
+            throw error;
         }
     }
 
-    @Test
-    void tooLittleMemoryIsOneLine() {
-        CommandLine command = Main.commandLine().addSubcommand(new Swallow()).setErr(new PrintWriter(err, true));
+    private static Stream<Arguments> lacks() {
+        return Stream.of(Arguments.of(new OutOfMemoryError(),
+                        "not enough memory: Java may take \\d+ MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say"),
+                Arguments.of(new NoClassDefFoundError("io/natator/Part"), "a part of the program cannot be loaded: io/natator/Part; "
+                        + "expected more open files than ulimit -n allows, or the jar as it was at the start"));
+    }
 
-        assertThat(command.execute("swallow")).isEqualTo(1);
-        assertThat(err.toString()).matches("natator swallow: not enough memory: Java may take \\d+ MiB; give it more by JAVA_TOOL_OPTIONS=-Xmx16g, say\n");
+    @ParameterizedTest
+    @MethodSource("lacks")
+    void whatJavaLacksIsOneLine(Error error, String message) {
+        CommandLine command = Main.commandLine().addSubcommand(new End(error)).setErr(new PrintWriter(err, true));
+
+        assertThat(command.execute("end")).isEqualTo(1);
+        assertThat(err.toString()).matches("natator end: " + message + "\n");
+    }
+
+    @Test
+    void aDryRunThatCannotTryTellsWhy() {
+        assertThat(evolve("run", "--scene", "fault/exit", "--dry-run")).isEqualTo(1);
+        assertThat(err.toString()).startsWith("natator evolve: a trial evaluation failed: ").contains("out of luck").hasLineCount(1);
+        assertThat(out.toString()).isEmpty();
     }
 
     @Test

@@ -140,7 +140,7 @@ class CompareCommandTest extends FakeSimulatorTest {
     @Test
     void aCheckThatCannotBeKeptIsToldAllTheSame() throws IOException {
         assertThat(evolve("run")).isZero();
-        Files.createDirectories(folder.resolve("run/check.json/in the way"));
+        Files.createDirectories(folder.resolve("run/check.json.new/in the way"));
         out.getBuffer().setLength(0);
         err.getBuffer().setLength(0);
 
@@ -148,6 +148,21 @@ class CompareCommandTest extends FakeSimulatorTest {
 
         assertThat(out.toString()).contains("mirrored", "verdict");
         assertThat(err.toString()).startsWith("natator check: cannot write ").hasLineCount(1);
+    }
+
+    @Test
+    void aCheckThatCannotLookAtTheWaterKeepsTheRest() throws IOException {
+        assertThat(evolve("run")).isZero();
+        Files.createFile(folder.resolve("no-recording"));
+        out.getBuffer().setLength(0);
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("check", "--starts", "2", folder.resolve("run").toString())).as(err.toString()).isZero();
+
+        assertThat(err.toString()).startsWith("natator check: warning: ").contains("out of luck")
+                .endsWith("; how much of the body is under water is left out\n").hasLineCount(1);
+        assertThat(out.toString()).contains("mirrored", "verdict").doesNotContain("under water");
+        assertThat(file("run", "check.json")).contains("mirrored").doesNotContain("underWater");
     }
 
     @Test

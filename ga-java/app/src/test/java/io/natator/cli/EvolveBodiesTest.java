@@ -175,7 +175,7 @@ class EvolveBodiesTest {
         "pool/eel|body||--evolve body has no gait that the bodies are to swim with; expected --gait FILE",
         "pool/eel|both|gait.json|--gait is for --evolve body; else gaits are evolved",
         "pool/eel|body|odd.json|--gait FOLDER/odd.json: body is 3; expected a JSON Merge Patch on the scene",
-        "pool/eel|body|short.json|gait of the bodies is for 1 actuators; expected one for the 8 of the scene's body"})
+        "pool/eel|body|short.json|gait of the bodies is for 1 actuator; expected one for the 8 of the scene's body"})
     void whatDoesNotFitIsOneLine(String scene, String what, String gait, String message) throws IOException {
         gaitFile();
         Files.writeString(folder.resolve("odd.json"), "{\"gait\":" + Json.line(GAIT) + ",\"body\":3}");

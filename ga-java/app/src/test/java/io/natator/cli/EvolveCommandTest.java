@@ -114,6 +114,13 @@ class EvolveCommandTest extends FakeSimulatorTest {
     }
 
     @Test
+    void oneGenerationIsNotSeveral() {
+        assertThat(evolveTo(1, "run", "--workers", "1")).as(err.toString()).isZero();
+
+        assertThat(out.toString()).contains(", 1 generation, ", " ends early: 1 takes ", " after 1 generation and ");
+    }
+
+    @Test
     void aPlanThatCannotBeTimedDoesNotKeepTheRunFromBeginning() {
         assertThat(evolve("run", "--scene", "fault/mixed")).as(err.toString()).isZero();
 

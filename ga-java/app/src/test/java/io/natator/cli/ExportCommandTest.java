@@ -66,8 +66,10 @@ class ExportCommandTest {
 
     private int export(Path simulator, String... arguments) {
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
-        List<String> all = new ArrayList<>(List.of("export", "--simulator-path", simulator.toString(), "--output-dir",
-                folder.resolve("out").toString()));
+        List<String> all = new ArrayList<>(List.of("export", "--simulator-path", simulator.toString()));
+        if (!List.of(arguments).contains("--output-dir")) {
+            all.addAll(List.of("--output-dir", folder.resolve("out").toString()));
+        }
         if (!List.of(arguments).contains("--python")) {
             all.addAll(List.of("--python", System.getProperty("natator.readers")));
         }
@@ -202,6 +204,34 @@ class ExportCommandTest {
         }
     }
 
+    @Test
+    void aLinkIsFollowed() throws IOException {
+        Path disk = Files.createDirectory(folder.resolve("disk"));
+        Files.createSymbolicLink(folder.resolve("out"), disk);
+        Path simulator = simulator(whole(1), "exit 0");
+        for (String option : List.of("--no-water", "--force")) {
+            assertThat(export(simulator, "test/pool", "--format", "csv", "--duration", "1", option)).as(err.toString()).isZero();
+            assertThat(folder.resolve("out")).isSymbolicLink();
+            assertThat(disk.resolve("metadata.json")).exists();
+        }
+    }
+
+    /** Found out before anything is simulated. */
+    @Test
+    void aPlaceThatTakesNoFolderIsNamed() throws IOException {
+        Path simulator = simulator(whole(1), "exit 0");
+        Path link = Files.createSymbolicLink(folder.resolve("out"), Path.of("nowhere"));
+        Path file = Files.writeString(folder.resolve("file"), "");
+
+        assertThat(export(simulator, "test/pool", "--format", "csv", "--duration", "1")).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator export: output folder " + link + " is a link that leads nowhere\n");
+        err.getBuffer().setLength(0);
+        assertThat(export(simulator, "test/pool", "--format", "csv", "--duration", "1", "--output-dir", file.resolve("a").toString()))
+                .isEqualTo(2);
+        assertThat(err.toString()).contains(" cannot be made: " + file + " is a file, not a folder").hasLineCount(1);
+        assertThat(folder.resolve("arguments")).doesNotExist();
+    }
+
     /** Found out before anything is simulated. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
@@ -254,7 +284,7 @@ class ExportCommandTest {
             assertThat(export(simulator, "test/pool", "--format", format.text(), "--duration", "1", "--force",
                     "--no-water")).as(err.toString()).isZero();
         }
-        assertThat(out.toString()).contains("1 frames of 0 particles of water and 8 others");
+        assertThat(out.toString()).contains("1 frame of 0 particles of water and 8 others");
     }
 
     /** Killed at some moment as by kill -9: nothing has the name of the export; the next one takes its place. */

@@ -150,6 +150,16 @@ class IslandsFolderTest {
     }
 
     @Test
+    void ofAFolderThatIsRefusedNothingIsShown() throws IOException {
+        Path damaged = copyOf(islands);
+        Files.writeString(damaged.resolve("island-2/checkpoint.json"), "{");
+
+        assertThat(status("show", damaged.toString())).isEqualTo(2);
+        assertThat(err.toString()).startsWith("natator show: checkpoint " + damaged.resolve("island-2/checkpoint.json")).hasLineCount(1);
+        assertThat(out.toString()).isEmpty();
+    }
+
+    @Test
     void whatCannotBeGoneOnWithChangesNoBackend() throws IOException {
         Path unfinished = copyOf(islands);
         Files.delete(unfinished.resolve("island-1/checkpoint.json"));

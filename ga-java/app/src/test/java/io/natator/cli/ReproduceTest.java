@@ -104,7 +104,7 @@ class ReproduceTest {
     void saysHowLongItWillTakeAndDoesNothing() {
         assertThat(reproduce("--creature", "1", "--water", "flex", "--generations", "100", "--dry-run")).isZero();
 
-        assertThat(out.toString()).contains("1 evolutions").contains("about 1570 evaluations left")
+        assertThat(out.toString()).contains("1 evolution, ").contains("about 1570 evaluations left")
                 .contains("creature 1, flex").containsPattern("about .*, with ");
         assertThat(out.toString()).containsPattern("\\d{3,4} evaluations to measure, 0 gaits to run at half the spacing and \\d{2} runs to record");
         assertThat(folder).isEmptyDirectory();

@@ -69,6 +69,7 @@ class ResumeCommandTest extends FakeSimulatorTest {
         out.getBuffer().setLength(0);
         Files.writeString(folder.resolve("run/best.json"), best.lines().limit(8).collect(Collectors.joining("\n")));
         Files.writeString(folder.resolve("run/savings.json"), "{");
+        Files.writeString(folder.resolve("run/check.json"), "{");
 
         assertThat(warnings(() -> {
             assertThat(natator("show", folder.resolve("run").toString())).as(err.toString()).isZero();
@@ -76,10 +77,12 @@ class ResumeCommandTest extends FakeSimulatorTest {
                     "  flow        Reynolds number 131, Strouhal number 0.313\n");
             assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
         })).as("each once").containsExactly(
+                "best " + folder.resolve("run/best.json") + ": ends too early; expected the rest of the JSON text "
+                        + "(line 8, column 5); taken from checkpoint.json instead",
                 "savings " + folder.resolve("run/savings.json") + ": ends too early; expected the rest of the JSON text "
                         + "(line 1, column 2); shown without it",
-                "best " + folder.resolve("run/best.json") + ": ends too early; expected the rest of the JSON text "
-                        + "(line 8, column 5); taken from checkpoint.json instead");
+                "check " + folder.resolve("run/check.json") + ": ends too early; expected the rest of the JSON text "
+                        + "(line 1, column 2); shown without it");
         assertThat(file("run", "best.json")).isEqualTo(best);
     }
 

@@ -6,6 +6,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.CompactRun;
 import io.natator.config.Json;
+import io.natator.evolution.EvaluationRecord;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -63,10 +64,13 @@ class ShowCommandTest extends FakeSimulatorTest {
         evolved("jgap");
         String checkpoint = Files.readString(file("checkpoint.json"));
         String evaluations = Files.readString(file("evaluations.jsonl"));
+        EvaluationRecord last = Json.parse(evaluations.lines().reduce((before, line) -> line).orElseThrow(), EvaluationRecord.class);
+        EvaluationRecord next = new EvaluationRecord(last.generation() + 1, last.genes(), last.gait(),
+                last.result().withId(last.result().id() + 1));
         CompactRun.compact(folder.resolve("run"));
         assertThat(natator("show", folder.resolve("run").toString())).isZero();
         Files.writeString(file("checkpoint.json"), checkpoint);
-        Files.writeString(file("evaluations.jsonl"), evaluations + evaluations.lines().findFirst().orElseThrow() + "\n{\"gene");
+        Files.writeString(file("evaluations.jsonl"), evaluations + Json.line(next) + "\n{\"gene");
         assertThat(natator("show", folder.resolve("run").toString())).isZero();
         Files.delete(file("checkpoint.json"));
         assertThat(natator("show", folder.resolve("run").toString())).isZero();
@@ -90,9 +94,27 @@ class ShowCommandTest extends FakeSimulatorTest {
         assertThat(err.toString()).isEmpty();
     }
 
+    @Test
+    void evaluationsOutOfOrderAreSaid() throws IOException {
+        evolved("jgap");
+        List<String> lines = Files.readAllLines(file("evaluations.jsonl"));
+        lines.add(3, lines.get(2));
+        Files.write(file("evaluations.jsonl"), lines);
+        String damage = folder.resolve("run") + " is damaged: evaluations.jsonl, line 4: id is 2; expected 3\n";
+
+        assertThat(natator("show", folder.resolve("run").toString())).isZero();
+        assertThat(err.toString()).isEqualTo("natator show: warning: " + damage);
+        forget();
+        assertThat(natator("resume", folder.resolve("run").toString())).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator resume: " + damage);
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {"{}|generation: expected a whole number", "null|expected an object", "{'generation':0}|genes is missing",
-        "{'generation':0,'genes':[1]}|result is missing", "{'generation':zero}|found 'zero'; expected JSON (column 15)"})
+        "{'generation':0,'genes':[1]}|gait is missing",
+        "{'generation':0,'genes':[1],'gait':{'frequency':1,'amplitude':[1],'phase':[0]}}|result is missing",
+        "{'generation':0,'genes':[1],'gait':{'frequency':1,'amplitude':[1],'phase':[0]},'result':{'status':'failed','simulated':0}}|id is missing",
+        "{'generation':zero}|found 'zero'; expected JSON (column 15)"})
     void aLineThatIsNoEvaluationIsNamed(String line, String message) throws IOException {
         evolved("map-elites");
         Files.writeString(file("evaluations.jsonl"), line.replace('\'', '"') + "\n");
@@ -107,6 +129,7 @@ class ShowCommandTest extends FakeSimulatorTest {
         "config.json|encoding|2|encoding is missing",
         "checkpoint.json|history|2|history is missing",
         "checkpoint.json|best/result|2|best: result is missing",
+        "checkpoint.json|best/result/id|2|best: id is missing",
         "checkpoint.json|best/result/distance|2|best.result: distance is missing",
         "best.json|scene|0|scene is missing",
         "best.json|gait|0|gait is missing",

@@ -3,11 +3,9 @@ package io.natator.checkpoint;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.body.Swimmer;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.encoding.Gait;
 import io.natator.file.AtomicFile;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Objects;
 
@@ -35,11 +33,14 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
         SwimSample vacuum, SwimSample clampOff, SwimSample halfStep, SwimSample mirrored, SwimSample otherBackend,
         String backend, Double underWater) {
 
-    /** Has to have the gait, its swims and those of the dead body. */
+    /** Has to have the gait, and the swims that there are of every winner. */
     public Controls {
         Objects.requireNonNull(gait, "gait");
         Objects.requireNonNull(water, "water");
         Objects.requireNonNull(resting, "resting");
+        Objects.requireNonNull(vacuum, "vacuum");
+        Objects.requireNonNull(halfStep, "halfStep");
+        Objects.requireNonNull(mirrored, "mirrored");
     }
 
     /** Distance of the swimmer less that of the dead body, in scene units. */
@@ -66,14 +67,12 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
     }
 
     /**
-     * Those of a run folder, if they are of its winner.
+     * Those of a run folder, if they are of its winner. They can be run again, so a damaged file is but warned of.
      *
      * @return null if there are none
-     * @throws InvalidInputException if the file is damaged
      */
     public static Controls of(Path run, Swimmer best) {
-        Path file = run.resolve(RunFolder.CONTROLS);
-        Controls found = Files.exists(file) ? Json.read(file, Controls.class, "check") : null;
+        Controls found = StoredRun.readable(run, RunFolder.CONTROLS, Controls.class);
         return found == null || !new Swimmer(found.gait, found.body).equals(best) ? null : found;
     }
 }

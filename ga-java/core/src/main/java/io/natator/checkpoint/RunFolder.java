@@ -7,6 +7,7 @@ import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Migration;
+import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.Departure;
 import io.natator.evolution.EvaluationRecord;
@@ -15,6 +16,7 @@ import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Recorded;
 import io.natator.file.AtomicFile;
 import io.natator.file.JsonLines;
+import io.natator.file.OutputFolder;
 import io.natator.simulator.SimulationResult;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -88,7 +90,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     /** Makes a new folder with a first file, a JSON document; also where a kill ended that before the file was whole. */
     static void make(Path directory, String name, Object content) {
         try {
-            Files.createDirectories(directory);
+            OutputFolder.make(directory);
             AtomicFile.deleteUnfinished(directory.resolve(name));
             boolean isRun = Files.exists(directory.resolve(CHECKPOINT)) || Files.exists(directory.resolve(EVALUATIONS));
             if (isRun && !Files.exists(directory.resolve(name))) {
@@ -99,8 +101,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
                         + "--output-dir, or continue the run in it by --resume " + directory);
             }
         } catch (IOException e) {
-            throw new InvalidInputException("output folder " + directory + " cannot be made: "
-                    + FileErrors.whyNotMade(directory, e), e);
+            throw OutputFolder.cannotBeMade(directory, e);
         }
         try {
             AtomicFile.write(directory.resolve(name), Json.document(content));
@@ -140,9 +141,9 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         }
     }
 
-    /** Refuses a pipe, or the like, in place of a file that a run writes. */
+    /** Refuses a folder, a pipe, or the like, in place of a file that a run writes. */
     static void checkRegular(Path directory) {
-        FILES.forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
+        FILES.stream().filter(name -> !name.equals(PLOTS) && !name.equals(".")).forEach(name -> FileErrors.checkRegular(directory.resolve(name)));
     }
 
     /** Whether there is anything at this path but an empty folder. */
@@ -165,6 +166,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         folder.refuse(folder.checkpoint != null && folder.checkpoint.population().isEmpty()
                 ? directory + " has no population any more, which it would go on from: it lacks " + CompactRun.WHOLE
                 : damage(directory, folder.checkpoint, folder.recorded().end()));
+        folder.refuse(damage(directory, folder.recorded()));
         folder.refuse(damagedGenes(directory, folder.genome, folder.checkpoint));
         folder.refuse(damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size()));
         folder.dropFailures();
@@ -193,7 +195,19 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             return directory + " is damaged: evaluations of " + CHECKPOINT + " is " + checkpoint.evaluations() + "; expected at least 0";
         }
         return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
-                + " has " + recorded + " whole lines; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
+                + " has " + Numbers.count(recorded, "whole line") + "; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
+    }
+
+    /** Which evaluation stands where another should, in one line; null if none does. */
+    static String damage(Path directory, Recorded recorded) {
+        for (int i = 0; i < recorded.rows().size(); i++) {
+            long id = recorded.rows().get(i).result().id();
+            if (id != recorded.first() + i) {
+                return directory + " is damaged: " + EVALUATIONS + ", line " + (i + 1) + ": id is " + id + "; expected "
+                        + (recorded.first() + i);
+            }
+        }
+        return null;
     }
 
     /** Which genes of a checkpoint stand for nothing, in one line; null if none do. */
@@ -216,7 +230,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     static String damage(Path directory, Migration migration, EvolutionState checkpoint, int left) {
         int expected = migration == null || checkpoint == null ? 0 : Math.max(checkpoint.generation() - 1, 0) / migration.every();
-        return left >= expected ? null : directory + " is damaged: " + MIGRANTS + " has " + left + " whole lines; expected at least "
+        return left >= expected ? null : directory + " is damaged: " + MIGRANTS + " has " + Numbers.count(left, "whole line") + "; expected at least "
                 + expected + ", one for each exchange before generation " + checkpoint.generation();
     }
 

@@ -20,10 +20,12 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
+import java.util.Objects;
 import java.util.Set;
 import java.util.SortedMap;
 import java.util.TreeMap;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.stream.Stream;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -58,15 +60,8 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     public static StoredRun in(Path directory) {
         EvolutionSettings settings = settings(directory);
         EvolutionState state = state(directory);
-        EvaluationStatistics statistics;
-        try {
-            statistics = statistics(directory);
-        } catch (InvalidInputException e) {
-            warn(e.getMessage() + "; shown without it");
-            statistics = null;
-        }
-        return new StoredRun(directory, settings, state, best(directory, settings, state),
-                recorded(directory), statistics, vacuumRecords(directory));
+        return new StoredRun(directory, settings, state, best(directory, settings, state), recorded(directory),
+                readable(directory, RunFolder.SAVINGS, EvaluationStatistics.class), vacuumRecords(directory));
     }
 
     private static void warn(String warning) {
@@ -81,13 +76,14 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /**
-     * What of the run is lost though nobody trimmed it, in one line; null if nothing is. It was trimmed where there is no
-     * population either; {@link CompactRun}.
+     * What of the run is lost though nobody trimmed it, or stands where it should not, in one line; null if nothing is. It was
+     * trimmed where there is no population either; {@link CompactRun}.
      */
     public String damage() {
         boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
-        String damage = compact ? null : RunFolder.damage(directory, state, recorded.end());
-        return damage != null ? damage : RunFolder.damage(directory, settings.migration(), state, departures(directory).size());
+        return Stream.of(compact ? null : RunFolder.damage(directory, state, recorded.end()), RunFolder.damage(directory, recorded),
+                RunFolder.damage(directory, settings.migration(), state, departures(directory).size()))
+                .filter(Objects::nonNull).findFirst().orElse(null);
     }
 
     /**
@@ -110,6 +106,16 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         Path file = directory.resolve(name);
         FileErrors.checkRegular(file);
         return Files.exists(file) ? Json.read(file, type, name.replace(".json", "")) : null;
+    }
+
+    /** What a file holds that a run can be shown without; null if it is not there, or is damaged, of which it is warned. */
+    static <T> T readable(Path directory, String name, Class<T> type) {
+        try {
+            return optional(directory, name, type);
+        } catch (InvalidInputException e) {
+            warn(e.getMessage() + "; shown without it");
+            return null;
+        }
     }
 
     /** Whether there is a run in this folder. */

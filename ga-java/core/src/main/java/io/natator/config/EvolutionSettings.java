@@ -87,7 +87,7 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
         objectives = objectives == null || objectives.isEmpty() ? null : List.copyOf(objectives);
         checkObjectives(optimizer, fitness, judge, objectives == null ? List.of() : objectives);
         require(evolve == null || evolve.gait() == null || evolve.gait().actuators() == actuators, "gait of the bodies",
-                evolve == null || evolve.gait() == null ? "" : "for " + evolve.gait().actuators() + " actuators",
+                evolve == null || evolve.gait() == null ? "" : "for " + Numbers.count(evolve.gait().actuators(), "actuator"),
                 "one for the " + actuators + " of the scene's body");
         require(evaluations == null || evaluations >= starts, "evaluations", evaluations,
                 "at least the " + starts + " starts of one gait");

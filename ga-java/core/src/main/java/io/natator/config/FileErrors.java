@@ -8,6 +8,7 @@ import java.nio.file.AccessDeniedException;
 import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.FileSystemException;
 import java.nio.file.Files;
+import java.nio.file.LinkOption;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
 
@@ -18,13 +19,14 @@ public final class FileErrors {
     }
 
     /**
-     * Refuses what is there and is neither a file nor a folder: reading a pipe would wait for ever.
+     * Refuses what is there and is no file: reading a pipe would wait for ever, a folder cannot be replaced.
      *
      * @throws InvalidInputException naming it
      */
     public static void checkRegular(Path file) {
-        if (Files.exists(file) && !Files.isRegularFile(file) && !Files.isDirectory(file)) {
-            throw new InvalidInputException(file + " is not a regular file");
+        if (!Files.isRegularFile(file) && Files.exists(file, LinkOption.NOFOLLOW_LINKS)) {
+            throw new InvalidInputException(file + (Files.isDirectory(file) ? " is a folder; expected a file"
+                    : Files.exists(file) ? " is not a regular file" : " is a link that leads nowhere"));
         }
     }
 

@@ -16,6 +16,11 @@ public final class Numbers {
         return text.matches("-0(\\.0*)?") ? text.substring(1) : text;
     }
 
+    /** So many of what a word stands for that has its plural by an s: 1 gait, 2 gaits. */
+    public static String count(long count, String one) {
+        return count + " " + one + (count == 1 ? "" : "s");
+    }
+
     /** With so many digits, never in powers of ten; a finite number. */
     public static String significant(double value, int digits) {
         return BigDecimal.valueOf(value).round(new MathContext(digits)).stripTrailingZeros().toPlainString();

@@ -1,5 +1,6 @@
 package io.natator.encoding;
 
+import io.natator.config.Numbers;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import java.util.Collections;
 import java.util.List;
@@ -28,12 +29,12 @@ public record Gait(double frequency, List<Double> amplitude, List<Double> phase,
         Objects.requireNonNull(amplitude, "amplitude");
         Objects.requireNonNull(phase, "phase");
         if (amplitude.size() != phase.size()) {
-            throw new IllegalArgumentException("gait has " + amplitude.size() + " amplitudes and " + phase.size()
-                    + " phases; expected as many of both");
+            throw new IllegalArgumentException("gait has " + Numbers.count(amplitude.size(), "amplitude") + " and "
+                    + Numbers.count(phase.size(), "phase") + "; expected as many of both");
         }
         if (offset != null && offset.size() != amplitude.size()) {
-            throw new IllegalArgumentException("gait has " + amplitude.size() + " amplitudes and " + offset.size()
-                    + " offsets; expected as many of both, or no offsets");
+            throw new IllegalArgumentException("gait has " + Numbers.count(amplitude.size(), "amplitude") + " and "
+                    + Numbers.count(offset.size(), "offset") + "; expected as many of both, or no offsets");
         }
         offset = offset == null ? null : List.copyOf(offset);
         amplitude = List.copyOf(amplitude);

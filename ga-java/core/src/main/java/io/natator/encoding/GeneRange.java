@@ -1,5 +1,6 @@
 package io.natator.encoding;
 
+import io.natator.config.Numbers;
 import java.util.List;
 
 /**
@@ -41,7 +42,7 @@ public record GeneRange(String name, double lower, double upper) {
      */
     public static void check(List<GeneRange> ranges, List<Double> genes) {
         if (genes.size() != ranges.size()) {
-            throw new IllegalArgumentException(genes.size() + " genes given; expected " + ranges.size() + ": "
+            throw new IllegalArgumentException(Numbers.count(genes.size(), "gene") + " given; expected " + ranges.size() + ": "
                     + String.join(", ", ranges.stream().map(GeneRange::name).toList()));
         }
         for (int i = 0; i < ranges.size(); i++) {

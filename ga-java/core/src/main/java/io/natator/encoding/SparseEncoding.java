@@ -1,5 +1,6 @@
 package io.natator.encoding;
 
+import io.natator.config.Numbers;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -23,7 +24,7 @@ public final class SparseEncoding implements Encoding {
      */
     public SparseEncoding(int actuators) {
         if (actuators < 2) {
-            throw new IllegalArgumentException("sparse encoding of " + actuators + " actuators; expected at least 2");
+            throw new IllegalArgumentException("sparse encoding of " + Numbers.count(actuators, "actuator") + "; expected at least 2");
         }
         this.actuators = actuators;
     }

@@ -18,10 +18,12 @@ import java.util.Objects;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record EvaluationRecord(int generation, List<Double> genes, Gait gait, SimulationResult result, Integer start) {
 
-    /** Copies the genes, which it has to have as well as a result. */
+    /** Copies the genes, which it has to have as well as a gait and a result with its id. */
     public EvaluationRecord {
         genes = List.copyOf(Objects.requireNonNull(genes, "genes"));
+        Objects.requireNonNull(gait, "gait");
         Objects.requireNonNull(result, "result");
+        Objects.requireNonNull(result.id(), "id");
     }
 
     /** From the scene's own start. */

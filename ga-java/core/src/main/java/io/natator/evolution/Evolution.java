@@ -2,6 +2,8 @@ package io.natator.evolution;
 
 import io.natator.body.Genome;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Numbers;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
@@ -72,7 +74,7 @@ public final class Evolution {
     public EvolutionState run(EvolutionState from) {
         evaluations = from == null ? 0 : from.evaluations();
         if (recorded.end() < evaluations) {
-            throw new IllegalArgumentException(recorded.end() + " simulations recorded; expected the " + evaluations
+            throw new IllegalArgumentException(Numbers.count(recorded.end(), "simulation") + " recorded; expected the " + evaluations
                     + " up to where the evolution is to continue");
         }
         try (Optimizer optimizer = Optimizer.of(settings, genome.genes(), this::evaluate)) {
@@ -93,8 +95,8 @@ public final class Evolution {
         try {
             return exchange.parents(state);
         } catch (InterruptedException e) {
-            throw new EvolutionStoppedException("stopped after generation " + state.generation() + " and " + evaluations
-                    + " evaluations, in wait for the gaits of another island");
+            throw new EvolutionStoppedException("stopped after generation " + state.generation() + " and " + Numbers.count(evaluations, "evaluation")
+                    + ", in wait for the gaits of another island");
         }
     }
 
@@ -223,8 +225,8 @@ public final class Evolution {
                         run.start()));
             });
         } catch (InterruptedException e) {
-            throw new EvolutionStoppedException("stopped in generation " + generation + " after " + evaluations
-                    + " evaluations");
+            throw new EvolutionStoppedException("stopped in generation " + generation + " after "
+                    + Numbers.count(evaluations, "evaluation"));
         }
         failIfMostFailed();
         return List.copyOf(simulated.subList(before, simulated.size()));
@@ -233,7 +235,7 @@ public final class Evolution {
     private EvaluationRecord replayed(Run run) {
         EvaluationRecord found = recorded.get(evaluations);
         if (!found.genes().equals(run.genes()) || !Objects.equals(found.start(), run.start())) {
-            throw new EvolutionFailedException("recorded evaluation " + evaluations
+            throw new InvalidInputException("recorded evaluation " + evaluations
                     + " is of other genes, or from another start, than this evolution's: the run folder was changed, or made by another version");
         }
         return found;
@@ -254,8 +256,8 @@ public final class Evolution {
         if (2 * failed > simulated.size()) {
             String reason = simulated.stream().filter(result -> result.status() == SimulationResult.Status.FAILED)
                     .findFirst().map(SimulationResult::error).orElse("");
-            throw new EvolutionFailedException("generation " + generation + ": " + failed + " of " + simulated.size()
-                    + " simulations failed, the first: " + reason);
+            throw new EvolutionFailedException("generation " + generation + ": " + failed + " of "
+                    + Numbers.count(simulated.size(), "simulation") + " failed, the first: " + reason);
         }
     }
 }

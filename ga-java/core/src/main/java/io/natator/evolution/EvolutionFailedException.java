@@ -5,7 +5,8 @@ public class EvolutionFailedException extends RuntimeException {
 
     private static final long serialVersionUID = 1L;
 
-    EvolutionFailedException(String message) {
+    /** For this reason, in one line. */
+    public EvolutionFailedException(String message) {
         super(message);
     }
 

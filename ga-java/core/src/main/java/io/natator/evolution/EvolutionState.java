@@ -3,6 +3,7 @@ package io.natator.evolution;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Numbers;
 import java.util.List;
 import java.util.Objects;
 
@@ -30,7 +31,7 @@ public record EvolutionState(int generation, long evaluations, List<Individual> 
         population = List.copyOf(Objects.requireNonNull(population, "population"));
         history = List.copyOf(Objects.requireNonNull(history, "history"));
         if (generation < 0 || history.size() != generation + 1L) {
-            throw new InvalidInputException("history has " + history.size() + " generations; expected those from 0 to generation, "
+            throw new InvalidInputException("history has " + Numbers.count(history.size(), "generation") + "; expected those from 0 to generation, "
                     + generation);
         }
         champions = champions == null ? null : List.copyOf(champions);

@@ -6,6 +6,7 @@ import com.fasterxml.jackson.dataformat.csv.CsvMapper;
 import com.fasterxml.jackson.dataformat.csv.CsvParser;
 import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Numbers;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -88,7 +89,7 @@ public final class CsvReader implements AutoCloseable {
             return false;
         }
         if (row.length != columns.size()) {
-            throw new InvalidInputException(file + ", line " + line + " has " + row.length + " fields; expected "
+            throw new InvalidInputException(file + ", line " + line + " has " + Numbers.count(row.length, "field") + "; expected "
                     + columns.size());
         }
         return true;

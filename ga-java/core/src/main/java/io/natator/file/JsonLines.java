@@ -66,10 +66,11 @@ public final class JsonLines<T> implements AutoCloseable {
     /**
      * Opens a file for writing at once, or makes it.
      *
-     * @throws InvalidInputException if another process writes it, or a whole line of it is no such row
+     * @throws InvalidInputException if it is no file, another process writes it, or a whole line of it is no such row
      */
     public static <T> JsonLines<T> locked(Path file, Class<T> type) {
         JsonLines<T> lines = new JsonLines<>(file, type);
+        FileErrors.checkRegular(file);
         try {
             lines.open();
             lines.parse(new FileInputStream(lines.content.getFD()));

@@ -24,7 +24,7 @@ public final class OutputFile {
      * The file of this name; of a symbolic link, the one that it leads to.
      *
      * @throws InvalidInputException if something else is there that is not to be replaced, such as a folder, a device or
-     *                               a pipe; or if its folder does not exist
+     *                               a pipe; or if its folder does not exist or takes no files
      */
     public static OutputFile of(Path named) {
         Path target = followed(named);
@@ -36,6 +36,9 @@ public final class OutputFile {
         Path folder = target.toAbsolutePath().getParent();
         if (!Files.isDirectory(folder)) {
             throw new InvalidInputException("output file is " + named + "; expected a folder that exists, unlike " + folder);
+        }
+        if (!Files.isWritable(folder)) {
+            throw new InvalidInputException("output file is " + named + "; expected a folder that can be written to, unlike " + folder);
         }
         return new OutputFile(named, target);
     }

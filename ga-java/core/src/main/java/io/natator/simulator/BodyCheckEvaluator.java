@@ -1,6 +1,7 @@
 package io.natator.simulator;
 
 import io.natator.config.EvolutionSettings;
+import io.natator.config.Numbers;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -58,10 +59,10 @@ public final class BodyCheckEvaluator implements Evaluator {
             return e.getMessage();
         }
         if (body.actuators() != scene.actuators()) {
-            return "body has " + body.actuators() + " actuators; expected the " + scene.actuators() + " of the scene's";
+            return "body has " + Numbers.count(body.actuators(), "actuator") + "; expected the " + scene.actuators() + " of the scene's";
         }
         if (body.bodyParticles() != null && Math.abs(body.bodyParticles() - scene.bodyParticles()) > HELD * scene.bodyParticles()) {
-            return "body has " + body.bodyParticles() + " particles; expected the " + scene.bodyParticles()
+            return "body has " + Numbers.count(body.bodyParticles(), "particle") + "; expected the " + scene.bodyParticles()
                     + " of the scene's, within " + Math.round(100 * HELD) + " %";
         }
         return NOTHING;

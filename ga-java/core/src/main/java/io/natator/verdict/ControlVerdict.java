@@ -61,7 +61,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         if (controls.underWater() != null && controls.underWater() < Verdict.LEAST_LEFT) {
             doubts.add("it skims: " + percent(controls.underWater()) + " of its body are under water");
         }
-        if (controls.halfStep() != null && !HalfStep.agrees(1, left(controls.halfStep(), controls))) {
+        if (!HalfStep.agrees(1, left(controls.halfStep(), controls))) {
             doubts.add("at half the time step it has " + percent(left(controls.halfStep(), controls)) + " of its way");
         }
         doubt(doubts, "mirrored", controls.mirrored(), controls);

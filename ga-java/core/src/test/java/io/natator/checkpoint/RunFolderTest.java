@@ -76,10 +76,26 @@ class RunFolderTest {
         RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
         assertThat(new ProcessBuilder("mkfifo", run.resolve(name).toString()).start().waitFor()).isZero();
 
-        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class)
-                .hasMessage(run.resolve(name) + " is not a regular file");
-        assertThatThrownBy(() -> StoredRun.in(run)).isInstanceOf(InvalidInputException.class)
-                .hasMessage(run.resolve(name) + " is not a regular file");
+        assertRefused(run.resolve(name) + " is not a regular file");
+    }
+
+    /** Before anything is computed that could not be written then. */
+    @ParameterizedTest
+    @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "best.json", "environment.json", "savings.json", "evaluations.jsonl",
+        "generations.csv", "timings.csv", "plots/fitness.png"})
+    void aFolderAndALinkThatLeadsNowhereInPlaceOfAFileAreRefused(String name) throws IOException {
+        RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
+        Path file = run.resolve(name);
+        Files.createDirectories(file);
+        assertRefused(file + " is a folder; expected a file");
+        Files.delete(file);
+        Files.createSymbolicLink(file, Path.of("nowhere"));
+        assertRefused(file + " is a link that leads nowhere");
+    }
+
+    private void assertRefused(String message) {
+        assertThatThrownBy(() -> RunFolder.open(run)).isInstanceOf(InvalidInputException.class).hasMessage(message);
+        assertThatThrownBy(() -> StoredRun.in(run)).isInstanceOf(InvalidInputException.class).hasMessage(message);
     }
 
     @Test

@@ -13,4 +13,10 @@ class NumbersTest {
     void whatRoundsToNothingHasNoSign(double value, int decimals, String text) {
         assertThat(Numbers.fixed(value, decimals)).isEqualTo(text);
     }
+
+    @ParameterizedTest
+    @CsvSource({"0,0 gaits", "1,1 gait", "2,2 gaits"})
+    void oneIsNotSeveral(long count, String text) {
+        assertThat(Numbers.count(count, "gait")).isEqualTo(text);
+    }
 }

@@ -77,6 +77,6 @@ class EncodingTest {
     @Test
     void gaitNeedsAsManyPhasesAsAmplitudes() {
         assertThatThrownBy(() -> new Gait(1.0, List.of(0.5, 0.5), List.of(0.0)))
-                .hasMessage("gait has 2 amplitudes and 1 phases; expected as many of both");
+                .hasMessage("gait has 2 amplitudes and 1 phase; expected as many of both");
     }
 }

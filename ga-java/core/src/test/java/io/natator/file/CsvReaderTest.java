@@ -47,9 +47,9 @@ class CsvReaderTest {
     @CsvSource(delimiter = '|', textBlock = """
             ''             | ' has no column x'
             'a,b;'         | ' has no column x'
-            'a,x;1,2;3;'   | ', line 3 has 1 fields; expected 2'
+            'a,x;1,2;3;'   | ', line 3 has 1 field; expected 2'
             'a,x;1,2,3;'   | ', line 2 has 3 fields; expected 2'
-            'a,x;1,2;;3,4' | ', line 3 has 1 fields; expected 2'
+            'a,x;1,2;;3,4' | ', line 3 has 1 field; expected 2'
             'a,x;1,two;'   | ', line 2: x is "two"; expected a number'
             'a,x;1,2;3,'   | ', line 3: x is ""; expected a number'
             'a,x;1,"2'     | ', line 2: Missing closing quote for value'

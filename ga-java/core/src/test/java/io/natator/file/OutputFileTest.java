@@ -2,6 +2,7 @@ package io.natator.file;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.junit.jupiter.api.Assumptions.assumeFalse;
 
 import io.natator.config.InvalidInputException;
 import java.io.IOException;
@@ -41,6 +42,18 @@ class OutputFileTest {
         assertThat(file).hasContent("again");
         assertThat(near).isSymbolicLink();
         assertThat(far).isSymbolicLink();
+    }
+
+    @Test
+    void aFolderThatTakesNothingIsRefused() {
+        assertThat(folder.toFile().setWritable(false)).isTrue();
+        try {
+            assumeFalse(Files.isWritable(folder), "who may write anywhere cannot try it");
+            assertThatThrownBy(() -> OutputFile.of(folder.resolve("page.html"))).isInstanceOf(InvalidInputException.class)
+                    .hasMessageEndingWith("; expected a folder that can be written to, unlike " + folder);
+        } finally {
+            assertThat(folder.toFile().setWritable(true)).isTrue();
+        }
     }
 
     @Test

@@ -4,6 +4,7 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
+import io.natator.config.Numbers;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.ProcessSimulator;
 import io.natator.simulator.ProgramInfo;
@@ -81,7 +82,7 @@ final class SparkEvaluator implements Evaluator {
             }
             lines.add(Json.line(sent));
         }
-        carryOut(requests.size() + " evaluations", lines, given, line -> {
+        carryOut(Numbers.count(requests.size(), "evaluation"), lines, given, line -> {
             Answer answer = read(line, Answer.class);
             List<SimulationRequest> part = null;
             for (SimulationResult result : answer.results()) {

@@ -14,6 +14,7 @@ import io.natator.encoding.Gait;
 import io.natator.evolution.EliteMap;
 import io.natator.evolution.Individual;
 import io.natator.file.GeneratedPage;
+import io.natator.file.OutputFolder;
 import io.natator.flow.FlowField;
 import io.natator.kinematics.Attitude;
 import io.natator.kinematics.FishMode;
@@ -28,7 +29,6 @@ import io.natator.verdict.Reproduction;
 import io.natator.verdict.Verdict;
 import io.natator.verdict.WinnerFacts;
 import java.io.IOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -77,12 +77,12 @@ public final class GaitReport {
         EvolutionSettings settings = run.settings();
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
+        OutputFolder.make(folder);
         SimulationRequest request = SimulationRequest.of(0, settings, run.best().swimmer()).withoutStops();
         Recording recording = RecordingFactory.of(request, duration / 2, execution);
         ReportDocument page = new ReportDocument(folder, settings.scene() + ", seed " + settings.seed());
         difference = difference(recording, execution);
         progress(page);
-        Files.createDirectories(folder);
         Path swimmer = folder.resolve("swimmer.png");
         portrait.draw(swimmer);
         FirstScreen.add(page, answer(), swimmer, "the swimmer in its tank", evidence());
@@ -145,7 +145,7 @@ public final class GaitReport {
             page.text("**This run is not finished.** Done are generation " + run.state().generation()
                     + (run.settings().generations() == EvolutionSettings.NO_LIMIT ? ""
                             : " of " + run.settings().generations())
-                    + " and " + run.state().evaluations() + " evaluations; this is the best gait so far. It goes on by `natator "
+                    + " and " + Numbers.count(run.state().evaluations(), "evaluation") + "; this is the best gait so far. It goes on by `natator "
                     + "resume " + run.directory() + "`.");
         }
     }

@@ -2,11 +2,11 @@ package io.natator.study;
 
 import io.natator.checkpoint.Environment;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Limits;
 import io.natator.file.GeneratedPage;
+import io.natator.file.OutputFolder;
 import io.natator.simulator.Evaluator;
 import java.io.IOException;
 import java.io.UncheckedIOException;
@@ -40,12 +40,7 @@ public record FlexStudy(Path variantsFile, Path directory, int runs) {
         }
         Limits.checkCount("--runs", runs, Limits.REPETITIONS);
         GeneratedPage.check(directory);
-        try {
-            Files.createDirectories(directory);
-        } catch (IOException e) {
-            throw new InvalidInputException("--output-dir " + directory + " cannot be made: "
-                    + FileErrors.whyNotMade(directory, e), e);
-        }
+        OutputFolder.make(directory);
         Environment environment = Environment.present(execution);
         List<Comparison> comparisons;
         try (Evaluator evaluator = Evaluator.open(execution)) {

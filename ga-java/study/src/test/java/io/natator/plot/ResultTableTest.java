@@ -37,7 +37,7 @@ class ResultTableTest {
         assertThatThrownBy(() -> ResultTable.read(file("a,b\n"), List.of("c")))
                 .isInstanceOf(InvalidInputException.class).hasMessageEndingWith("has no column c");
         assertThatThrownBy(() -> ResultTable.read(file("a,b\n1\n"), List.of()))
-                .isInstanceOf(InvalidInputException.class).hasMessageEndingWith("line 2 has 1 fields; expected 2");
+                .isInstanceOf(InvalidInputException.class).hasMessageEndingWith("line 2 has 1 field; expected 2");
         ResultTable table = ResultTable.read(file("a\nx\n"), List.of());
         assertThatThrownBy(() -> table.number(table.rows().get(0), "a")).isInstanceOf(InvalidInputException.class)
                 .hasMessage("a is \"x\": must be a number");

@@ -4,6 +4,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.file.OutputFolder;
 import java.io.Closeable;
 import java.io.IOException;
 import java.nio.channels.FileChannel;
@@ -45,11 +46,11 @@ final class ExportFolder implements Closeable {
      * Makes the folder under its temporary name.
      *
      * @param replace whether an earlier export may be there
-     * @throws InvalidInputException if something else is there, or another export is being written
-     * @throws IOException           if it cannot be made
+     * @throws InvalidInputException if something else is there, it cannot be made, or another export is being written
+     * @throws IOException           if it cannot be read
      */
     static ExportFolder begin(Path folder, boolean replace) throws IOException {
-        Path target = folder.toAbsolutePath().normalize();
+        Path target = followed(folder.toAbsolutePath().normalize());
         if (target.getFileName() == null) {
             throw new InvalidInputException("output folder is " + folder + "; expected a folder of its own");
         }
@@ -60,7 +61,7 @@ final class ExportFolder implements Closeable {
         if (RunFolder.isOccupied(partial) && !Files.exists(partial.resolve(LOCK))) {
             throw new InvalidInputException(partial + " is in the way; remove it");
         }
-        Files.createDirectories(partial);
+        OutputFolder.make(partial);
         FileChannel lock = FileChannel.open(partial.resolve(LOCK), StandardOpenOption.CREATE, StandardOpenOption.WRITE);
         try {
             if (lock.tryLock() == null) {
@@ -77,6 +78,14 @@ final class ExportFolder implements Closeable {
             }
         }
         return fresh;
+    }
+
+    /** Where a link leads: a folder cannot take a link's name. */
+    private static Path followed(Path folder) throws IOException {
+        if (Files.isSymbolicLink(folder) && !Files.exists(folder)) {
+            throw new InvalidInputException("output folder " + folder + " is a link that leads nowhere");
+        }
+        return Files.exists(folder) ? folder.toRealPath() : folder;
     }
 
     private static void failUnlessReplaceable(Path folder, Path target, boolean replace) throws IOException {

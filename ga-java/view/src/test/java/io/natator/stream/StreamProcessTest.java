@@ -109,7 +109,7 @@ class StreamProcessTest {
         try (StreamProcess process = new StreamProcess(program(scene().raw((byte) 'F'), "kill -9 $$"), OPTIONS)) {
             process.next();
             assertThatThrownBy(process::next).isInstanceOf(StreamException.class)
-                    .hasMessageStartingWith("stream ended 1 bytes into the 8-byte head of a message; exit status 137");
+                    .hasMessageStartingWith("stream ended 1 byte into the 8-byte head of a message; exit status 137");
         }
     }
 

@@ -171,7 +171,7 @@ class StreamReaderTest {
         assertThatAllOfItThrows(new StreamBytes().message("STOP", new byte[3]),
                 "STOP of 3 bytes; expected a multiple of 4 up to 268435456");
         assertThatAllOfItThrows(begun().message("FRAM", StreamBytes.frameBody(1, 0, FLOATS + 1)),
-                "FRAM of 304 bytes; expected 300 for 8 particles and 1 actuators");
+                "FRAM of 304 bytes; expected 300 for 8 particles and 1 actuator");
     }
 
     @Test

@@ -5,6 +5,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
+import io.natator.config.Numbers;
 import io.natator.file.GeneratedPage;
 import io.natator.run.Lanes;
 import io.natator.run.RunQueue;
@@ -127,9 +128,9 @@ public final class OptimizerStudy {
             throws InterruptedException {
         List<FreshWork> missing = missing();
         if (!missing.isEmpty()) {
-            watcher.said("running " + missing.stream().mapToInt(one -> one.genomes().size()).sum()
-                    + " gaits again from fresh starts" + (rankStarts == 0 ? "" : ", and ranking the last generations of "
-                    + missing.stream().filter(one -> one.rankStarts() > 0).count() + " runs"));
+            watcher.said("running " + Numbers.count(missing.stream().mapToInt(one -> one.genomes().size()).sum(), "gait")
+                    + " again from fresh starts" + (rankStarts == 0 ? "" : ", and ranking the last generations of "
+                    + Numbers.count(missing.stream().filter(one -> one.rankStarts() > 0).count(), "run")));
         }
         try {
             return Lanes.carryOut(missing.stream().map(one -> one.with(evaluator, execution.simulator())).toList(), evaluator,

@@ -1,0 +1,35 @@
+package io.natator.file;
+
+import io.natator.config.FileErrors;
+import io.natator.config.InvalidInputException;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+
+/** A folder that the user names for what is going to be computed. */
+public final class OutputFolder {
+
+    private OutputFolder() {
+    }
+
+    /**
+     * Makes it, and those that it is in, unless it is there. To be called before anything is computed.
+     *
+     * @throws InvalidInputException that says why it cannot be made or written to
+     */
+    public static void make(Path folder) {
+        try {
+            Files.createDirectories(folder);
+        } catch (IOException e) {
+            throw cannotBeMade(folder, e);
+        }
+        if (!Files.isWritable(folder)) {
+            throw new InvalidInputException("output folder " + folder + " cannot be written to");
+        }
+    }
+
+    /** Says that it cannot be made, and why. */
+    public static InvalidInputException cannotBeMade(Path folder, IOException e) {
+        return new InvalidInputException("output folder " + folder + " cannot be made: " + FileErrors.whyNotMade(folder, e), e);
+    }
+}
