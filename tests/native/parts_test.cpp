@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace natator::cuda {
@@ -14,21 +15,38 @@ TEST(Parts, HoldEachMemberOnce) {
             for (int streams = 1; streams <= 3; ++streams) {
                 const Parts parts(members, most, streams);
                 std::vector<int> held(members, 0);
-                for (int part = 0; part < parts.count(); ++part) {
+                for (int part = 0; part < parts.count; ++part) {
                     EXPECT_LE(parts.size_of(part), most);
                     EXPECT_GE(parts.size_of(part), 1) << members << ' ' << most;
                     for (int k = 0; k < parts.size_of(part); ++k) ++held.at(parts.first(part) + k);
                 }
                 EXPECT_EQ(held, std::vector<int>(members, 1)) << members << ' ' << most;
-                EXPECT_LE(parts.streams, parts.count());
+                EXPECT_LE(parts.streams, parts.count);
             }
 }
 
 TEST(Parts, AreOfNearlyOneSize) {
     const Parts parts(150, 70, 2);
-    EXPECT_EQ(parts.count(), 3);
-    EXPECT_EQ(parts.size, 50);
+    EXPECT_EQ(parts.count, 4) << "as many for each stream: of three parts one stream would have two";
+    EXPECT_EQ(parts.size(), 38);
+    EXPECT_EQ(parts.size_of(3), 37);
     EXPECT_EQ(parts.streams, 2);
+}
+
+TEST(Parts, KeepNoStreamWaiting) {
+    for (int streams = 1; streams <= 3; ++streams)
+        for (int most = 1; most <= 12; ++most)
+            for (int members = streams; members <= 40; ++members) {
+                const Parts parts(members, most, streams);
+                std::vector<int> of_stream(streams, 0), parts_of(streams, 0);
+                for (int part = 0; part < parts.count; ++part) {
+                    of_stream[part % streams] += parts.size_of(part);
+                    ++parts_of[part % streams];
+                }
+                const auto [fewest, largest] = std::ranges::minmax(of_stream);
+                if (parts.count < members) EXPECT_EQ(parts.count % streams, 0) << members << ' ' << most;
+                EXPECT_LE(largest - fewest, parts_of.front()) << "at most one in each part: " << members << ' ' << most;
+            }
 }
 
 TEST(Parts, EachStreamHasOne) {

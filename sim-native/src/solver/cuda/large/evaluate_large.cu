@@ -25,10 +25,10 @@ public:
         : parts_(parts),
           number_(number),
           times_{.profile = options.times ? options.times->profile : nullptr},
-          large_(scene, company, parts.size, options.keep_starts, &times_) {}
+          large_(scene, company, parts.size(), options.keep_starts, &times_) {}
 
     void evaluate() {
-        for (int part = number_; part < parts_.count(); part += parts_.streams)
+        for (int part = number_; part < parts_.count; part += parts_.streams)
             large_.evaluate(parts_.first(part), parts_.size_of(part), evaluations_.emplace_back());
     }
     std::vector<Evaluation>& evaluations_of(int part) { return evaluations_[part / parts_.streams]; }
@@ -74,7 +74,7 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& com
     for (std::future<void>& other : others) other.get();
     if (options.times) add_times(streams, *options.times);
     std::vector<Evaluation> evaluations;
-    for (int part = 0; part < parts.count(); ++part)
+    for (int part = 0; part < parts.count; ++part)
         std::ranges::move(streams[part % parts.streams]->evaluations_of(part), std::back_inserter(evaluations));
     return evaluations;
 }

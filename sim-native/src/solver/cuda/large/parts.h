@@ -5,16 +5,20 @@
 namespace natator::cuda {
 
 /// Members that are computed part by part, in parts of at most `most` and of nearly one size, and these in turn by streams side
-/// by side: part k by stream k % streams.
+/// by side: part k by stream k % streams. Each stream has as many parts as the others, where there are members enough, since the
+/// GPU waits for the last.
 struct Parts {
-    int members, size, streams;
+    int members, count, streams;
 
     Parts(int all, int most, int most_streams)
-        : members(all), size(ceiling(all, ceiling(all, most))), streams(std::min(count(), most_streams)) {}
+        : members(all),
+          count(std::min(all, ceiling(ceiling(all, most), most_streams) * most_streams)),
+          streams(std::min(count, most_streams)) {}
 
-    int count() const { return ceiling(members, size); }
-    int first(int part) const { return part * size; }
-    int size_of(int part) const { return std::min(size, members - first(part)); }
+    int first(int part) const { return part * (members / count) + std::min(part, members % count); }
+    int size_of(int part) const { return first(part + 1) - first(part); }
+    /// Of the largest.
+    int size() const { return size_of(0); }
 
     /// So many that each stream has a part, but at most so many.
     static int most_of(int all, int streams, int most) { return std::min(ceiling(all, streams), most); }
