@@ -96,6 +96,6 @@ final class MethodsSection {
         return settings.stream().findFirst().map(one -> "In " + water.words() + " " + settings.size() + " evolutions of " + one.population()
                 + " chromosomes over " + generations(settings) + " generations, " + one.starts() + " starts for each new gait and the best judged again in every "
                 + "generation" + (one.duration() == null ? ", 4 s a run" : ", " + one.duration() + " s a run")
-                + (one.overrides() == null ? "." : ", coarser and in less water (`" + Json.line(one.overrides()) + "`) than they are judged."));
+                + (one.overrides() == null ? "." : ", in a scene that costs less (`" + Json.line(one.overrides()) + "`) than that in which they are judged."));
     }
 }
