@@ -31,10 +31,14 @@ final class OneLineErrors {
         CommandLine command = error.getCommandLine();
         String unmatched = unmatched(error);
         String what = unmatched != null ? unknown(unmatched, command)
-                : NumberValues.isNone(error) ? NumberValues.message(error) : TOO_FEW.matcher(PLACE.matcher(error.getMessage()).replaceAll("$1"))
-                        .replaceFirst("found $3 $1; expected at least $2");
+                : NumberValues.isNone(error) ? NumberValues.message(error) : inOurWords(error.getMessage());
         print(command, what + (what.endsWith("?") ? " See " : "; see ") + command.getCommandSpec().qualifiedName() + " --help");
         return ExitCode.USAGE;
+    }
+
+    private static String inOurWords(String message) {
+        String named = PLACE.matcher(message).replaceAll("$1");
+        return TOO_FEW.matcher(named).replaceFirst("found $3 $1; expected at least $2");
     }
 
     /** What was not understood; null if nothing, or it stands where an option's value should, which the message alone tells. */

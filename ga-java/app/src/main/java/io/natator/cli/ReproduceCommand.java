@@ -90,7 +90,8 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--duration", paramLabel = "SECONDS",
-            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 1.75.")
+            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 1.75, or that of the "
+                    + "evolutions in DIR.")
     private Double duration;
 
     @Section(Topic.OUTPUT)

@@ -141,8 +141,7 @@ class CompareCommandTest extends FakeSimulatorTest {
     void aCheckThatCannotBeKeptIsToldAllTheSame() throws IOException {
         assertThat(evolve("run")).isZero();
         Files.createDirectories(folder.resolve("run/check.json.new/in the way"));
-        out.getBuffer().setLength(0);
-        err.getBuffer().setLength(0);
+        forget();
 
         assertThat(natator("check", "--starts", "2", folder.resolve("run").toString())).isEqualTo(1);
 
@@ -154,8 +153,7 @@ class CompareCommandTest extends FakeSimulatorTest {
     void aCheckThatCannotLookAtTheWaterKeepsTheRest() throws IOException {
         assertThat(evolve("run")).isZero();
         Files.createFile(folder.resolve("no-recording"));
-        out.getBuffer().setLength(0);
-        err.getBuffer().setLength(0);
+        forget();
 
         assertThat(natator("check", "--starts", "2", folder.resolve("run").toString())).as(err.toString()).isZero();
 

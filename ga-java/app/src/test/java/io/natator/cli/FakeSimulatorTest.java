@@ -53,6 +53,12 @@ abstract class FakeSimulatorTest {
         return natator(arguments.toArray(String[]::new));
     }
 
+    /** What was printed so far. */
+    void forget() {
+        out.getBuffer().setLength(0);
+        err.getBuffer().setLength(0);
+    }
+
     String file(String runName, String name) throws IOException {
         return Files.readString(folder.resolve(runName).resolve(name));
     }

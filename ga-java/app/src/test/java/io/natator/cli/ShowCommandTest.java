@@ -23,11 +23,6 @@ class ShowCommandTest extends FakeSimulatorTest {
         return folder.resolve("run").resolve(name);
     }
 
-    private void forget() {
-        out.getBuffer().setLength(0);
-        err.getBuffer().setLength(0);
-    }
-
     private void evolved(String optimizer) {
         String[] options = optimizer.equals("nsga2") ? new String[] {"--optimizer", optimizer, "--objectives", "distance,work"}
                 : new String[] {"--optimizer", optimizer};

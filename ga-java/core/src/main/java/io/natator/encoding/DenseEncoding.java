@@ -1,6 +1,5 @@
 package io.natator.encoding;
 
-import io.natator.config.Numbers;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -21,7 +20,7 @@ public final class DenseEncoding implements Encoding {
      */
     public DenseEncoding(int actuators) {
         if (actuators < 1) {
-            throw new IllegalArgumentException("dense encoding of " + Numbers.count(actuators, "actuator") + "; expected at least 1");
+            throw new IllegalArgumentException("dense encoding of " + actuators + " actuators; expected at least 1");
         }
         this.actuators = actuators;
         List<GeneRange> ranges = new ArrayList<>();

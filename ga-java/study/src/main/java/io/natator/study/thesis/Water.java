@@ -57,14 +57,14 @@ public enum Water {
 
     /**
      * An eighth of the passes over the water, as many iterations of the body in a frame, and a tank shorter and shallower by a third, under as
-     * much more gravity: at the swimmer the water's pressure is the scene's.
-     * Gaits come in the same order ({@code results/thesis/search_steps.py}).
+     * much more gravity: at the swimmer, halfway up, the water's pressure is the scene's. Gaits come in the same
+     * order ({@code results/thesis/search_steps.py}).
      */
     private static ObjectNode search() {
         double length = 4, height = 1, width = 1.6, spacing = 0.1;
         ObjectNode overrides = JsonNodeFactory.instance.objectNode();
         overrides.putObject("solver").put("substeps", 2).put("numIterations", 1).put("solidIterations", 128)
-                .set("gravity", array(0, -4.8, 0));
+                .set("gravity", array(0, -4.8 / height, 0));
         overrides.putArray("planes").add(array(0, 1, 0, 0)).add(array(1, 0, 0, 0)).add(array(-1, 0, 0, length))
                 .add(array(0, 0, 1, 0)).add(array(0, 0, -1, width));
         ArrayNode count = overrides.putObject("fluid").putArray("count");
