@@ -12,10 +12,10 @@ namespace natator::cuda {
 namespace {
 
 /// Side by side. While one waits for what takes long but is little, such as the solids of its States, the water of the others
-/// fills the GPU. Three are hardly faster.
-constexpr int most_streams = 2;
+/// fills the GPU.
+constexpr int most_streams = 3;
 /// Of all streams together: so many fill a GPU; more at a time only take more memory.
-constexpr int particles_at_a_time = 1'000'000;
+constexpr int particles_at_a_time = 2'000'000;
 
 /// The parts of a company that are computed one after another, side by side with those of other streams.
 template <class Real>
