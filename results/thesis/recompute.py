@@ -84,6 +84,11 @@ def way(result):
     return result["distance"] if result["status"] == "ok" else 0.0
 
 
+def speed(result, water):
+    """Open water stands for water without walls: where a run ends at one, its speed is that until then."""
+    return result["distance"] / (SECONDS if water == "flex" else result["simulated"])
+
+
 def shown(value, digits=2, sign=False):
     text = f"{value:+.{digits}f}" if sign else f"{value:.{digits}f}"
     return text if sign or float(text) != 0 else text.lstrip("-")
@@ -95,8 +100,8 @@ def speeds(study):
         for creature, label, gait, ends in study.subjects(water):
             length = study.length[f"creature-{creature}"]
             key = study.ask(water, creature, gait, ends)
-            water_speeds = [one["distance"] / SECONDS for one in study.results(key) if one["status"] == "ok"]
-            half = [one["distance"] / SECONDS for one in study.results(study.ask(water, creature, gait, ends, {"solver": {"substeps": 8}}))
+            water_speeds = [speed(one, water) for one in study.results(key) if one["status"] == "ok"]
+            half = [speed(one, water) for one in study.results(study.ask(water, creature, gait, ends, {"solver": {"substeps": 8}}))
                     if one["status"] == "ok"]
             mean = statistics.mean(water_speeds)
             scatter = STUDENT[len(water_speeds) - 1] * statistics.stdev(water_speeds) / math.sqrt(len(water_speeds))

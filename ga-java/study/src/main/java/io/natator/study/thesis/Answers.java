@@ -14,6 +14,7 @@ import java.util.Arrays;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
+import java.util.Locale;
 import java.util.Optional;
 import java.util.function.Function;
 import java.util.stream.Collectors;
@@ -22,6 +23,9 @@ import org.knowm.xchart.XYChart;
 
 /** The report's first screen: what came of the thesis, in five sentences, a table and a chart. */
 final class Answers {
+
+    /** A mean time below this share of the whole is one that walls ended. */
+    private static final double WHOLE = 0.99;
 
     private final StudyResults results;
     private final ClaimsSection claims;
@@ -86,7 +90,7 @@ final class Answers {
     }
 
     private String fastest(Water water) {
-        return results.evolved(water).stream().filter(this::swims).max(Comparator.comparingDouble(subject -> results.speed(subject).orElseThrow().mean()))
+        return best(water).stream().filter(this::swims).max(Comparator.comparingDouble(subject -> results.speed(subject).orElseThrow().mean()))
                 .map(this::speed).orElse(null);
     }
 
@@ -94,7 +98,17 @@ final class Answers {
     private String speed(Subject subject) {
         Speed speed = results.speed(subject).orElseThrow();
         double ofBody = speed.mean() / results.bodyLength(subject.creature());
-        return "creature " + subject.creature() + " at " + speed.text(1) + " units/s (" + TableFormat.shortNumber(ofBody) + " body lengths/s)";
+        return "creature " + subject.creature() + " at " + speed.text(1) + " units/s (" + TableFormat.shortNumber(ofBody) + " body lengths/s"
+                + (endsAtWall(subject) ? ", until it touches a wall after " + seconds(subject) : "") + ")";
+    }
+
+    /** Whether its speed is of a shorter time than the whole. */
+    private boolean endsAtWall(Subject subject) {
+        return subject.water() == Water.OPEN_WATER && results.lasted(subject).mean() < WHOLE * results.duration();
+    }
+
+    private String seconds(Subject subject) {
+        return String.format(Locale.ROOT, "%.1f s", results.lasted(subject).mean());
     }
 
     private String withoutWater(Water water) {
@@ -125,8 +139,14 @@ final class Answers {
         return new FirstScreen.Evidence(List.of("creature", "published", "thesis' gait, flex", "thesis' gait, open water", "evolved, flex",
                 "evolved, open water"), rows, "Speed in scene units/s ± the largest of: the 95 % interval over fresh starts, the change at half "
                 + "the time step, the change at half the spacing (where evolved). ✔ swims by every control, ✘ does not, – may: "
-                + "[what the controls are](#how-it-was-judged). Evolved: of the seeds the fastest by the lower of its speeds at both time steps, and how many of "
-                + "them swim.");
+                + "[what the controls are](#how-it-was-judged). Evolved: of the seeds the one that gets furthest by the lesser of its ways at both time steps, and "
+                + "how many of them swim." + untilWalls());
+    }
+
+    private String untilWalls() {
+        String ends = best(Water.OPEN_WATER).stream().filter(this::endsAtWall)
+                .map(subject -> "creature " + subject.creature() + " after " + seconds(subject)).collect(Collectors.joining(", "));
+        return ends.isEmpty() ? "" : " In open water a speed is that until a wall is touched: by " + ends + ".";
     }
 
     private String told(Optional<Subject> subject) {

@@ -44,7 +44,9 @@ final class MethodsSection {
                         + "have, in the scene as it is for the whole 4 s, and the one that goes furthest by its mean less a standard error is the winner. What is "
                         + "said of it comes from yet other starts.",
                 "*Start.* In open water another arrangement of the water's particles; in `flex` a shift of all particles by at most 10⁻⁴ units.",
-                "*Speed.* Way along x in the whole time by that time: a run that hits a wall early is not made faster by dividing by less.",
+                "*Speed.* Way along x from rest, in the thesis' tank in the whole time by that time: a run that hits a wall early is not made faster by "
+                        + "dividing by less. Open water stands for water without walls: there it is the way until a run ends at one, by the time "
+                        + "until then. Verdicts compare ways, and speeds over the whole time.",
                 "*Error.* The largest of three: half the 95 % interval of the mean (Student's t), the change at half the time step, the change at half "
                         + "the spacing of all particles with the body's motion kept. In `flex` the time step and the spacing are part of what the thesis "
                         + "defines; how much they change says how much of a speed is the discretisation's.",

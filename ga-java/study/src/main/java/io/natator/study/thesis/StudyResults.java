@@ -89,17 +89,40 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
         return studied;
     }
 
-    /** Of the seeds, the winner that is fastest by the lower of its speeds at both time steps; empty while none is measured. */
+    /** Of the seeds, the winner that gets furthest by the lesser of its ways at both time steps; empty while none is measured. */
     Optional<Subject> best(int creature, Water water) {
         return evolved(water).stream().filter(subject -> subject.creature() == creature)
                 .filter(subject -> measurements.has(catalogue.of(subject, Condition.HALF_STEP)))
-                .max(Comparator.comparingDouble(subject -> Math.min(speed(subject, Condition.WATER).mean(),
-                        speed(subject, Condition.HALF_STEP).mean())));
+                .max(Comparator.comparingDouble(subject -> Math.min(way(subject, Condition.WATER), way(subject, Condition.HALF_STEP))));
     }
 
-    /** Scene units per second over the whole time. */
+    /** What a winner is chosen by, as it evolved: mean, in the whole time. */
+    private double way(Subject subject, Condition condition) {
+        return duration * measurements.speed(catalogue.of(subject, condition), duration).mean();
+    }
+
+    /**
+     * Scene units per second: in the thesis' tank over the whole time, in open water, which stands for water without walls, until
+     * a run ends at one.
+     */
     Sample speed(Subject subject, Condition condition) {
-        return measurements.speed(catalogue.of(subject, condition), duration);
+        return speed(measurements, subject, condition);
+    }
+
+    /** The same of a gait in its water, as computed by the processor. */
+    Sample speedOnProcessor(Subject subject) {
+        return speed(processor, subject, Condition.WATER);
+    }
+
+    private Sample speed(MeasurementLog log, Subject subject, Condition condition) {
+        Experiment swim = catalogue.of(subject, condition);
+        Water water = condition == Condition.OTHER_WATER ? subject.water().other() : subject.water();
+        return water == Water.OPEN_WATER ? log.speedWhileLasting(swim) : log.speed(swim, duration);
+    }
+
+    /** Seconds that its runs in its water last. */
+    Sample lasted(Subject subject) {
+        return measurements.lasted(catalogue.of(subject, Condition.WATER));
     }
 
     /** The speed of a gait with what it is known to. */

@@ -32,7 +32,7 @@ final class WinnersSection {
             page.heading(3, water == Water.FLEX ? "The thesis' tank, flex" : "Open water, conserving");
             List<Subject> subjects = results.subjects().filter(subject -> subject.water() == water)
                     .filter(subject -> results.speed(subject).isPresent()).toList();
-            page.table(List.of("creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "Re", "St", "lasts"),
+            page.table(List.of("creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "Re", "St", "lasts (s)"),
                     subjects.stream().map(this::speeds).toList());
             page.folded("verdicts", inside -> inside.words(List.of("creature", "gait", "verdict"), subjects.stream().map(subject -> List.of(
                     "" + subject.creature(), subject.label(), results.verdict(subject).map(verdict -> Answers.sign(verdict) + " " + verdict.text())
@@ -89,7 +89,7 @@ final class WinnersSection {
                 signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
                 TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()), figure(maySwim ? water.reynolds() : null),
                 !maySwim || water.strouhal() == null ? TableFormat.NOTHING : TableFormat.shortNumber(water.strouhal()),
-                water == null ? TableFormat.NOTHING : String.format(Locale.ROOT, "%.0f %%", 100 * water.completed()));
+                String.format(Locale.ROOT, "%.1f", results.lasted(subject).mean()));
     }
 
     private static String signed(double change) {
@@ -109,7 +109,7 @@ final class WinnersSection {
         }
         Controls controls = results.controls(subject).orElse(null);
         row.add(controls == null || controls.otherBackend() == null ? TableFormat.NOTHING
-                : TableFormat.shortNumber(controls.otherBackend().speed().mean() / length));
+                : TableFormat.shortNumber(results.speedOnProcessor(subject).mean() / length));
         row.add(controls == null || controls.underWater() == null ? TableFormat.NOTHING
                 : String.format(Locale.ROOT, "%.0f %%", 100 * controls.underWater()));
         return row;

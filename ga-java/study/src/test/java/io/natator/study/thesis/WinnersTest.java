@@ -12,6 +12,7 @@ import io.natator.evolution.ToySimulator;
 import io.natator.run.PlannedRun;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.FakeSimulator;
+import io.natator.simulator.SimulationResult;
 import io.natator.simulator.WorkerPool;
 import io.natator.verdict.Verdict;
 import java.io.IOException;
@@ -135,6 +136,31 @@ class WinnersTest {
             assertThat(results.controls(winner).orElseThrow().otherBackend())
                     .as("measured on the processor both times, which is no other backend").isNull();
         }
+    }
+
+    /** In the thesis' tank a wall is part of the scene, in open water it is where the scene ends. */
+    @Test
+    void onlyInOpenWaterAWayIsDividedByTheTimeUntilAWall() throws IOException, InterruptedException {
+        Path file = folder.resolve("measurements.jsonl");
+        Subject inTank = ExperimentCatalogue.subject(run, GOOD, folder);
+        List<Experiment> swims = Stream.of(Condition.WATER, Condition.OTHER_WATER).map(condition -> catalogue.of(inTank, condition)).toList();
+        try (MeasurementLog log = new MeasurementLog(file)) {
+            measure(log, swims);
+        }
+        Files.writeString(file, Files.readString(file).replace("\"simulated\":4.0", "\"simulated\":2.0"));
+
+        try (MeasurementLog log = new MeasurementLog(file); MeasurementLog processor = new MeasurementLog(folder.resolve("processor.jsonl"));
+                ConvergenceLog convergence = new ConvergenceLog(folder); KinematicsLog motions = new KinematicsLog(folder, 2)) {
+            StudyResults results = new StudyResults(data, folder, catalogue, log, processor, convergence, motions,
+                    new Winners(folder, catalogue, log, List.of(run)), DURATION);
+            assertThat(results.speed(inTank, Condition.WATER).mean()).isCloseTo(meanWay(log, swims.get(0)) / DURATION, within(1e-12));
+            assertThat(results.speed(inTank, Condition.OTHER_WATER).mean()).isCloseTo(meanWay(log, swims.get(1)) / 2, within(1e-12));
+            assertThat(results.lasted(inTank).mean()).isEqualTo(2);
+        }
+    }
+
+    private static double meanWay(MeasurementLog log, Experiment experiment) {
+        return log.results(experiment).stream().mapToDouble(SimulationResult::distance).average().orElseThrow();
     }
 
     @Test
