@@ -6,8 +6,8 @@
     python3 results/thesis/search_steps.py results.jsonl      # search-steps.csv, and the table for commentary.md
 
 Gaits of each creature in open water: 12 drawn at random, and the winners of four evolutions. Each swims from one start with each of the steps,
-and as it is judged from a second start, too: how far two starts order gaits alike is as much as can be asked of any steps. The last of them has
-a smaller tank, too, whose water is shallower and as much heavier, so that the pressure at the swimmer is the same, and less time.
+and as it is judged from a second start, too: how far two starts order gaits alike is as much as can be asked of any steps. The last two have
+a smaller tank, too, whose water is shallower and as much heavier, so that the pressure at the swimmer is the same.
 """
 import csv
 import json
@@ -42,7 +42,8 @@ RUNS = {  # substeps x passes over the water, iterations of the solids in each: 
     "4 × 4, 16, another start": (2, steps(4, 4, 16), DURATION),
     "2 × 4, 32": (1, steps(2, 4, 32), DURATION),
     "1 × 4, 64": (1, steps(1, 4, 64), DURATION),
-    "2 × 1, 128, small tank": (1, both(small_tank(4, 1, 1.6, 0.5), steps(2, 1, 128)), 1.75),  # as evolution runs now
+    "2 × 1, 128, small tank, 1.75 s": (1, both(small_tank(4, 1, 1.6, 0.5), steps(2, 1, 128)), 1.75),  # as these evolutions ran
+    "2 × 1, 128, narrow tank": (1, both(small_tank(4.5, 1, 1.2, 0.5), steps(2, 1, 128)), DURATION),  # as a new study runs
 }
 
 

@@ -90,7 +90,7 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--duration", paramLabel = "SECONDS",
-            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 1.75, or that of the "
+            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 2.5, or that of the "
                     + "evolutions in DIR.")
     private Double duration;
 

@@ -7,8 +7,10 @@ import io.natator.report.ReportDocument;
 import java.util.Arrays;
 import java.util.DoubleSummaryStatistics;
 import java.util.IntSummaryStatistics;
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Locale;
+import java.util.Map;
 import java.util.Objects;
 import java.util.Optional;
 import java.util.stream.Collectors;
@@ -92,12 +94,26 @@ final class MethodsSection {
         return all.getMin() == all.getMax() ? "" + all.getMin() : all.getMin() + " to " + all.getMax();
     }
 
+    /** Of a water; one sentence for each way in which evolution searched there. */
     private Optional<String> evolutions(Water water) {
-        List<EvolutionSettings> settings = results.runs().stream().filter(run -> run.water() == water)
-                .map(run -> StoredRun.settings(run.plan().directory())).toList();
-        return settings.stream().findFirst().map(one -> "In " + water.words() + " " + settings.size() + " evolutions of " + one.population()
-                + " chromosomes over " + generations(settings) + " generations, " + one.starts() + " starts for each new gait and the best judged again in every "
-                + "generation" + (one.duration() == null ? ", 4 s a run" : ", " + one.duration() + " s a run")
-                + (one.overrides() == null ? "." : ", in a scene that costs less (`" + Json.line(one.overrides()) + "`) than that in which they are judged."));
+        Map<Water.Evolving, List<EvolvedRun>> searches = results.runs().stream().filter(run -> run.water() == water)
+                .collect(Collectors.groupingBy(run -> Water.Evolving.of(settings(run)).over(0), LinkedHashMap::new, Collectors.toList()));
+        return searches.isEmpty() ? Optional.empty() : Optional.of(searches.entrySet().stream().map(one -> "In " + water.words() + " "
+                + evolutions(one.getKey(), one.getValue(), searches.size() > 1)).collect(Collectors.joining(" ")));
+    }
+
+    private static EvolutionSettings settings(EvolvedRun run) {
+        return StoredRun.settings(run.plan().directory());
+    }
+
+    private static String evolutions(Water.Evolving search, List<EvolvedRun> runs, boolean isOfSome) {
+        List<String> creatures = runs.stream().map(EvolvedRun::creature).distinct().sorted().map(String::valueOf).toList();
+        String whose = (creatures.size() > 1 ? " of creatures " : " of creature ") + String.join(" and ", creatures) + ",";
+        return runs.size() + " evolutions" + (isOfSome ? whose : "") + " of " + search.population()
+                + " chromosomes over " + generations(runs.stream().map(MethodsSection::settings).toList()) + " generations, " + search.starts()
+                + " starts for each new gait and the best judged again in every generation"
+                + (search.duration() == null ? ", 4 s a run" : ", " + search.duration() + " s a run")
+                + (search.overrides() == null ? "." : ", in a scene that costs less (`" + Json.line(search.overrides())
+                + "`) than that in which they are judged.");
     }
 }

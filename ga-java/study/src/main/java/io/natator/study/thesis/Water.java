@@ -24,7 +24,7 @@ public enum Water {
      * simulated second costs some twenty times as much as in the thesis' tank; so evolutions are smaller and search at half of the scene's
      * substeps, in less water and for less time. What they find is judged in the scene as it is.
      */
-    OPEN_WATER(Scheme.CONSERVING, "open-water", new Evolving(60, 25, 2, 1.75, search()));
+    OPEN_WATER(Scheme.CONSERVING, "open-water", new Evolving(60, 25, 2, 2.5, search()));
 
     /** Of a frame, in the scenes as they are. */
     static final int SUBSTEPS = 4;
@@ -43,6 +43,11 @@ public enum Water {
         static Evolving of(EvolutionSettings settings) {
             return new Evolving(settings.population(), settings.generations(), settings.starts(), settings.duration(), settings.overrides());
         }
+
+        /** The same over so many generations. */
+        Evolving over(int number) {
+            return new Evolving(population, number, starts, duration, overrides);
+        }
     }
 
     private final Scheme scheme;
@@ -56,12 +61,13 @@ public enum Water {
     }
 
     /**
-     * An eighth of the passes over the water, as many iterations of the body in a frame, and a tank shorter and shallower by a third, under as
-     * much more gravity: at the swimmer, halfway up, the water's pressure is the scene's. Gaits come in the same
-     * order ({@code results/thesis/search_steps.py}).
+     * An eighth of the passes over the water, as many iterations of the body in a frame, and a tank shorter by a quarter and shallower by a third,
+     * under as much more gravity: at the swimmer, halfway up, the water's pressure is the scene's. Gaits come in the same
+     * order ({@code results/thesis/search_steps.py}). The tank is also narrower by a quarter, so that what touches no wall there keeps
+     * clear of them in the scene as it is, for longer.
      */
     private static ObjectNode search() {
-        double length = 4, height = 1, width = 1.6, spacing = 0.1;
+        double length = 4.5, height = 1, width = 1.2, spacing = 0.1;
         ObjectNode overrides = JsonNodeFactory.instance.objectNode();
         overrides.putObject("solver").put("substeps", 2).put("numIterations", 1).put("solidIterations", 128)
                 .set("gravity", array(0, -4.8 / height, 0));
