@@ -13,7 +13,8 @@ import csv
 import json
 import pathlib
 import random
-import sys
+
+import swims
 
 HERE = pathlib.Path(__file__).resolve().parent
 CREATURES, DRAWN, SEEDS = [1, 2, 3, 4], 12, [1, 2, 3, 4]
@@ -27,10 +28,7 @@ def steps(substeps, passes, of_solids):
 
 def small_tank(length, height, width, rear):
     """Of the scene's pressure in the middle, where the swimmer is, its rear so far from the wall behind."""
-    spaces = [round(side / 0.1) for side in (length, height, width)]
-    return {"planes": [[0, 1, 0, 0], [1, 0, 0, 0], [-1, 0, 0, length], [0, 0, 1, 0], [0, 0, -1, width]],
-            "fluid": {"count": spaces}, "creature": {"rearCentre": [rear, height / 2, width / 2]},
-            "solver": {"gravity": [0, -4.8 / height, 0]}}
+    return {**swims.tank(length, height, width, rear), "solver": {"gravity": [0, -4.8 / height, 0]}}
 
 
 def both(tank, solver):
@@ -87,15 +85,7 @@ def spearman(a, b):
 
 
 def main():
-    if len(sys.argv) == 1:
-        for request in requests():
-            print(json.dumps(request))
-        return
-    with open(sys.argv[1], encoding="utf-8") as lines:
-        results = {result["id"]: result for result in map(json.loads, lines)}
-    wrong = [number for number, result in results.items() if result["status"] != "ok"]
-    if wrong or len(results) != sum(1 for _ in requests()):
-        sys.exit(f"search_steps.py: {len(results)} results, without success: {wrong}; must be all, ok")
+    results = swims.results(requests())
     ways = {}
     for number, (creature, _) in enumerate(gaits()):
         for run, name in enumerate(RUNS):

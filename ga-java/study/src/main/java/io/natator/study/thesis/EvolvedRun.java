@@ -1,5 +1,7 @@
 package io.natator.study.thesis;
 
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
 import io.natator.run.PlannedRun;
 
 /**
@@ -11,4 +13,9 @@ import io.natator.run.PlannedRun;
  * @param plan     its settings and run folder
  */
 public record EvolvedRun(int creature, Water water, long seed, PlannedRun plan) {
+
+    /** As its folder has them, once it is begun. */
+    EvolutionSettings storedSettings() {
+        return StoredRun.settings(plan.directory());
+    }
 }

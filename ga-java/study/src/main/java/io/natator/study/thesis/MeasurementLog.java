@@ -95,21 +95,18 @@ final class MeasurementLog extends RequestLog<Measurement> {
 
     /** Ways along x of the runs that stayed stable by the time that each of them lasted; scene units per second. */
     Sample speedWhileLasting(Experiment experiment) {
-        return whileLasting(experiment, SimulationResult::distance);
+        return sample(experiment, SimulationResult::speed);
     }
 
     /** Speeds along the body's own heading while the runs lasted, scene units per second. */
     Sample forward(Experiment experiment) {
-        return whileLasting(experiment, result -> result.course() == null ? result.distance() : result.course().forward());
+        return sample(experiment, result -> result.simulated() > 0
+                ? (result.course() == null ? result.distance() : result.course().forward()) / result.simulated() : 0);
     }
 
     /** Seconds that the runs lasted which stayed stable. */
     Sample lasted(Experiment experiment) {
         return sample(experiment, SimulationResult::simulated);
-    }
-
-    private Sample whileLasting(Experiment experiment, ToDoubleFunction<SimulationResult> way) {
-        return sample(experiment, result -> result.simulated() > 0 ? way.applyAsDouble(result) / result.simulated() : 0);
     }
 
     private Sample sample(Experiment experiment, ToDoubleFunction<SimulationResult> value) {

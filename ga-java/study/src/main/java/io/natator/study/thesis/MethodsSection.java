@@ -1,7 +1,5 @@
 package io.natator.study.thesis;
 
-import io.natator.checkpoint.StoredRun;
-import io.natator.config.EvolutionSettings;
 import io.natator.config.Json;
 import io.natator.report.ReportDocument;
 import java.util.Arrays;
@@ -88,32 +86,35 @@ final class MethodsSection {
                 + Arrays.stream(Water.values()).map(this::evolutions).flatMap(Optional::stream).collect(Collectors.joining(" "));
     }
 
-    /** Of all evolutions; from the least to the most where some have gone on further than others. */
-    private static String generations(List<EvolutionSettings> settings) {
-        IntSummaryStatistics all = settings.stream().mapToInt(EvolutionSettings::generations).summaryStatistics();
-        return all.getMin() == all.getMax() ? "" + all.getMin() : all.getMin() + " to " + all.getMax();
-    }
-
     /** Of a water; one sentence for each way in which evolution searched there. */
     private Optional<String> evolutions(Water water) {
-        Map<Water.Evolving, List<EvolvedRun>> searches = results.runs().stream().filter(run -> run.water() == water)
-                .collect(Collectors.groupingBy(run -> Water.Evolving.of(settings(run)).over(0), LinkedHashMap::new, Collectors.toList()));
-        return searches.isEmpty() ? Optional.empty() : Optional.of(searches.entrySet().stream().map(one -> "In " + water.words() + " "
-                + evolutions(one.getKey(), one.getValue(), searches.size() > 1)).collect(Collectors.joining(" ")));
+        Map<Water.Evolving, List<Searched>> searches = results.runs().stream().filter(run -> run.water() == water)
+                .map(run -> new Searched(run.creature(), Water.Evolving.of(run.storedSettings())))
+                .collect(Collectors.groupingBy(one -> one.how().over(0), LinkedHashMap::new, Collectors.toList()));
+        return searches.isEmpty() ? Optional.empty() : Optional.of(searches.values().stream().map(alike -> "In " + water.words() + " "
+                + evolutions(alike, searches.size() > 1)).collect(Collectors.joining(" ")));
     }
 
-    private static EvolutionSettings settings(EvolvedRun run) {
-        return StoredRun.settings(run.plan().directory());
+    /** An evolution of a creature. */
+    private record Searched(int creature, Water.Evolving how) {
     }
 
-    private static String evolutions(Water.Evolving search, List<EvolvedRun> runs, boolean isOfSome) {
-        List<String> creatures = runs.stream().map(EvolvedRun::creature).distinct().sorted().map(String::valueOf).toList();
+    /** Of those that differ by no more than their generations. */
+    private static String evolutions(List<Searched> alike, boolean isOfSome) {
+        List<String> creatures = alike.stream().map(Searched::creature).distinct().sorted().map(String::valueOf).toList();
         String whose = (creatures.size() > 1 ? " of creatures " : " of creature ") + String.join(" and ", creatures) + ",";
-        return runs.size() + " evolutions" + (isOfSome ? whose : "") + " of " + search.population()
-                + " chromosomes over " + generations(runs.stream().map(MethodsSection::settings).toList()) + " generations, " + search.starts()
+        Water.Evolving how = alike.get(0).how();
+        return alike.size() + " evolutions" + (isOfSome ? whose : "") + " of " + how.population()
+                + " chromosomes over " + generations(alike) + " generations, " + how.starts()
                 + " starts for each new gait and the best judged again in every generation"
-                + (search.duration() == null ? ", 4 s a run" : ", " + search.duration() + " s a run")
-                + (search.overrides() == null ? "." : ", in a scene that costs less (`" + Json.line(search.overrides())
+                + (how.duration() == null ? ", 4 s a run" : ", " + how.duration() + " s a run")
+                + (how.overrides() == null ? "." : ", in a scene that costs less (`" + Json.line(how.overrides())
                 + "`) than that in which they are judged.");
+    }
+
+    /** From the least to the most where some have gone on further than others. */
+    private static String generations(List<Searched> alike) {
+        IntSummaryStatistics all = alike.stream().mapToInt(one -> one.how().generations()).summaryStatistics();
+        return all.getMin() == all.getMax() ? "" + all.getMin() : all.getMin() + " to " + all.getMax();
     }
 }

@@ -1,6 +1,5 @@
 package io.natator.study.thesis;
 
-import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.Json;
@@ -100,8 +99,7 @@ final class ThesisReport {
 
     private List<String> scale() {
         List<String> items = new ArrayList<>();
-        List<EvolutionSettings> settings = results.runs().stream()
-                .map(run -> StoredRun.settings(run.plan().directory())).toList();
+        List<EvolutionSettings> settings = results.runs().stream().map(EvolvedRun::storedSettings).toList();
         items.add(results.runs().size() + " of " + asked + " evolutions are finished" + (settings.isEmpty() ? "."
                 : ", operators " + each(settings.stream().map(one -> Json.name(one.operators()))) + ", on "
                 + each(settings.stream().map(one -> one.backend().argument())) + "."));

@@ -35,15 +35,9 @@ class MethodsSectionTest {
     }
 
     private String page() throws IOException {
-        ThesisData data = ThesisData.load();
-        ExperimentCatalogue catalogue = new ExperimentCatalogue(data, null, 4);
-        try (MeasurementLog log = new MeasurementLog(folder.resolve("measurements.jsonl"));
-                MeasurementLog processor = new MeasurementLog(folder.resolve("processor.jsonl"));
-                ConvergenceLog convergence = new ConvergenceLog(folder); KinematicsLog motions = new KinematicsLog(folder, 2)) {
-            StudyResults results = new StudyResults(data, folder, catalogue, log, processor, convergence, motions,
-                    new Winners(folder, catalogue, log, runs), StudyResults.THESIS_SECONDS);
+        try (OpenStudy study = OpenStudy.of(folder, new ExperimentCatalogue(ThesisData.load(), null, 4), runs)) {
             ReportDocument page = new ReportDocument(folder, "title");
-            new MethodsSection(results).add(page);
+            new MethodsSection(study.results()).add(page);
             return Files.readString(page.write("page.md"));
         }
     }

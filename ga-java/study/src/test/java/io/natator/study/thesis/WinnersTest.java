@@ -110,11 +110,11 @@ class WinnersTest {
     /** The formula does not know muscles at rest, so what rests swims worse only by its amplitudes; vacuum it knows. */
     @Test
     void aWinnerIsJudgedByAllControls() throws IOException, InterruptedException {
-        try (MeasurementLog log = new MeasurementLog(folder.resolve("measurements.jsonl"));
-                MeasurementLog processor = new MeasurementLog(folder.resolve("processor.jsonl"));
-                ConvergenceLog convergence = new ConvergenceLog(folder); KinematicsLog motions = new KinematicsLog(folder, 2)) {
-            Winners winners = new Winners(folder, catalogue, log, List.of(run));
-            StudyResults results = new StudyResults(data, folder, catalogue, log, processor, convergence, motions, winners, DURATION);
+        try (OpenStudy study = OpenStudy.of(folder, catalogue, List.of(run))) {
+            StudyResults results = study.results();
+            MeasurementLog log = results.measurements();
+            MeasurementLog processor = results.processor();
+            Winners winners = results.winners();
             measure(log, winners.experiments());
             assertThat(results.verdict(winners.all().get(0))).as("nothing but finalists measured").isEmpty();
 
@@ -149,10 +149,9 @@ class WinnersTest {
         }
         Files.writeString(file, Files.readString(file).replace("\"simulated\":4.0", "\"simulated\":2.0"));
 
-        try (MeasurementLog log = new MeasurementLog(file); MeasurementLog processor = new MeasurementLog(folder.resolve("processor.jsonl"));
-                ConvergenceLog convergence = new ConvergenceLog(folder); KinematicsLog motions = new KinematicsLog(folder, 2)) {
-            StudyResults results = new StudyResults(data, folder, catalogue, log, processor, convergence, motions,
-                    new Winners(folder, catalogue, log, List.of(run)), DURATION);
+        try (OpenStudy study = OpenStudy.of(folder, catalogue, List.of(run))) {
+            StudyResults results = study.results();
+            MeasurementLog log = results.measurements();
             assertThat(results.speed(inTank, Condition.WATER).mean()).isCloseTo(meanWay(log, swims.get(0)) / DURATION, within(1e-12));
             assertThat(results.speed(inTank, Condition.OTHER_WATER).mean()).isCloseTo(meanWay(log, swims.get(1)) / 2, within(1e-12));
             assertThat(results.lasted(inTank).mean()).isEqualTo(2);

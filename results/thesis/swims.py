@@ -1,0 +1,26 @@
+"""What search_steps.py and wider_tank.py share: both print requests, and make a table of their results."""
+import json
+import pathlib
+import sys
+
+
+def tank(length, height, width, rear):
+    """Overrides: a tank of water, the swimmer in its middle, its rear so far from the wall behind."""
+    return {"planes": [[0, 1, 0, 0], [1, 0, 0, 0], [-1, 0, 0, length], [0, 0, 1, 0], [0, 0, -1, width]],
+            "fluid": {"count": [round(side / 0.1) for side in (length, height, width)]},
+            "creature": {"rearCentre": [rear, height / 2, width / 2]}}
+
+
+def results(requests):
+    """Of the file that the command line names, by id. Without one, prints the requests and ends the program."""
+    requests = list(requests)
+    if len(sys.argv) == 1:
+        for request in requests:
+            print(json.dumps(request))
+        sys.exit()
+    with open(sys.argv[1], encoding="utf-8") as lines:
+        found = {result["id"]: result for result in map(json.loads, lines)}
+    wrong = [number for number, result in found.items() if result["status"] != "ok"]
+    if wrong or len(found) != len(requests):
+        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {len(found)} results, without success: {wrong}; must be all, ok")
+    return found
