@@ -1,6 +1,7 @@
 package io.natator.study.thesis;
 
 import io.natator.config.Json;
+import io.natator.config.Numbers;
 import io.natator.report.ReportDocument;
 import java.util.Arrays;
 import java.util.DoubleSummaryStatistics;
@@ -102,9 +103,11 @@ final class MethodsSection {
     /** Of those that differ by no more than their generations. */
     private static String evolutions(List<Searched> alike, boolean isOfSome) {
         List<String> creatures = alike.stream().map(Searched::creature).distinct().sorted().map(String::valueOf).toList();
-        String whose = (creatures.size() > 1 ? " of creatures " : " of creature ") + String.join(" and ", creatures) + ",";
+        int last = creatures.size() - 1;
+        String whose = last == 0 ? " of creature " + creatures.get(0) + ","
+                : " of creatures " + String.join(", ", creatures.subList(0, last)) + " and " + creatures.get(last) + ",";
         Water.Evolving how = alike.get(0).how();
-        return alike.size() + " evolutions" + (isOfSome ? whose : "") + " of " + how.population()
+        return Numbers.count(alike.size(), "evolution") + (isOfSome ? whose : "") + " of " + how.population()
                 + " chromosomes over " + generations(alike) + " generations, " + how.starts()
                 + " starts for each new gait and the best judged again in every generation"
                 + (how.duration() == null ? ", 4 s a run" : ", " + how.duration() + " s a run")

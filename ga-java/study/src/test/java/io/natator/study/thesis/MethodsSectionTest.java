@@ -55,8 +55,9 @@ class MethodsSectionTest {
         evolve(1, 70, 1.75);
         evolve(2, 100, 2.5);
         evolve(3, 70, 1.75);
+        evolve(4, 70, 1.75);
 
-        assertThat(page()).contains("In open water 2 evolutions of creatures 1 and 3, of 60 chromosomes over 70 generations",
-                "In open water 1 evolutions of creature 2, of 60 chromosomes over 100 generations");
+        assertThat(page()).contains("In open water 3 evolutions of creatures 1, 3 and 4, of 60 chromosomes over 70 generations",
+                "In open water 1 evolution of creature 2, of 60 chromosomes over 100 generations");
     }
 }
