@@ -131,6 +131,7 @@ answer() {
         [[ $mode = serve ]] || exit 2
         ;;
     no-device) printf '{"id":%s,"status":"error","error":"no CUDA device"}\n' "$id"; exit 4 ;;
+    locked) if ((id == 11)) && first locked; then chmod -x "$0"; fi; ok "$id" "$distance" ;;
     poison) if ((id % 10 == 3)); then kill -KILL $$; else ok "$id" "$distance"; fi ;;
     *) ok "$id" "$distance" ;;
     esac

@@ -4,6 +4,7 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Preset;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.RefusedSceneException;
+import io.natator.simulator.RequestRejectedException;
 import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.List;
@@ -67,7 +68,7 @@ final class UnknownScene {
     private static List<String> known(Path simulator) throws InterruptedException {
         try {
             return ProgramInfo.of(simulator).scenes();
-        } catch (InvalidInputException e) {
+        } catch (InvalidInputException | RequestRejectedException e) {
             return List.of();
         }
     }

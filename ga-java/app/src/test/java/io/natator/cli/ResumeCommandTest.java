@@ -43,6 +43,24 @@ class ResumeCommandTest extends FakeSimulatorTest {
         }
     }
 
+    /** A simulator that cannot be started any more is no fault of the gaits that it was to swim. */
+    @Test
+    void aRunWhoseSimulatorIsGoneStopsAndContinues() throws IOException {
+        assertThat(evolve("run", "--scene", "fault/locked", "--simulator", "process")).isEqualTo(1);
+
+        Path simulator = folder.resolve("fake-simulator.sh");
+        assertThat(err.toString()).contains("natator evolve: simulator: cannot start " + simulator)
+                .doesNotContain("simulations failed");
+        assertThat(file("run", "evaluations.jsonl")).doesNotContain("\"failed\"");
+
+        assertThat(simulator.toFile().setExecutable(true)).isTrue();
+        assertThat(natator("resume", folder.resolve("run").toString())).isZero();
+        assertThat(evolve("whole", "--scene", "fault/locked")).isZero();
+        for (String name : List.of("generations.csv", "best.json", "checkpoint.json", "evaluations.jsonl")) {
+            assertThat(file("run", name)).as(name).isEqualTo(file("whole", name));
+        }
+    }
+
     /** The fake has no GPU, but auto is another backend than cpu all the same. */
     @Test
     void aRunCanMoveToAnotherBackendAndSaysSo() throws IOException {

@@ -90,7 +90,7 @@ public final class EvolutionRun {
         }
         try {
             return new CachedEvaluator(evaluator, new EvaluationCache(execution.cache()), execution);
-        } catch (InvalidInputException | InterruptedException e) {
+        } catch (RuntimeException | InterruptedException e) {
             evaluator.close();
             throw e;
         }

@@ -87,6 +87,9 @@ public final class FreshStarts {
         try {
             evaluator.evaluateInOrder(again.requests(swimmer, starts, change), results::add);
         } catch (RequestRejectedException e) {
+            if (!e.isBadInput()) {
+                throw e;
+            }
             LOG.warn("the winner is not run from fresh starts: {}", e.getMessage());
             return null;
         }

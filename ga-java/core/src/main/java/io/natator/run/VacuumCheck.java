@@ -58,6 +58,9 @@ final class VacuumCheck implements EvolutionListener {
         try {
             return evaluator.evaluate(VacuumRequests.of(request, duration));
         } catch (RequestRejectedException e) {
+            if (!e.isBadInput()) {
+                throw e;
+            }
             return SimulationResult.failed(request.id(), e.getMessage());
         }
     }

@@ -19,7 +19,8 @@ public interface Evaluator extends AutoCloseable {
      *
      * @param requests each with an id of its own
      * @param whenDone called on the calling thread for each result as soon as it is there, in any order
-     * @throws RequestRejectedException if the simulator refuses a request; the other evaluations are abandoned
+     * @throws RequestRejectedException if the simulator refuses a request or cannot be started; the other evaluations
+     *                                  are abandoned
      * @throws InterruptedException     if the calling thread is interrupted or this evaluator is closed; the
      *                                  evaluations are abandoned
      */

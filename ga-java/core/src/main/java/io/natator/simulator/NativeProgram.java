@@ -61,9 +61,10 @@ final class NativeProgram implements AutoCloseable {
     /**
      * Starts the program, writes {@code input} to it, closes its standard input and waits for its end.
      *
-     * @throws SimulatorFailure     if it does not start, does not end in time, or prints too much
-     * @throws InterruptedException if interrupted meanwhile, or this virtual machine is shutting down; the program is
-     *                              then killed
+     * @throws RequestRejectedException if it does not start
+     * @throws SimulatorFailure         if it does not end in time, or prints too much
+     * @throws InterruptedException     if interrupted meanwhile, or this virtual machine is shutting down; the program
+     *                                  is then killed
      */
     Output call(List<String> arguments, String input) throws SimulatorFailure, InterruptedException {
         List<String> command = new ArrayList<>();

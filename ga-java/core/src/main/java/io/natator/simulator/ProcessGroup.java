@@ -45,10 +45,10 @@ public final class ProcessGroup implements AutoCloseable {
     /**
      * Starts a process, which is to be handed to {@link #end} whatever happens.
      *
-     * @throws SimulatorFailure     if it does not start
-     * @throws InterruptedException if this group was stopped
+     * @throws RequestRejectedException if it does not start, which is not the fault of what it is for
+     * @throws InterruptedException     if this group was stopped
      */
-    public Process start(List<String> command) throws SimulatorFailure, InterruptedException {
+    public Process start(List<String> command) throws InterruptedException {
         failIfStopped();
         Process process;
         String mark = name + '.' + started.incrementAndGet() + END;
@@ -57,7 +57,7 @@ public final class ProcessGroup implements AutoCloseable {
             builder.environment().merge(MARK, mark, String::concat);
             process = builder.start();
         } catch (IOException e) {
-            throw new SimulatorFailure("cannot start " + command.get(0) + ": " + e.getMessage(), e);
+            throw new RequestRejectedException("cannot start " + command.get(0) + ": " + e.getMessage(), false);
         }
         running.put(process, mark);
         if (stopped) {

@@ -1,6 +1,6 @@
 package io.natator.simulator;
 
-/** The simulator says that the request itself cannot be carried out; trying again would not help. */
+/** The simulator says that the request cannot be carried out, or cannot be started; trying again would not help. */
 public class RequestRejectedException extends RuntimeException {
 
     private static final long serialVersionUID = 1L;

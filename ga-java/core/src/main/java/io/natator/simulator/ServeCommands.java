@@ -71,8 +71,8 @@ final class ServeCommands {
      *
      * @param avoided what has just failed, or null; another one is preferred to it
      * @param request of the kind that the process is for
-     * @throws SimulatorFailure         if it does not start
-     * @throws RequestRejectedException if its program swims otherwise than the others
+     * @throws SimulatorFailure         if it cannot be compared with the others
+     * @throws RequestRejectedException if it does not start, or its program swims otherwise than the others
      */
     ServeProcess startAny(ProcessGroup group, Command avoided, SimulationRequest request)
             throws SimulatorFailure, InterruptedException {
@@ -96,8 +96,8 @@ final class ServeCommands {
      * Starts a process of one of them.
      *
      * @param request of the kind that the process is for
-     * @throws SimulatorFailure         if it does not start
-     * @throws RequestRejectedException if its program swims otherwise than the others
+     * @throws SimulatorFailure         if it cannot be compared with the others
+     * @throws RequestRejectedException if it does not start, or its program swims otherwise than the others
      */
     ServeProcess start(ProcessGroup group, Command command, SimulationRequest request)
             throws SimulatorFailure, InterruptedException {

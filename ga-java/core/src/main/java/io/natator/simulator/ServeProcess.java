@@ -46,10 +46,10 @@ final class ServeProcess implements AutoCloseable {
      *
      * @param group   to which its process belongs
      * @param command that starts it
-     * @throws SimulatorFailure     if it does not start
-     * @throws InterruptedException if the group was stopped
+     * @throws RequestRejectedException if it does not start
+     * @throws InterruptedException     if the group was stopped
      */
-    ServeProcess(ProcessGroup group, ServeCommands.Command command) throws SimulatorFailure, InterruptedException {
+    ServeProcess(ProcessGroup group, ServeCommands.Command command) throws InterruptedException {
         this.group = group;
         this.command = command;
         this.process = group.start(command.words());

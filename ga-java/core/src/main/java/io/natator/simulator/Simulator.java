@@ -10,7 +10,7 @@ public interface Simulator extends AutoCloseable {
      * Simulates one gait. What goes wrong in one evaluation alone (a crash, a hang, garbage) is not an exception but a
      * result with {@link SimulationResult.Status#FAILED}.
      *
-     * @throws RequestRejectedException if the simulator says that the request itself is wrong
+     * @throws RequestRejectedException if the simulator says that the request itself is wrong, or cannot be started
      * @throws InterruptedException     if the calling thread is interrupted; the evaluation is then abandoned
      */
     SimulationResult evaluate(SimulationRequest request) throws InterruptedException;

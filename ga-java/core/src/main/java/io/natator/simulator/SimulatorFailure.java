@@ -1,7 +1,7 @@
 package io.natator.simulator;
 
 /** One call of the native program went wrong; the message says how. */
-public final class SimulatorFailure extends Exception {
+final class SimulatorFailure extends Exception {
 
     private static final long serialVersionUID = 1L;
 

@@ -1,6 +1,7 @@
 package io.natator.run;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
 import io.natator.checkpoint.BestGait;
@@ -15,6 +16,7 @@ import io.natator.config.Judge;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.ToySimulator;
 import io.natator.simulator.FakeSimulator;
+import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.SimulationRequest;
 import io.natator.simulator.SimulationResult;
 import io.natator.simulator.Simulator;
@@ -23,10 +25,12 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.function.Predicate;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 /** What is reported of a winner. */
 class FreshStartsTest {
@@ -39,16 +43,18 @@ class FreshStartsTest {
     private final class Recorder implements Simulator {
 
         private final Simulator toy = new ToySimulator();
-        private final boolean refusesStarts;
+        private final Predicate<SimulationRequest> refused;
+        private final RequestRejectedException refusal;
 
-        Recorder(boolean refusesStarts) {
-            this.refusesStarts = refusesStarts;
+        Recorder(Predicate<SimulationRequest> refused, RequestRejectedException refusal) {
+            this.refused = refused;
+            this.refusal = refusal;
         }
 
         @Override
         public SimulationResult evaluate(SimulationRequest request) throws InterruptedException {
-            if (refusesStarts && request.start() != null) {
-                throw FakeSimulator.rejection("request: start: unknown");
+            if (refused.test(request)) {
+                throw refusal;
             }
             synchronized (asked) {
                 asked.add(request);
@@ -62,12 +68,12 @@ class FreshStartsTest {
         }
     }
 
-    private BestGait best(int starts, Judge judge, boolean refusesStarts) throws InterruptedException {
+    private BestGait best(int starts, Judge judge, Recorder simulator) throws InterruptedException {
         EvolutionSettings settings = EvolutionSettings.of("thesis/creature-1", EncodingKind.DENSE, 2).withSize(12, 3)
                 .withStarts(starts, judge);
         ExecutionSettings how = new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5));
         try (RunFolder run = RunFolder.create(folder.resolve("run"), settings);
-                WorkerPool pool = new WorkerPool(new Recorder(refusesStarts), 2)) {
+                WorkerPool pool = new WorkerPool(simulator, 2)) {
             BestGait best = new EvolutionRun(run).run(how, pool).best();
             assertThat(Json.read(folder.resolve("run/best.json"), BestGait.class, "best")).isEqualTo(best);
             return best;
@@ -77,7 +83,7 @@ class FreshStartsTest {
     @ParameterizedTest
     @CsvSource({"1, MEAN, 4", "3, MEDIAN, 6", "4, LOWER_QUARTILE, 8"})
     void aWinnerIsRunFromStartsThatNoGenerationHad(int starts, Judge judge, int fresh) throws InterruptedException {
-        BestGait best = best(starts, judge, false);
+        BestGait best = best(starts, judge, new Recorder(request -> false, null));
 
         List<EvaluationRecord> evolved = RunFolder.open(folder.resolve("run")).recorded().rows();
         List<Integer> used = evolved.stream().map(EvaluationRecord::start).toList();
@@ -111,10 +117,22 @@ class FreshStartsTest {
     /** What the run found is not lost where the simulator does not know starts. */
     @Test
     void withoutFreshStartsThereIsStillAWinner() throws InterruptedException {
-        BestGait best = best(1, Judge.MEAN, true);
+        BestGait best = best(1, Judge.MEAN,
+                new Recorder(request -> request.start() != null, FakeSimulator.rejection("request: start: unknown")));
 
         assertThat(best.fresh()).isNull();
         assertThat(best.vacuum()).isNotNull();
+    }
+
+    /** Nothing is left out because the simulator is there no more: the run is to be continued when it is. */
+    @ParameterizedTest
+    @ValueSource(booleans = {true, false})
+    void aSimulatorThatIsGoneEndsTheRun(boolean inVacuum) {
+        Recorder leaving = new Recorder(request -> inVacuum ? request.overrides() != null : request.start() != null,
+                new RequestRejectedException("cannot start natator-sim", false));
+
+        assertThatThrownBy(() -> best(1, Judge.MEAN, leaving)).isInstanceOf(RequestRejectedException.class)
+                .hasMessage("cannot start natator-sim");
     }
 
     /** A gait that hits the wall after a quarter of the time is not four times as fast; what is unstable goes nowhere. */

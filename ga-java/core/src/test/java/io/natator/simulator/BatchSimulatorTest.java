@@ -5,6 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import io.natator.config.Backend;
+import io.natator.config.ExecutionSettings;
 import io.natator.simulator.SimulationResult.Status;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -103,6 +104,16 @@ class BatchSimulatorTest {
                 FakeSimulator.execution(folder, PATIENCE).withBackend(Backend.CUDA))) {
             assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
                     .isInstanceOf(RequestRejectedException.class).hasMessage("no such device here");
+        }
+    }
+
+    @Test
+    void aProgramThatCannotStartIsToldOf() {
+        ExecutionSettings execution = FakeSimulator.execution(folder, PATIENCE);
+        assertThat(execution.simulator().toFile().setExecutable(false, false)).isTrue();
+        try (Evaluator evaluator = new BatchSimulator(execution)) {
+            assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
+                    .isInstanceOf(RequestRejectedException.class).hasMessageStartingWith("cannot start ");
         }
     }
 

@@ -30,7 +30,7 @@ class ProcessGroupTest {
     }
 
     @Test
-    void whatAGroupWithinAGroupLeavesBehindIsEnded() throws SimulatorFailure, InterruptedException, IOException {
+    void whatAGroupWithinAGroupLeavesBehindIsEnded() throws InterruptedException, IOException {
         ProcessHandle left;
         try (ProcessGroup group = new ProcessGroup()) {
             Process inner = group.start(List.of(Path.of(System.getProperty("java.home"), "bin", "java").toString(),

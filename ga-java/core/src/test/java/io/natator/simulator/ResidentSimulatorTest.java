@@ -121,10 +121,12 @@ class ResidentSimulatorTest {
     }
 
     @Test
-    void aProgramThatCannotStartIsAFailedResult() throws InterruptedException, IOException {
+    void aProgramThatCannotStartIsNoFaultOfTheRequest() throws IOException {
         Path program = Files.writeString(folder.resolve("program"), "not a program");
         try (Simulator simulator = new ResidentSimulator(new ExecutionSettings(program, 1, Duration.ofMinutes(5)))) {
-            assertThat(simulator.evaluate(FakeSimulator.request(1, "a")).error()).startsWith("cannot start " + program);
+            assertThatThrownBy(() -> simulator.evaluate(FakeSimulator.request(1, "a")))
+                    .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse())
+                    .hasMessageStartingWith("cannot start " + program);
         }
     }
 

@@ -70,7 +70,7 @@ final class ExecutorSimulator {
         if (info == null) {
             try {
                 info = ProgramInfo.of(program);
-            } catch (InvalidInputException e) {
+            } catch (InvalidInputException | RequestRejectedException e) {
                 throw new UnfitExecutorException("the native program does not run: " + e.getMessage(), e);
             }
         }

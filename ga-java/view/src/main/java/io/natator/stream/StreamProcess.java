@@ -5,7 +5,7 @@ import io.natator.config.InvalidInputException;
 import io.natator.simulator.ErrorTail;
 import io.natator.simulator.ProcessGroup;
 import io.natator.simulator.RefusedSceneException;
-import io.natator.simulator.SimulatorFailure;
+import io.natator.simulator.RequestRejectedException;
 import java.io.BufferedInputStream;
 import java.io.IOException;
 import java.io.InterruptedIOException;
@@ -43,17 +43,17 @@ public final class StreamProcess implements AutoCloseable {
      * Starts the program.
      *
      * @param simulator the native program
-     * @throws InvalidInputException if it does not start
-     * @throws InterruptedException  if this virtual machine is shutting down
+     * @throws RequestRejectedException if it does not start
+     * @throws InterruptedException     if this virtual machine is shutting down
      */
     public StreamProcess(Path simulator, StreamOptions options) throws InterruptedException {
         List<String> command = new ArrayList<>(List.of(simulator.toString()));
         command.addAll(options.arguments());
         try {
             process = group.start(command);
-        } catch (SimulatorFailure e) {
+        } catch (RequestRejectedException e) {
             group.close();
-            throw new InvalidInputException(e.getMessage(), e);
+            throw e;
         }
         reader = new StreamReader(new BufferedInputStream(process.getInputStream(), BUFFER_BYTES));
         errors = new ErrorTail(process.getErrorStream());

@@ -3,6 +3,7 @@ package io.natator.view;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.simulator.RequestRejectedException;
 import io.natator.stream.StreamException;
 import io.natator.stream.StreamMessage;
 import io.natator.stream.StreamProcess;
@@ -80,7 +81,7 @@ final class StreamSession implements AutoCloseable {
             id = command.id();
             command.check(files);
             pass(command);
-        } catch (InvalidInputException e) {
+        } catch (InvalidInputException | RequestRejectedException e) {
             refuse(id, e.getMessage());
         } catch (RuntimeException | StackOverflowError e) {
             // One bad command is not to cost the page its simulation.
@@ -180,7 +181,7 @@ final class StreamSession implements AutoCloseable {
         boolean again = false;
         try {
             again = isRestartDue() && startProcess();
-        } catch (InvalidInputException | StreamException e) {
+        } catch (RequestRejectedException | StreamException e) {
             why += "; " + e.getMessage();
         }
         if (!again) {

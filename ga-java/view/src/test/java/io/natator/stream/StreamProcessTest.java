@@ -6,6 +6,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import io.natator.config.InvalidInputException;
 import io.natator.config.Scheme;
+import io.natator.simulator.RequestRejectedException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -173,8 +174,8 @@ class StreamProcessTest {
     }
 
     @Test
-    void aProgramThatCannotStartIsBadInput() {
+    void aProgramThatCannotStartIsToldOf() {
         assertThatThrownBy(() -> new StreamProcess(folder.resolve("none"), OPTIONS))
-                .isInstanceOf(InvalidInputException.class).hasMessageStartingWith("cannot start ");
+                .isInstanceOf(RequestRejectedException.class).hasMessageStartingWith("cannot start ");
     }
 }
