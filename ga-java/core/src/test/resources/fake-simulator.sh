@@ -151,7 +151,7 @@ describe() {
     thesis/creature-3 | pool/creature-3) actuators=5 ;;
     thesis/* | pool/* | fault/*) actuators=2 ;;
     *)
-        echo "scene is \"$1\"; expected a named scene or a file" >&2
+        echo "natator-sim: scene is \"$1\"; expected a named scene or a file" >&2
         exit 2
         ;;
     esac

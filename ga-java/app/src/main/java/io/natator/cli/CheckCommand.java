@@ -12,6 +12,7 @@ import io.natator.config.Limits;
 import io.natator.report.WaterCheck;
 import io.natator.run.ControlRuns;
 import io.natator.run.EvolutionRun;
+import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.SimulationRequest;
 import java.io.UncheckedIOException;
 import java.nio.file.Path;
@@ -76,7 +77,7 @@ final class CheckCommand implements Callable<Integer> {
     private Double underWater(SimulationRequest request, double duration, ExecutionSettings execution) throws InterruptedException {
         try {
             return WaterCheck.shareUnderWater(request, List.of(duration / 2, duration), execution);
-        } catch (InvalidInputException | UncheckedIOException e) {
+        } catch (InvalidInputException | RequestRejectedException | UncheckedIOException e) {
             OneLineErrors.warn(spec.commandLine(), e.getMessage() + "; how much of the body is under water is left out");
             return null;
         }

@@ -275,6 +275,23 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(out.toString()).isEmpty();
     }
 
+    /** Whatever is asked of it: that a program does not work is no fault of the scene. */
+    @ParameterizedTest
+    @ValueSource(strings = {"evolve --dry-run --scene", "evaluate --gait 1 0.5 0.5 0.5 --scene", "export --format csv", "picture",
+        "new scene minnow --like"})
+    void aSimulatorThatDoesNotWorkIsAFailure(String command) throws IOException {
+        Path simulator = folder.resolve("simulator");
+        String[] arguments = (command + " pool/eel --simulator-path " + simulator).split(" ");
+        for (String program : List.of("#!/no/such/interpreter\n", "\u007fELF", "#!/bin/sh\nexit 7\n")) {
+            Files.writeString(simulator, program);
+            assertThat(simulator.toFile().setExecutable(true)).isTrue();
+            forget();
+
+            assertThat(Main.commandLine().setErr(new PrintWriter(err, true)).execute(arguments)).as(err.toString()).isEqualTo(1);
+            assertThat(err.toString()).startsWith("natator " + arguments[0] + ": simulator: ").hasLineCount(1);
+        }
+    }
+
     @Test
     void aMissingSimulatorIsNamed() {
         CommandLine command = Main.commandLine().setErr(new PrintWriter(err, true));

@@ -32,8 +32,8 @@ public final class CachedEvaluator implements Evaluator {
      * Wraps an evaluator, which is closed with this one.
      *
      * @param execution how the evaluator works
-     * @throws io.natator.config.InvalidInputException if the simulator cannot be run
-     * @throws InterruptedException                    if the calling thread is interrupted
+     * @throws io.natator.simulator.RequestRejectedException if the simulator cannot be run
+     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public CachedEvaluator(Evaluator evaluator, EvaluationCache cache, ExecutionSettings execution)
             throws InterruptedException {

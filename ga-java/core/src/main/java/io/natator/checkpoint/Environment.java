@@ -38,8 +38,8 @@ public record Environment(String natator, String simulator, String simulatorSha2
     /**
      * The present environment.
      *
-     * @throws io.natator.config.InvalidInputException if the simulator cannot be run
-     * @throws InterruptedException                    if the calling thread is interrupted
+     * @throws io.natator.simulator.RequestRejectedException if the simulator cannot be run
+     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static Environment present(ExecutionSettings execution) throws InterruptedException {
         Program program = Program.at(execution.simulator(), execution.backend(), execution.device());

@@ -80,8 +80,8 @@ public final class EvolutionRun {
      * runs can share it.
      *
      * @param execution with a time limit
-     * @throws io.natator.config.InvalidInputException if the simulator cannot be run
-     * @throws InterruptedException                    if the calling thread is interrupted
+     * @throws io.natator.simulator.RequestRejectedException if the simulator cannot be run
+     * @throws InterruptedException                          if the calling thread is interrupted
      */
     public static Evaluator open(ExecutionSettings execution) throws InterruptedException {
         Evaluator evaluator = Evaluator.open(execution);

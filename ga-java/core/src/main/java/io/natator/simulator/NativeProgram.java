@@ -39,16 +39,27 @@ final class NativeProgram implements AutoCloseable {
     /** What a finished program left: exit status, standard output, and the end of standard error as one line. */
     record Output(int exitStatus, String text, String errorText) {
 
+        private static final String NAME = "natator-sim: ";
+        private static final int BAD_INPUT = 2;
+
         /**
-         * Why it failed: its own words, or how it ended, after the name of what it was asked for unless they have it.
+         * Why there is no answer. Only what the simulator itself refuses is bad input; a shell that takes a program of
+         * another machine for a script ends with the same exit status.
          *
          * @param subject for example {@code scene pool/eel}
          */
-        String failure(String subject) {
-            if (errorText.isEmpty()) {
-                return subject + ": simulator ended with exit status " + exitStatus;
+        RuntimeException failure(String subject) {
+            return exitStatus == BAD_INPUT && errorText.startsWith(NAME) ? new RefusedSceneException(reason(subject))
+                    : new RequestRejectedException(reason(subject), false);
+        }
+
+        /** Its own words, or how it ended, after the name of what it was asked for unless they have it. */
+        private String reason(String subject) {
+            if (!errorText.startsWith(NAME)) {
+                return subject + ": simulator ended with exit status " + exitStatus
+                        + (errorText.isEmpty() ? "" : ", errors " + ResultReader.shown(errorText));
             }
-            String said = errorText.replaceFirst("^natator-sim: ", "");
+            String said = errorText.substring(NAME.length());
             return said.contains("\"" + subject.replaceFirst("^scene ", "") + "\"") ? said : subject + ": " + said;
         }
     }

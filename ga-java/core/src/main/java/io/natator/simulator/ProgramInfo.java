@@ -33,14 +33,13 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
     }
 
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
-    /** Exit status for what it does not take. */
-    private static final int BAD_INPUT = 2;
 
     /**
      * Asks the simulator about itself.
      *
-     * @throws InvalidInputException if it cannot be run, or says something else
-     * @throws InterruptedException  if the calling thread is interrupted
+     * @throws InvalidInputException    if it says something else
+     * @throws RequestRejectedException if it cannot be run
+     * @throws InterruptedException     if the calling thread is interrupted
      */
     public static ProgramInfo of(Path simulator) throws InterruptedException {
         try {
@@ -88,20 +87,18 @@ public record ProgramInfo(@JsonProperty(required = true) String version, String 
      * What {@code natator-sim info} writes.
      *
      * @param subject what is asked about, for the message
-     * @throws InvalidInputException if it ends with another exit status than 0
+     * @throws RefusedSceneException    if it does not take that
+     * @throws RequestRejectedException if it cannot be started, or fails
      */
     static String ask(Path simulator, List<String> arguments, String subject) throws InterruptedException {
         try (NativeProgram program = new NativeProgram(simulator, TIMEOUT)) {
             NativeProgram.Output output = program.call(arguments, "");
-            if (output.exitStatus() == BAD_INPUT) {
-                throw new RefusedSceneException(output.failure(subject));
-            }
             if (output.exitStatus() != 0) {
-                throw new InvalidInputException(output.failure(subject));
+                throw output.failure(subject);
             }
             return output.text();
         } catch (SimulatorFailure e) {
-            throw new InvalidInputException("simulator does not describe " + subject + ": " + e.getMessage(), e);
+            throw new RequestRejectedException("no description of " + subject + ": " + e.getMessage(), false);
         }
     }
 }

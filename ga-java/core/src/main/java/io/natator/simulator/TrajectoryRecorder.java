@@ -1,7 +1,6 @@
 package io.natator.simulator;
 
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -28,8 +27,9 @@ public final class TrajectoryRecorder {
      * @param snapshot   where all particles go, or null
      * @param at         the moment of the snapshot, in seconds
      * @return whether the run stayed stable; if not, the paths end before that
-     * @throws InvalidInputException if the program refuses the request, or fails
-     * @throws InterruptedException  if the calling thread is interrupted
+     * @throws RefusedSceneException    if the program refuses the request
+     * @throws RequestRejectedException if it fails
+     * @throws InterruptedException     if the calling thread is interrupted
      */
     public boolean record(SimulationRequest request, Path trajectory, Path snapshot, double at)
             throws InterruptedException {
@@ -53,11 +53,11 @@ public final class TrajectoryRecorder {
         try (NativeProgram program = new NativeProgram(execution.simulator(), execution.timeout())) {
             NativeProgram.Output output = program.call(arguments, "");
             if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
-                throw new InvalidInputException(output.failure("scene " + request.scene()));
+                throw output.failure("scene " + request.scene());
             }
             return output.exitStatus() == 0;
         } catch (SimulatorFailure e) {
-            throw new InvalidInputException("scene " + request.scene() + " cannot be recorded: " + e.getMessage(), e);
+            throw new RequestRejectedException("scene " + request.scene() + " cannot be recorded: " + e.getMessage(), false);
         }
     }
 

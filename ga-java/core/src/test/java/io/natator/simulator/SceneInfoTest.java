@@ -10,6 +10,8 @@ import java.nio.file.Path;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 class SceneInfoTest {
 
@@ -20,11 +22,24 @@ class SceneInfoTest {
     @Test
     void aRefusalNamesTheSceneOnce() {
         for (String said : List.of("scene \"pool/eel\": solver.substeps = -3: must be a whole number", "unknown scene \"pool/eel\"")) {
-            assertThat(new NativeProgram.Output(2, "", "natator-sim: " + said).failure("scene pool/eel")).isEqualTo(said);
+            assertThat(failure(2, "natator-sim: " + said)).isInstanceOf(RefusedSceneException.class).hasMessage(said);
         }
-        assertThat(new NativeProgram.Output(2, "", "natator-sim: file \"eel.json\": not valid JSON").failure("scene pool/eel"))
-                .isEqualTo("scene pool/eel: file \"eel.json\": not valid JSON");
-        assertThat(new NativeProgram.Output(7, "", "").failure("itself")).isEqualTo("itself: simulator ended with exit status 7");
+        assertThat(failure(2, "natator-sim: file \"eel.json\": not valid JSON")).isInstanceOf(RefusedSceneException.class)
+                .hasMessage("scene pool/eel: file \"eel.json\": not valid JSON");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "7||simulator ended with exit status 7", "1|natator-sim: disk full|disk full",
+        "2|sim: 1: \u007fELF: not found|simulator ended with exit status 2, errors \"sim: 1: \ufffdELF: not found\""})
+    void whatIsNoRefusalIsNoBadInput(int status, String errors, String reason) {
+        assertThat(failure(status, errors == null ? "" : errors))
+                .isInstanceOfSatisfying(RequestRejectedException.class, e -> assertThat(e.isBadInput()).isFalse())
+                .hasMessage("scene pool/eel: " + reason);
+    }
+
+    private static RuntimeException failure(int status, String errors) {
+        return new NativeProgram.Output(status, "", errors).failure("scene pool/eel");
     }
 
     @Test

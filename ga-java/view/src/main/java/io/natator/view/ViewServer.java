@@ -15,6 +15,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.simulator.ProgramInfo;
+import io.natator.simulator.RequestRejectedException;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.net.InetAddress;
@@ -69,9 +70,10 @@ public final class ViewServer implements AutoCloseable {
     /**
      * Starts to serve.
      *
-     * @throws InvalidInputException if a folder is not that of a run, or the simulator cannot be run
-     * @throws UncheckedIOException  if it cannot listen there
-     * @throws InterruptedException  if the calling thread is interrupted
+     * @throws InvalidInputException    if a folder is not that of a run
+     * @throws RequestRejectedException if the simulator cannot be run
+     * @throws UncheckedIOException     if it cannot listen there
+     * @throws InterruptedException     if the calling thread is interrupted
      */
     public ViewServer(ViewSettings settings) throws InterruptedException {
         this.settings = settings;
