@@ -3,6 +3,7 @@ package io.natator.study.cluster;
 import io.natator.config.InvalidInputException;
 import io.natator.encoding.Encoding;
 import io.natator.encoding.GeneRange;
+import io.natator.evolution.EvolutionFailedException;
 import io.natator.file.AtomicFile;
 import io.natator.file.CsvReader;
 import io.natator.simulator.Evaluator;
@@ -27,6 +28,7 @@ public final class EvaluationTimes {
      *
      * @param encoding of the gaits of that scene
      * @param count    at least 1
+     * @throws EvolutionFailedException if one fails
      */
     public static void measure(String scene, Encoding encoding, long seed, Evaluator evaluator, int count, Path file)
             throws InterruptedException {
@@ -41,7 +43,7 @@ public final class EvaluationTimes {
             long start = System.nanoTime();
             SimulationResult result = evaluator.evaluate(request);
             if (result.status() == SimulationResult.Status.FAILED) {
-                throw new IllegalStateException("an evaluation failed: " + result.error());
+                throw new EvolutionFailedException("an evaluation failed: " + result.error());
             }
             if (id > 0) {  // The first one starts the program and settles the scene.
                 rows.append(id).append(',').append((System.nanoTime() - start) / NANOSECONDS).append(',').append(result.stopped())
