@@ -180,6 +180,11 @@ run)
         exit 1
     fi
     ;;
+stream)
+    # Says nothing.
+    first stream
+    sleep 3600
+    ;;
 evaluate)
     IFS= read -r request
     answer "$request"

@@ -84,6 +84,10 @@ final class OneLineErrors {
 
     static int failure(Exception error, CommandLine command, ParseResult parsed) {
         LOG.debug("failed", error);
+        if (error instanceof InterruptedException || isEnding()) {
+            print(command, "interrupted");
+            return ExitCode.SOFTWARE;
+        }
         if (error instanceof InvalidInputException) {
             print(command, error.getMessage());
             return ExitCode.USAGE;
@@ -92,13 +96,21 @@ final class OneLineErrors {
             print(command, "simulator: " + error.getMessage());
             return rejected.isBadInput() ? ExitCode.USAGE : ExitCode.SOFTWARE;
         }
-        if (error instanceof InterruptedException) {
-            print(command, "interrupted");
-            return ExitCode.SOFTWARE;
-        }
         boolean foreseen = error instanceof EvolutionFailedException || error instanceof UncheckedIOException;
         print(command, foreseen ? error.getMessage() : "internal error: " + error);
         return ExitCode.SOFTWARE;
+    }
+
+    /** Whether this program was told to end: what fails then fails because its parts are being stopped. */
+    private static boolean isEnding() {
+        Thread hook = new Thread();
+        try {
+            Runtime.getRuntime().addShutdownHook(hook);
+            Runtime.getRuntime().removeShutdownHook(hook);
+            return false;
+        } catch (IllegalStateException e) {
+            return true;
+        }
     }
 
     /** Says what is wrong, if anything is, with what goes on all the same. */
