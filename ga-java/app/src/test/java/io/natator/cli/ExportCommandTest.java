@@ -290,26 +290,42 @@ class ExportCommandTest {
     /** Killed at some moment as by kill -9: nothing has the name of the export; the next one takes its place. */
     @Test
     void aKilledExportLeavesNothingThatLooksComplete() throws IOException, InterruptedException {
-        Path simulator = simulator(frames(50), "sleep 3600");
         Path target = folder.resolve("out");
-        Process process = new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-cp",
-                System.getProperty("java.class.path"), Main.class.getName(), "export", "test/pool", "--format", "vtp",
-                "--duration", "1", "--simulator-path", simulator.toString(), "--output-dir", target.toString())
-                .redirectErrorStream(true).redirectOutput(folder.resolve("log").toFile()).start();
-        Path last = folder.resolve("out.partial/water/water_000049.vtp");
-        while (process.isAlive() && !Files.exists(last)) {
-            Thread.sleep(10);
-        }
+        Process process = exportOf50Frames();
         List<ProcessHandle> simulators = process.descendants().toList();
         process.destroyForcibly().waitFor();
         simulators.forEach(ProcessHandle::destroyForcibly);
 
-        assertThat(last).as(Files.readString(folder.resolve("log"))).exists();
+        assertThat(folder.resolve("out.partial")).isNotEmptyDirectory();
         assertThat(target).doesNotExist();
         assertThat(export(simulator(whole(2), "exit 0"), "test/pool", "--format", "vtp", "--duration", "1"))
                 .as(err.toString()).isZero();
         assertThat(target.resolve("water/water_000001.vtp")).exists();
         assertThat(target.resolve("water/water_000049.vtp")).doesNotExist();
         assertThat(folder.resolve("out.partial")).doesNotExist();
+    }
+
+    @Test
+    void anExportThatIsToldToEndLeavesNothing() throws IOException, InterruptedException {
+        Process process = exportOf50Frames();
+        process.destroy();
+        process.waitFor();
+
+        assertThat(folder.resolve("out")).doesNotExist();
+        assertThat(folder.resolve("out.partial")).doesNotExist();
+    }
+
+    /** An export that has written as many frames and waits for more. */
+    private Process exportOf50Frames() throws IOException, InterruptedException {
+        Process process = new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-cp",
+                System.getProperty("java.class.path"), Main.class.getName(), "export", "test/pool", "--format", "vtp", "--duration", "1",
+                "--simulator-path", simulator(frames(50), "sleep 3600").toString(), "--output-dir", folder.resolve("out").toString())
+                .redirectErrorStream(true).redirectOutput(folder.resolve("log").toFile()).start();
+        Path last = folder.resolve("out.partial/water/water_000049.vtp");
+        while (process.isAlive() && !Files.exists(last)) {
+            Thread.sleep(10);
+        }
+        assertThat(last).as(Files.readString(folder.resolve("log"))).exists();
+        return process;
     }
 }

@@ -17,11 +17,13 @@ import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
 
 /**
- * A folder that appears only when all in it is written: until then it is called {@code NAME.partial}. What a killed
- * export left under that name goes with the next export to the same place.
+ * A folder that appears only when all in it is written: until then it is called {@code NAME.partial}. That goes when the
+ * export fails or this program is told to end; what {@code kill -9} leaves goes with the next export to the same place.
  */
 final class ExportFolder implements Closeable {
 
@@ -30,10 +32,14 @@ final class ExportFolder implements Closeable {
     /** Its entry with the names of all files of the export: whoever replaces it removes these alone. */
     static final String FILES = "files";
     private static final String LOCK = "export.lock";
+    private static final long PATIENCE_SECONDS = 10;
 
     private final Path target;
     private final Path partial;
     private final FileChannel lock;
+    private final Thread owner = Thread.currentThread();
+    private final Thread atExit = new Thread(this::stop, "stop-export");
+    private final CountDownLatch closed = new CountDownLatch(1);
     private boolean committed;
 
     private ExportFolder(Path target, Path partial, FileChannel lock) {
@@ -72,12 +78,23 @@ final class ExportFolder implements Closeable {
             throw new InvalidInputException("another export to " + folder + " is being written", e);
         }
         ExportFolder fresh = new ExportFolder(target, partial, lock);
+        Runtime.getRuntime().addShutdownHook(fresh.atExit);
         for (Path old : contents(partial)) {
             if (!old.equals(partial.resolve(LOCK))) {
                 delete(old);
             }
         }
         return fresh;
+    }
+
+    /** Stops who writes, and waits until that has closed the folder. */
+    private void stop() {
+        owner.interrupt();
+        try {
+            closed.await(PATIENCE_SECONDS, TimeUnit.SECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
     }
 
     /** Where a link leads: a folder cannot take a link's name. */
@@ -142,6 +159,13 @@ final class ExportFolder implements Closeable {
         try (lock) {
             if (!committed) {
                 delete(partial);
+            }
+        } finally {
+            closed.countDown();
+            try {
+                Runtime.getRuntime().removeShutdownHook(atExit);
+            } catch (IllegalStateException e) {
+                // This program is ending already.
             }
         }
     }

@@ -15,6 +15,8 @@ import java.util.List;
  */
 public record Python(String program) {
 
+    private static final String QUIET = "import signal; signal.signal(signal.SIGINT, signal.SIG_DFL)\n";
+
     /**
      * Fails early where a package is missing.
      *
@@ -43,13 +45,13 @@ public record Python(String program) {
         }
     }
 
-    /** Starts a script that lies beside this class. */
+    /** Starts a script that lies beside this class. Ctrl-C, which reaches it too, ends it without a word. */
     Process start(String script, String... arguments) throws IOException {
         String text;
         try (InputStream in = Python.class.getResourceAsStream(script)) {
             text = new String(in.readAllBytes(), StandardCharsets.UTF_8);
         }
-        List<String> command = new ArrayList<>(List.of(program, "-c", text));
+        List<String> command = new ArrayList<>(List.of(program, "-c", QUIET + text));
         command.addAll(List.of(arguments));
         return new ProcessBuilder(command).redirectError(Redirect.INHERIT).start();
     }
