@@ -6,6 +6,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Limits;
+import io.natator.file.GeneratedPage;
 import io.natator.file.ShellWord;
 import io.natator.run.EvolutionRun;
 import io.natator.study.thesis.EvolutionPlan;
@@ -136,6 +137,7 @@ final class ReproduceCommand implements Callable<Integer> {
         Limits.checkCount("--runs", runs, Limits.REPETITIONS);
         EachOnce.check("--creature", creatures, String::valueOf);
         EachOnce.check("--water", waters, EnumNames::of);
+        GeneratedPage.check(directory);
         ExecutionSettings execution = executionOptions.execution(Backend.CPU);
         EvolutionPlan plan = new EvolutionPlan(creatures, waters, seeds,
                 new EvolutionPlan.Size(population, generations, starts, duration), execution.backend(), execution.simulator(), directory);
@@ -145,8 +147,8 @@ final class ReproduceCommand implements Callable<Integer> {
         PrintWriter err = spec.commandLine().getErr();
         EvolvePhase evolution = new EvolvePhase(plan, execution);
         if (dryRun) {
-            evolution.forecast(out);
             try (ThesisStudy study = new ThesisStudy(directory, plan, runs, duration)) {
+                evolution.forecast(out);
                 out.printf("then, of what is evolved so far, %d evaluations to measure, %d gaits to run at half the spacing and %d runs to "
                         + "record%n", study.missingMeasurements(), study.missingLevels(), study.missingRecordings());
             }

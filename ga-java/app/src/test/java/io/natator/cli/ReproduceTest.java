@@ -17,6 +17,8 @@ import java.util.List;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine;
 
 /** The whole study in miniature, with the real simulator. */
@@ -175,5 +177,18 @@ class ReproduceTest {
         assertThat(reproduce("--creature", "5")).isEqualTo(2);
         assertThat(err.toString()).contains("--creature has 5; expected 1, 2, 3 or 4");
         assertThat(reproduce("--seeds", "0", "--creature", "1")).isEqualTo(2);
+    }
+
+    /** Before it plans, let alone evolves for days. */
+    @ParameterizedTest
+    @CsvSource({"README.md, --dry-run", "README.md, --phase=all", "motions.jsonl, --dry-run"})
+    void refusesAFolderFirst(String file, String option) throws IOException {
+        Files.writeString(folder.resolve(file), "my own\nmy own\n");
+
+        assertThat(reproduce("--creature", "1", "--water", "flex", option)).isEqualTo(2);
+
+        assertThat(out.toString()).isEmpty();
+        assertThat(err.toString()).contains(file).hasLineCount(1);
+        assertThat(folder.resolve("runs")).doesNotExist();
     }
 }
