@@ -43,11 +43,11 @@ final class ReportCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         StoredRun run = Archipelago.stored(directory);
+        Path folder = outputDir != null ? outputDir : run.directory().resolve("report");
+        GaitReport report = new GaitReport(run, folder);
         OneLineErrors.warn(spec.commandLine(), run.damage());
         ExecutionSettings execution = EvolutionRun.withTimeLimit(executionOptions.execution(Backend.CPU), run.settings());
-        Path folder = outputDir != null ? outputDir : run.directory().resolve("report");
         try {
-            GaitReport report = new GaitReport(run, folder);
             Drawing.checked(() -> spec.commandLine().getOut().println(report.write(execution,
                     DrawnSwim.portrait(directory, execution.simulator()))));
             if (report.difference() != null) {

@@ -208,6 +208,18 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(err.toString()).isEqualTo("natator report: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
     }
 
+    /** What else is wrong with the run does not matter then. */
+    @Test
+    void noReportWithoutABestGaitIsOneLine() throws IOException {
+        assertThat(evolve("run", "--scene", "fault/unstable")).isZero();
+        Files.delete(folder.resolve("run/evaluations.jsonl"));
+        forget();
+
+        assertThat(natator("report", folder.resolve("run").toString())).isEqualTo(2);
+
+        assertThat(err.toString()).isEqualTo("natator report: " + folder.resolve("run") + " has no best gait yet; finish it by natator resume\n");
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "evolve --scene EMPTY|natator evolve: --scene is empty", "evolve --scene=EMPTY|natator evolve: --scene is empty",
