@@ -14,6 +14,11 @@ namespace {
 
 constexpr const char* empty_value = "the value is empty; must be left out or have one";
 
+/// The parser takes the name of an option for the value of the one before it.
+std::string fault_of_presence(const std::string& value) {
+    return value.empty() ? empty_value : value.starts_with("--") ? "= " + value + ": must be a value, not an option" : "";
+}
+
 /// The check with the words of this program instead of its own. What is empty has another check.
 CLI::Validator in_words(CLI::Validator check, const std::string& must_be) {
     const CLI::Validator own = check;
@@ -40,12 +45,10 @@ std::string any_of(const std::vector<std::string>& words) {
     return list;
 }
 
-void refuse_empty_values(CLI::App& app) {
+void refuse_missing_values(CLI::App& app) {
     for (CLI::Option* option : app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 0; }))
-        option->check([](const std::string& value) {
-            return std::string(value.empty() ? empty_value : "");
-        });
-    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_empty_values(*command);
+        option->check(fault_of_presence);
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_missing_values(*command);
 }
 
 void refuse_empty_values(int argc, const char* const* argv) {

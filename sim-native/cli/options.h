@@ -9,8 +9,9 @@ namespace natator::cli {
 /// "a, b or c".
 std::string any_of(const std::vector<std::string>& words);
 
-/// Makes an empty value of any option of any command refused: most come from a variable of a shell that is not set.
-void refuse_empty_values(CLI::App& app);
+/// Makes an empty value of any option of any command refused, most come from a variable of a shell that is not set, and one that is
+/// the next option.
+void refuse_missing_values(CLI::App& app);
 
 /// Refuses `--option=`, for which the next argument would be taken.
 void refuse_empty_values(int argc, const char* const* argv);

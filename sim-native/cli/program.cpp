@@ -106,7 +106,7 @@ void hold_closed_streams() {
 int run_program(CLI::App& app, const int& status, int argc, char** argv) {
     const std::string program = app.get_name();
     app.require_subcommand(1);
-    refuse_empty_values(app);
+    refuse_missing_values(app);
     return complaining(program, [&] {
         try {
             refuse_empty_values(argc, argv);
