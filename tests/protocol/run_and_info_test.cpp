@@ -496,6 +496,7 @@ TEST(ParticlesTest, WhatCannotBeUsedIsRefusedInTheWordsOfScenes) {
     const std::pair<const char*, const char*> bad[] = {
         {R"({})", "value = {}: must be an array of experiments"},
         {R"([5])", "[0]: value = 5: must be an object"},
+        {R"([{"dt":0.01,"sping":{}}])", "[0]: sping: unknown key (= {}); did you mean springs?"},
         {R"([{"dt":0.01}])", "[0]: substeps: missing; must be given, a number of substeps"},
         {R"([{"dt":0}])", "[0]: dt = 0: must be a time above 0"},
         {R"([{"dt":1,"substeps":1,"pos":[[0,1,"a"]]}])", "[0]: pos[0][2] = \"a\": must be a finite number"},
@@ -504,6 +505,8 @@ TEST(ParticlesTest, WhatCannotBeUsedIsRefusedInTheWordsOfScenes) {
          "[0]: params.raduis: unknown key (= 1)"},
         {R"([{"dt":1,"substeps":1,"pos":[],"vel":[],"invm":[],"phase":[],"params":{"radius":1},"springs":5}])",
          "[0]: springs = 5: must be an object"},
+        {R"([{"dt":1,"substeps":1,"pos":[],"vel":[],"invm":[],"phase":[],"params":{"radius":1},"springs":{"length":[]}}])",
+         "[0]: springs.length: unknown key (= []); allowed: idx, l0, k"},
         {R"([{"dt":1,"substeps":1,"pos":[],"vel":[],"invm":[],"phase":[],"params":{"radius":1},"rigids":{}}])",
          "[0]: rigids.clusters: missing; must be given, lists of particles"},
     };

@@ -9,6 +9,7 @@
 #include "model/cluster.h"
 #include "natator/error.h"
 #include "natator/limits.h"
+#include "scene/field.h"
 
 namespace natator {
 namespace {
@@ -20,11 +21,10 @@ using nlohmann::json;
     throw InputError(where + ": " + field + " = " + shown(value) + ": must be " + allowed);
 }
 
-/// What an experiment, or the part of it that `path` begins with ("springs.idx"), has there; it must have it.
+/// What an object that is an experiment, or the part of it that `path` begins with ("springs.idx"), has there; it must have it.
 const json& member(const json& object, const std::string& path, const std::string& where, const char* allowed) {
     const std::size_t dot = path.find('.');
     const std::string key = dot == std::string::npos ? path : path.substr(dot + 1);
-    if (!object.is_object()) refuse(where, dot == std::string::npos ? "value" : path.substr(0, dot), object, "an object");
     if (!object.contains(key)) throw InputError(where + ": " + path + ": missing; must be given, " + allowed);
     return object.at(key);
 }
@@ -157,6 +157,7 @@ void read_parameters(const json& params, const Reader& read, Model& model) {
 }
 
 void read_springs(const json& springs, const Reader& read, Model& model) {
+    fields::check_keys(springs, {read.where, "springs"}, {"idx", "l0", "k"});
     const auto pairs = rows<std::vector<int>>(
         member(springs, "springs.idx", read.where, "pairs of particles"), read.where, "springs.idx", -1,
         [&](const json& row, const std::string& field) { return read.indices(row, field, 2, model.particles() - 1); });
@@ -167,6 +168,7 @@ void read_springs(const json& springs, const Reader& read, Model& model) {
 }
 
 void read_clusters(const json& rigids, const Reader& read, Model& model) {
+    fields::check_keys(rigids, {read.where, "rigids"}, {"clusters", "rest", "stiff", "rot", "trans"});
     const auto members = rows<std::vector<int>>(
         member(rigids, "rigids.clusters", read.where, "lists of particles"), read.where, "rigids.clusters", -1,
         [&](const json& row, const std::string& field) { return read.indices(row, field, -1, model.particles() - 1); });
@@ -197,6 +199,8 @@ void read_clusters(const json& rigids, const Reader& read, Model& model) {
 
 ParticleExperiment read_particle_experiment(const json& source, const std::string& where) {
     const Reader read{where};
+    fields::check_keys(source, {where, ""},
+                       {"name", "dt", "substeps", "params", "pos", "vel", "invm", "phase", "springs", "rigids", "rest", "frames"});
     ParticleExperiment experiment;
     Model& model = experiment.model;
     if (source.contains("name") && source["name"].is_string()) experiment.name = source["name"];
