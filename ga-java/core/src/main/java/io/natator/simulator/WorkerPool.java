@@ -63,6 +63,9 @@ public final class WorkerPool implements Evaluator {
             if (e.getCause() instanceof InterruptedException) {
                 throw stopped(e);
             }
+            if (e.getCause() instanceof Error lacking) {
+                throw lacking;
+            }
             throw new IllegalStateException("evaluation ended unexpectedly", e.getCause());
         } finally {
             tasks.forEach(task -> task.cancel(true));

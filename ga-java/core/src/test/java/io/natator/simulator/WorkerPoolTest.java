@@ -69,6 +69,17 @@ class WorkerPoolTest {
         }
     }
 
+    /** As memory, or a class that cannot be read for want of open files. */
+    @Test
+    void whatJavaLacksIsToldAsItIs() {
+        Simulator lacking = simulator(request -> {
+            throw new NoClassDefFoundError("io/natator/Part");
+        });
+        try (WorkerPool pool = new WorkerPool(lacking, 2)) {
+            assertThatThrownBy(() -> pool.evaluateInOrder(requests(5), result -> { })).isInstanceOf(NoClassDefFoundError.class);
+        }
+    }
+
     private interface Answer {
         SimulationResult to(SimulationRequest request) throws InterruptedException;
     }
