@@ -2,6 +2,7 @@
 #include <random>
 
 #include "../native/bare_particles.h"
+#include "../native/refusal_of.h"
 #include "gpu_test.h"
 #include "natator/gpu_solver.h"
 #include "natator/momentum.h"
@@ -50,6 +51,26 @@ TEST_F(GpuParticles, AParticleBehindAWallIsPutOnItWithoutVelocity) {
     EXPECT_NEAR(state.position[0].y(), model.parameters.collisionDistance, 1e-12);
     EXPECT_NEAR(state.velocity[0].norm(), 0, 1e-12);
     EXPECT_EQ(state.position[1].y(), 0.05);
+}
+
+TEST_F(GpuParticles, WhatDoesNotFitTheModelIsRefusedAsOnTheCpu) {
+    for (const Scheme scheme : {Scheme::flex, Scheme::conserving}) {
+        Model model = bare_model(scheme, {{0, 0, 0}, {1, 0, 0}}, solid_phase);
+        Solver<float> cpu(model);
+        GpuSolver<float> gpu(model);
+        State<float> state = initial_state<float>(model);
+        const Gait gait = resting_gait(1);
+        EXPECT_EQ(refusal_of([&] { gpu.frame(state, gait); }), refusal_of([&] { cpu.frame(state, gait); }));
+        EXPECT_NE(refusal_of([&] { gpu.frame(state, gait); }), "");
+
+        state.velocity.pop_back();
+        EXPECT_EQ(refusal_of([&] { gpu.update(state, substep, 1); }), refusal_of([&] { cpu.update(state, substep, 1); }));
+        EXPECT_NE(refusal_of([&] { gpu.update(state, substep, 1); }), "");
+
+        model.velocity.pop_back();
+        EXPECT_EQ(refusal_of([&] { const GpuSolver<float> refused(model); }), refusal_of([&] { const Solver<float> refused(model); }));
+        EXPECT_NE(refusal_of([&] { const GpuSolver<float> refused(model); }), "");
+    }
 }
 
 /// The neighbour search against all pairs, also for particles far outside the grid's box.

@@ -29,7 +29,8 @@ struct GpuSolverOptions {
 /// Advances one State of a Model on a GPU, update by update, as Solver does on the CPU: for observing and testing what
 /// batches compute. The State travels to the device and back with every update, so whole evaluations are faster by
 /// evaluate_on_gpu. Results agree with the CPU's to rounding; the same GPU and input give the same bits. Not shared
-/// between threads. A library built without CUDA has this class too; making one then throws NoDevice.
+/// between threads. A library built without CUDA has this class too; making one then throws NoDevice. As those of Solver, members that
+/// take a State throw InputError if it is not of so many particles, clusters and springs as the Model.
 ///
 /// Real is float or double. Members throw std::bad_alloc when the device's memory does not do and std::runtime_error,
 /// naming the call, when the device fails.
@@ -37,8 +38,8 @@ template <class Real>
 class GpuSolver {
 public:
     /// Keeps a reference to `model`, which must live, unchanged, as long as this; a temporary one is refused by the
-    /// compiler. Throws NoDevice ("built without CUDA", or no such GPU), InputError when the Model needs what the GPU's
-    /// stages do not do or is too large for `options.path`.
+    /// compiler. Throws NoDevice ("built without CUDA", or no such GPU), InputError when the Model's lists do not belong together (as
+    /// Solver does), or it needs what the GPU's stages do not do or is too large for `options.path`.
     explicit GpuSolver(const Model& model, const GpuSolverOptions& options = {});
     explicit GpuSolver(const Model&& model, const GpuSolverOptions& options = {}) = delete;
     ~GpuSolver();
@@ -52,7 +53,7 @@ public:
                                       StepObserver<Real>* observer = nullptr);
 
     /// One frame of the model: as an update by the model's time step and substeps, with the muscles driven by `gait`,
-    /// which must fit the model (check_gait).
+    /// which must fit the model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
 
     /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids, and for

@@ -22,9 +22,7 @@ double ramp_at(const Model& model, double time) {
 }  // namespace
 
 std::vector<double> drive(const Model& model, const Gait& gait, double time) {
-    check_length("gait.amplitude", gait.amplitude.size(), model.actuators);
-    check_length("gait.phase", gait.phase.size(), model.actuators);
-    if (!gait.offset.empty()) check_length("gait.offset", gait.offset.size(), model.actuators);
+    check_lengths(gait, model.actuators);
     std::vector<double> driven;
     add_drive(gait, ramp_at(model, time), time, driven);
     return driven;

@@ -18,6 +18,12 @@ void check_length(std::string_view name, std::size_t values, int actuators, std:
                      (actuators == 0 && !none.empty() ? " (" + std::string(none) + ")" : ""));
 }
 
+void check_lengths(const Gait& gait, int actuators) {
+    check_length("gait.amplitude", gait.amplitude.size(), actuators);
+    check_length("gait.phase", gait.phase.size(), actuators);
+    if (!gait.offset.empty()) check_length("gait.offset", gait.offset.size(), actuators);
+}
+
 void check_values(const std::string& name, const std::vector<double>& values, int actuators, double low, double high,
                   const char* none) {
     check_length(name, values.size(), actuators, none);

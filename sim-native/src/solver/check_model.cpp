@@ -50,4 +50,19 @@ void check_model(const Model& model) {
         require_one_of(model.body.particles[i], particles, [i] { return item("body.particles", i); });
 }
 
+template <class Real>
+void check_state(const Model& model, const State<Real>& state) {
+    if (state.position.size() != model.position.size() || state.velocity.size() != model.position.size() ||
+        state.cluster_rotation.size() != model.clusters.size() || state.cluster_centre.size() != model.clusters.size() ||
+        state.spring_rest_length.size() != model.springs.size())
+        throw InputError("state of " + std::to_string(state.position.size()) + " particles, " +
+                         std::to_string(state.cluster_rotation.size()) + " clusters, " +
+                         std::to_string(state.spring_rest_length.size()) + " springs: must have " +
+                         std::to_string(model.particles()) + ", " + std::to_string(model.clusters.size()) + ", " +
+                         std::to_string(model.springs.size()) + " as its model");
+}
+
+template void check_state(const Model&, const State<float>&);
+template void check_state(const Model&, const State<double>&);
+
 }  // namespace natator

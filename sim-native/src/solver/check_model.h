@@ -1,11 +1,16 @@
 #pragma once
 
 #include "natator/model.h"
+#include "natator/state.h"
 
 namespace natator {
 
 /// Throws InputError unless a model's lists belong together: as many velocities, masses and phases as positions, and springs,
 /// clusters, muscles and bodies of particles, springs and actuators that are there.
 void check_model(const Model& model);
+
+/// Throws InputError unless a state has as many particles, clusters and springs as its model.
+template <class Real>
+void check_state(const Model& model, const State<Real>& state);
 
 }  // namespace natator

@@ -8,7 +8,6 @@
 #include "cpu/conserving/conserving_stages.h"
 #include "cpu/flex/flex_stages.h"
 #include "natator/actuate.h"
-#include "natator/error.h"
 #include "step.h"
 
 namespace natator {
@@ -95,14 +94,14 @@ public:
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
                                       const Drive* drive) {
-        require_fit(state);
+        check_state(model_, state);
         if (model_.particles() == 0) return std::nullopt;
         return std::visit([&](auto& stages) { return run(*stages, state, time_step, substeps, observer, drive); },
                           stages_);
     }
 
     std::optional<Instability> frame(State<Real>& state, const Drive& drive) {
-        require_fit(state);
+        check_state(model_, state);
         const bool per_substep = model_.scheme != Scheme::flex;
         if (!per_substep) actuate(model_, drive(state.time), state.time, state);
         return update(state, model_.time_step, model_.parameters.substeps, nullptr, per_substep ? &drive : nullptr);
@@ -138,17 +137,6 @@ private:
     static AnyStages stages_for(const Model& model, const Plan& plan) {
         if (model.scheme == Scheme::conserving) return std::make_unique<cpu::ConservingStages<Real>>(model, plan);
         return std::make_unique<cpu::FlexStages<Real>>(model, plan);
-    }
-
-    void require_fit(const State<Real>& state) const {
-        if (state.position.size() != model_.position.size() || state.velocity.size() != model_.position.size() ||
-            state.cluster_rotation.size() != model_.clusters.size() || state.cluster_centre.size() != model_.clusters.size() ||
-            state.spring_rest_length.size() != model_.springs.size())
-            throw InputError("state of " + std::to_string(state.position.size()) + " particles, " +
-                             std::to_string(state.cluster_rotation.size()) + " clusters, " +
-                             std::to_string(state.spring_rest_length.size()) + " springs: must have " +
-                             std::to_string(model_.particles()) + ", " + std::to_string(model_.clusters.size()) + ", " +
-                             std::to_string(model_.springs.size()) + " as its model");
     }
 
     /// One substep; false if its outcome is not finite: the state is as it was then.

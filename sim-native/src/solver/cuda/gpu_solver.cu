@@ -3,9 +3,11 @@
 #include <utility>
 
 #include "batch_runner.h"
+#include "gait/check_values.h"
 #include "large/large_runner.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
+#include "solver/check_model.h"
 #include "way.h"
 
 namespace natator {
@@ -57,6 +59,8 @@ public:
 
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
                                       const Gait* gait) {
+        check_state(model_, state);
+        if (gait) check_lengths(*gait, model_.actuators);
         std::optional<cuda::TraceBuffers<Real>> trace;
         if (observer) trace.emplace(device_model().view(), substeps);
         const double start = state.time;
@@ -200,6 +204,7 @@ private:
 template <class Real>
 GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) {
     cuda::choose_device(options.device);
+    check_model(model);
     if (const auto reason = cuda::refusal(model)) throw InputError("backend cuda: " + *reason);
     GpuPath path = options.path;
     if (path == GpuPath::by_size) {
