@@ -20,14 +20,15 @@ inline void for_each_entry(const WaterView<Real>& water, int first, const Visit&
 }
 
 template <class Group, class Real>
-void pack(const WaterView<Real>& water) {
+void pack(WaterView<Real> water) {
     pack_arrays<Group>(water, water.position, water.volume, water.packed);
     const Real* const velocity[3] = {water.velocity[0], water.velocity[1], water.velocity[2]};
     pack_arrays<Group>(water, velocity, water.mobility, water.packed_velocity);
 }
 
+// Flattened, as compute_gradients is: g++ would leave the body of the loop a function of its own, which has the view by its address.
 template <class Group, class Real>
-void compute_moments(const WaterView<Real>& water) {
+[[gnu::flatten]] void compute_moments(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
     for_each_group<Group>(water, [&](int first) {
@@ -56,7 +57,7 @@ void put_impulse(const WaterView<Real>& water, int first, typename Group::Lane i
 }
 
 template <class Group, class Real>
-void compute_gradients(const WaterView<Real>& water) {
+[[gnu::flatten]] void compute_gradients(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
     for_each_group<Group>(water, [&](int first) {
@@ -87,7 +88,7 @@ void compute_gradients(const WaterView<Real>& water) {
 }
 
 template <class Group, class Real>
-void add_viscosity(const WaterView<Real>& water, Real strength, Real most) {
+void add_viscosity(WaterView<Real> water, Real strength, Real most) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Vec3<Lane> v = get3<Group>(water.velocity, first);
@@ -114,7 +115,7 @@ void put_velocity(const WaterView<Real>& water, int first, const Vec3<typename G
 }
 
 template <class Group, class Real>
-void compute_impulse(const WaterView<Real>& water) {
+void compute_impulse(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Vec3<Lane> v = get3<Group>(water.velocity, first);
@@ -130,7 +131,7 @@ void compute_impulse(const WaterView<Real>& water) {
 }
 
 template <class Group, class Real>
-void apply_impulse(const WaterView<Real>& water) {
+void apply_impulse(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Lane own = Group::get(water.impulse + first);
@@ -145,7 +146,7 @@ void apply_impulse(const WaterView<Real>& water) {
 }
 
 template <class Group, class Real>
-void relieve(const WaterView<Real>& water, Real strength) {
+void relieve(WaterView<Real> water, Real strength) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Lane kept = kept_impulse(Group::get(water.fastest_square + first), strength);
@@ -159,7 +160,7 @@ void relieve(const WaterView<Real>& water, Real strength) {
 }
 
 template <class Group, class Real>
-void lay_out_relief(const WaterView<Real>& water) {
+void lay_out_relief(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
     for_each_group<Group>(water, [&](int first) {
@@ -171,7 +172,7 @@ void lay_out_relief(const WaterView<Real>& water) {
 }
 
 template <class Group, class Real>
-void return_relief(const WaterView<Real>& water) {
+void return_relief(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
     for_each_group<Group>(water, [&](int first) {

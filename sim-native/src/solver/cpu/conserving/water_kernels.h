@@ -46,28 +46,29 @@ struct WaterView {
     Real* gradient[3];  ///< G_ij by entry of the rows
 };
 
-/// Each particle's sums are computed apart, so blocks may be worked on side by side.
+/// Each particle's sums are computed apart, so blocks may be worked on side by side. The view comes by value: no store can
+/// change it, and what it holds need not be read anew after each.
 template <class Real>
 struct WaterKernels {
     /// Lays positions with volumes, and velocities with mobilities, out for the rest.
-    void (*pack)(const WaterView<Real>& water);
+    void (*pack)(WaterView<Real> water);
     /// Density, correction (also laid out), crowding, fastest_square.
-    void (*compute_moments)(const WaterView<Real>& water);
+    void (*compute_moments)(WaterView<Real> water);
     /// gradient, zeroth and response; and, while the gradients are at hand, the impulse of a first pass of target 0.
-    void (*compute_gradients)(const WaterView<Real>& water);
+    void (*compute_gradients)(WaterView<Real> water);
     /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was. `most`: see
     /// physics::viscous_share.
-    void (*add_viscosity)(const WaterView<Real>& water, Real strength, Real most);
+    void (*add_viscosity)(WaterView<Real> water, Real strength, Real most);
     /// impulse of a Jacobi pass: what takes a rate of expansion below its target there, never above; in impulse_sum too.
-    void (*compute_impulse)(const WaterView<Real>& water);
+    void (*compute_impulse)(WaterView<Real> water);
     /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, also laid out.
-    void (*apply_impulse)(const WaterView<Real>& water);
+    void (*apply_impulse)(WaterView<Real> water);
     /// Takes off what the relief has grown by, also laid out. `strength`: see physics::kept_impulse.
-    void (*relieve)(const WaterView<Real>& water, Real strength);
+    void (*relieve)(WaterView<Real> water, Real strength);
     /// Lays E out for the neighbours.
-    void (*lay_out_relief)(const WaterView<Real>& water);
+    void (*lay_out_relief)(WaterView<Real> water);
     /// Gives it back.
-    void (*return_relief)(const WaterView<Real>& water);
+    void (*return_relief)(WaterView<Real> water);
 };
 
 NATATOR_DECLARE_KERNELS(WaterKernels, water_kernels)
