@@ -374,7 +374,11 @@ inline Floats square_root(Floats v) {
 }
 /// v where it is positive, else 0; also for NaN.
 inline Floats positive_part(Floats v) {
+#if defined(__SSE2__)
+    return _mm_max_ps(v, Floats{});  // g++ makes two instructions of the other form
+#else
     return v > 0 ? v : Floats{};
+#endif
 }
 /// v^2 where v is positive, else 0.
 inline Floats positive_square(Floats v) {
@@ -396,15 +400,31 @@ inline Floats ones(unsigned bits) {
 inline Floats gather_one(const float* from, const std::int32_t* index) {
     return Floats{from[index[0]], from[index[1]], from[index[2]], from[index[3]]};  // lane by lane g++ would shuffle one by one
 }
+/// Entry k of vector m becomes entry m of vector k.
+template <class Vector>
+inline void transpose(Vector (&rows)[width]) {
+    const Vector low_01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
+    const Vector low_23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
+    const Vector high_01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+    const Vector high_23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+    rows[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+    rows[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+    rows[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
+    rows[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+}
 /// (x, y, z, w) of the particles index[0 .. width) out of an array of such quadruples: one load per particle and a
 /// transposition.
 inline Four<Floats> gather(const float* packed, const std::int32_t* index) {
-    const auto particle = [&](int lane) { return load(packed + 4 * static_cast<std::int64_t>(index[lane])); };
-    const Floats a = particle(0), b = particle(1), c = particle(2), d = particle(3);
-    const Floats xy_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), xy_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-    const Floats zw_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7), zw_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-    return {__builtin_shufflevector(xy_ab, xy_cd, 0, 1, 4, 5), __builtin_shufflevector(xy_ab, xy_cd, 2, 3, 6, 7),
-            __builtin_shufflevector(zw_ab, zw_cd, 0, 1, 4, 5), __builtin_shufflevector(zw_ab, zw_cd, 2, 3, 6, 7)};
+    Floats v[width];
+    for (int lane = 0; lane < width; ++lane) v[lane] = load(packed + 4 * static_cast<std::int64_t>(index[lane]));
+    transpose(v);
+    return {v[0], v[1], v[2], v[3]};
+}
+/// Writes (x, y, z, w) lane by lane.
+inline void store_quadruples(float* to, Four<Floats> v) {
+    Floats quadruples[width] = {v.x, v.y, v.z, v.w};
+    transpose(quadruples);
+    for (int lane = 0; lane < width; ++lane) store(to + 4 * lane, quadruples[lane]);
 }
 
 using Ints = std::int32_t __attribute__((vector_size(4 * width)));
@@ -446,22 +466,6 @@ inline Ints load_first(const std::int32_t* from, int count, std::int32_t filler)
     }
     for (int lane = 0; lane < width; ++lane) values[lane] = lane < count ? from[lane] : filler;
     return values;
-}
-/// Entry k of vector m becomes entry m of vector k.
-inline void transpose(Ints (&rows)[width]) {
-    const Ints low_01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
-    const Ints low_23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
-    const Ints high_01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
-    const Ints high_23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
-    rows[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
-    rows[1] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
-    rows[2] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
-    rows[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
-}
-
-/// Writes (x, y, z, w) lane by lane.
-inline void store_quadruples(float* to, Four<Floats> v) {
-    for (int lane = 0; lane < width; ++lane) store(to + 4 * lane, Floats{v.x[lane], v.y[lane], v.z[lane], v.w[lane]});
 }
 
 #endif
