@@ -25,7 +25,7 @@ import java.util.stream.IntStream;
 import java.util.stream.Stream;
 
 /**
- * All that was found, for what follows from it.
+ * All that was found, for what follows from it; closes the files that it is kept in.
  *
  * @param directory    of the study
  * @param measurements on its backend
@@ -36,7 +36,7 @@ import java.util.stream.Stream;
  * @param duration     of a measured run, in seconds
  */
 record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalogue, MeasurementLog measurements,
-        MeasurementLog processor, ConvergenceLog convergence, KinematicsLog motions, Winners winners, double duration) {
+        MeasurementLog processor, ConvergenceLog convergence, KinematicsLog motions, Winners winners, double duration) implements AutoCloseable {
 
     /** Of a run (thesis 2.6). */
     static final double THESIS_SECONDS = 4;
@@ -260,5 +260,13 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
         return Stream.of(Water.OPEN_WATER, Water.FLEX).flatMap(water -> IntStream.rangeClosed(1, 4)
                 .mapToObj(creature -> best(creature, water)).flatMap(Optional::stream)
                 .max(Comparator.comparingDouble(subject -> speed(subject, Condition.WATER).mean())).stream()).findFirst();
+    }
+
+    @Override
+    public void close() {
+        measurements.close();
+        processor.close();
+        convergence.close();
+        motions.close();
     }
 }

@@ -194,9 +194,6 @@ public final class ThesisStudy implements AutoCloseable {
 
     @Override
     public void close() {
-        results.measurements().close();
-        results.processor().close();
-        results.convergence().close();
-        results.motions().close();
+        results.close();
     }
 }

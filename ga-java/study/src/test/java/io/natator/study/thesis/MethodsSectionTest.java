@@ -35,9 +35,9 @@ class MethodsSectionTest {
     }
 
     private String page() throws IOException {
-        try (OpenStudy study = OpenStudy.of(folder, new ExperimentCatalogue(ThesisData.load(), null, 4), runs)) {
+        try (StudyResults results = OpenStudy.of(folder, new ExperimentCatalogue(ThesisData.load(), null, 4), runs)) {
             ReportDocument page = new ReportDocument(folder, "title");
-            new MethodsSection(study.results()).add(page);
+            new MethodsSection(results).add(page);
             return Files.readString(page.write("page.md"));
         }
     }

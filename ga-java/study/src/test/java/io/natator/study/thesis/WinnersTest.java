@@ -110,8 +110,7 @@ class WinnersTest {
     /** The formula does not know muscles at rest, so what rests swims worse only by its amplitudes; vacuum it knows. */
     @Test
     void aWinnerIsJudgedByAllControls() throws IOException, InterruptedException {
-        try (OpenStudy study = OpenStudy.of(folder, catalogue, List.of(run))) {
-            StudyResults results = study.results();
+        try (StudyResults results = OpenStudy.of(folder, catalogue, List.of(run))) {
             MeasurementLog log = results.measurements();
             MeasurementLog processor = results.processor();
             Winners winners = results.winners();
@@ -149,8 +148,7 @@ class WinnersTest {
         }
         Files.writeString(file, Files.readString(file).replace("\"simulated\":4.0", "\"simulated\":2.0"));
 
-        try (OpenStudy study = OpenStudy.of(folder, catalogue, List.of(run))) {
-            StudyResults results = study.results();
+        try (StudyResults results = OpenStudy.of(folder, catalogue, List.of(run))) {
             MeasurementLog log = results.measurements();
             assertThat(results.speed(inTank, Condition.WATER).mean()).isCloseTo(meanWay(log, swims.get(0)) / DURATION, within(1e-12));
             assertThat(results.speed(inTank, Condition.OTHER_WATER).mean()).isCloseTo(meanWay(log, swims.get(1)) / 2, within(1e-12));
