@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import io.natator.config.InvalidInputException;
 import io.natator.evolution.EvolutionFailedException;
+import io.natator.simulator.ProgramEnd;
 import io.natator.simulator.RequestRejectedException;
 import java.io.UncheckedIOException;
 import java.util.regex.Pattern;
@@ -84,7 +85,7 @@ final class OneLineErrors {
 
     static int failure(Exception error, CommandLine command, ParseResult parsed) {
         LOG.debug("failed", error);
-        if (error instanceof InterruptedException || isEnding()) {
+        if (error instanceof InterruptedException || ProgramEnd.hasBegun()) {
             print(command, "interrupted");
             return ExitCode.SOFTWARE;
         }
@@ -99,18 +100,6 @@ final class OneLineErrors {
         boolean foreseen = error instanceof EvolutionFailedException || error instanceof UncheckedIOException;
         print(command, foreseen ? error.getMessage() : "internal error: " + error);
         return ExitCode.SOFTWARE;
-    }
-
-    /** Whether this program was told to end: what fails then fails because its parts are being stopped. */
-    private static boolean isEnding() {
-        Thread hook = new Thread();
-        try {
-            Runtime.getRuntime().addShutdownHook(hook);
-            Runtime.getRuntime().removeShutdownHook(hook);
-            return false;
-        } catch (IllegalStateException e) {
-            return true;
-        }
     }
 
     /** Says what is wrong, if anything is, with what goes on all the same. */

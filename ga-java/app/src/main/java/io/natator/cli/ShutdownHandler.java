@@ -5,8 +5,7 @@ import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.EvolutionStoppedException;
 import io.natator.simulator.Evaluator;
-import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.TimeUnit;
+import io.natator.simulator.ProgramEnd;
 
 /**
  * Ends evolutions early, after a time or when this program is told to end: it closes their evaluator. Then they stop
@@ -14,12 +13,9 @@ import java.util.concurrent.TimeUnit;
  */
 final class ShutdownHandler implements AutoCloseable {
 
-    private static final long PATIENCE_SECONDS = 10;
-
     private final Runnable stop;
     private final Long deadline;
-    private final CountDownLatch finished = new CountDownLatch(1);
-    private final Thread atExit;
+    private final ProgramEnd end;
     private volatile boolean timeIsUp;
 
     /**
@@ -37,8 +33,7 @@ final class ShutdownHandler implements AutoCloseable {
     ShutdownHandler(Runnable stop, Double seconds, Runnable farewell) {
         this.stop = stop;
         this.deadline = seconds == null ? null : System.nanoTime() + Math.round(seconds * 1e9);
-        this.atExit = new Thread(() -> end(farewell), "stop-evolution");
-        Runtime.getRuntime().addShutdownHook(atExit);
+        this.end = new ProgramEnd(stop, farewell);
         if (deadline != null) {
             Thread timer = new Thread(this::waitForDeadline, "stop-after");
             timer.setDaemon(true);
@@ -48,23 +43,13 @@ final class ShutdownHandler implements AutoCloseable {
 
     private void waitForDeadline() {
         try {
-            if (!finished.await(deadline - System.nanoTime(), TimeUnit.NANOSECONDS)) {
+            if (!end.isClosedWithin(deadline - System.nanoTime())) {
                 timeIsUp = true;
                 stop.run();
             }
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
-    }
-
-    private void end(Runnable farewell) {
-        stop.run();
-        try {
-            finished.await(PATIENCE_SECONDS, TimeUnit.SECONDS);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
-        farewell.run();
     }
 
     /** Whether the time that was given is over. */
@@ -100,11 +85,6 @@ final class ShutdownHandler implements AutoCloseable {
     /** To be called when everything is written. */
     @Override
     public void close() {
-        finished.countDown();
-        try {
-            Runtime.getRuntime().removeShutdownHook(atExit);
-        } catch (IllegalStateException e) {
-            // This program is ending already; the hook says how to continue.
-        }
+        end.close();
     }
 }

@@ -108,18 +108,6 @@ final class ClusterJob implements AutoCloseable {
         return true;
     }
 
-    /** Whether this virtual machine is shutting down; Spark ends by itself then, at the same time as the evolution. */
-    static boolean isProgramEnding() {
-        Thread probe = new Thread(() -> { });
-        try {
-            Runtime.getRuntime().addShutdownHook(probe);
-            Runtime.getRuntime().removeShutdownHook(probe);
-            return false;
-        } catch (IllegalStateException e) {
-            return true;
-        }
-    }
-
     /** Gives up what is not done. */
     @Override
     public void close() {

@@ -7,6 +7,7 @@ import io.natator.config.Json;
 import io.natator.config.Numbers;
 import io.natator.simulator.Evaluator;
 import io.natator.simulator.ProcessSimulator;
+import io.natator.simulator.ProgramEnd;
 import io.natator.simulator.ProgramInfo;
 import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.Sha256;
@@ -123,8 +124,9 @@ final class SparkEvaluator implements Evaluator {
         }
     }
 
+    /** Spark ends by itself when this program is told to, at the same time as the evolution. */
     private void failIfClosed() throws InterruptedException {
-        if (closed || ClusterJob.isProgramEnding()) {
+        if (closed || ProgramEnd.hasBegun()) {
             throw new InterruptedException("evaluations were stopped");
         }
     }

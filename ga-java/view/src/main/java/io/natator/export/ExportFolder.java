@@ -5,6 +5,7 @@ import io.natator.checkpoint.RunFolder;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.file.OutputFolder;
+import io.natator.simulator.ProgramEnd;
 import java.io.Closeable;
 import java.io.IOException;
 import java.nio.channels.FileChannel;
@@ -17,8 +18,6 @@ import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
-import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
 
 /**
@@ -32,14 +31,11 @@ final class ExportFolder implements Closeable {
     /** Its entry with the names of all files of the export: whoever replaces it removes these alone. */
     static final String FILES = "files";
     private static final String LOCK = "export.lock";
-    private static final long PATIENCE_SECONDS = 10;
 
     private final Path target;
     private final Path partial;
     private final FileChannel lock;
-    private final Thread owner = Thread.currentThread();
-    private final Thread atExit = new Thread(this::stop, "stop-export");
-    private final CountDownLatch closed = new CountDownLatch(1);
+    private final ProgramEnd end = new ProgramEnd(Thread.currentThread()::interrupt, () -> { });
     private boolean committed;
 
     private ExportFolder(Path target, Path partial, FileChannel lock) {
@@ -78,23 +74,12 @@ final class ExportFolder implements Closeable {
             throw new InvalidInputException("another export to " + folder + " is being written", e);
         }
         ExportFolder fresh = new ExportFolder(target, partial, lock);
-        Runtime.getRuntime().addShutdownHook(fresh.atExit);
         for (Path old : contents(partial)) {
             if (!old.equals(partial.resolve(LOCK))) {
                 delete(old);
             }
         }
         return fresh;
-    }
-
-    /** Stops who writes, and waits until that has closed the folder. */
-    private void stop() {
-        owner.interrupt();
-        try {
-            closed.await(PATIENCE_SECONDS, TimeUnit.SECONDS);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
     }
 
     /** Where a link leads: a folder cannot take a link's name. */
@@ -156,16 +141,9 @@ final class ExportFolder implements Closeable {
     /** Removes the folder unless it was committed. */
     @Override
     public void close() throws IOException {
-        try (lock) {
+        try (end; lock) {
             if (!committed) {
                 delete(partial);
-            }
-        } finally {
-            closed.countDown();
-            try {
-                Runtime.getRuntime().removeShutdownHook(atExit);
-            } catch (IllegalStateException e) {
-                // This program is ending already.
             }
         }
     }
