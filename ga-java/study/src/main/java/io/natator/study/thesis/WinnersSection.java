@@ -27,12 +27,13 @@ final class WinnersSection {
 
     void add(ReportDocument page) {
         page.heading(2, "What swims");
-        page.text("Speeds in body lengths per second. Re and St: means of the runs in open water, of what may swim; in `flex` there are none.");
+        page.text("Speeds in body lengths per second. Re, St and cavities (water at the end that does not follow the body, in volumes of the body): means of the runs in "
+                + "open water, of what may swim; in `flex` there are none.");
         for (Water water : Water.values()) {
             page.heading(3, water == Water.FLEX ? "The thesis' tank, flex" : "Open water, conserving");
             List<Subject> subjects = results.subjects().filter(subject -> subject.water() == water)
                     .filter(subject -> results.speed(subject).isPresent()).toList();
-            page.table(List.of("creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "Re", "St", "lasts (s)"),
+            page.table(List.of("creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "Re", "St", "cavities", "lasts (s)"),
                     subjects.stream().map(this::speeds).toList());
             page.folded("verdicts", inside -> inside.words(List.of("creature", "gait", "verdict"), subjects.stream().map(subject -> List.of(
                     "" + subject.creature(), subject.label(), results.verdict(subject).map(verdict -> Answers.sign(verdict) + " " + verdict.text())
@@ -88,7 +89,7 @@ final class WinnersSection {
         return List.of("" + subject.creature(), subject.label(), speed.text(length), "± " + TableFormat.shortNumber(speed.scatter() / length),
                 signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
                 TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()), figure(maySwim ? water.reynolds() : null),
-                !maySwim || water.strouhal() == null ? TableFormat.NOTHING : TableFormat.shortNumber(water.strouhal()),
+                decimal(maySwim ? water.strouhal() : null), decimal(maySwim ? water.cavities() : null),
                 String.format(Locale.ROOT, "%.1f", results.lasted(subject).mean()));
     }
 
@@ -98,6 +99,10 @@ final class WinnersSection {
 
     private static String figure(Double value) {
         return value == null ? TableFormat.NOTHING : String.format(Locale.ROOT, "%.0f", value);
+    }
+
+    private static String decimal(Double value) {
+        return value == null ? TableFormat.NOTHING : TableFormat.shortNumber(value);
     }
 
     private List<String> controls(Subject subject) {
