@@ -202,16 +202,36 @@ final class ReproduceCommand implements Callable<Integer> {
         }
     }
 
-    /** What makes all that the page is of: where waters have not as many evolutions, one line for each and one for the page. */
+    /**
+     * What makes all that the page is of: where waters have not as many evolutions, or creatures not as many generations,
+     * one line for each such extent and one for the page.
+     */
     private String commands(EvolutionPlan plan) {
-        String rest = CommandText.options(spec, Stream.concat(WITHOUT_OUTCOME.stream(), FOUND.stream()).toList())
-                + " --output-dir " + ShellWord.of(directory);
+        String rest = rest(FOUND);
         Map<Water, EvolutionPlan.Extent> extents = plan.extents();
-        if (Set.copyOf(extents.values()).size() == 1) {
+        boolean same = extents.keySet().stream().allMatch(water -> plan.creaturesByGenerations(water).size() == 1);
+        if (same && Set.copyOf(extents.values()).size() == 1) {
             return command(extents.size() == Water.values().length ? "" : water(waters.get(0)), extents.get(waters.get(0)), rest);
         }
-        return extents.entrySet().stream().map(one -> command(water(one.getKey()), one.getValue(), rest))
+        return extents.entrySet().stream().flatMap(one -> commands(plan, one.getKey(), one.getValue()))
                 .collect(Collectors.joining("\n")) + "\n" + CommandText.of(spec, " --phase report" + rest);
+    }
+
+    private Stream<String> commands(EvolutionPlan plan, Water water, EvolutionPlan.Extent extent) {
+        Map<Integer, List<Integer>> creaturesOf = plan.creaturesByGenerations(water);
+        if (creaturesOf.size() == 1) {
+            return Stream.of(command(water(water), extent, rest(FOUND)));
+        }
+        String rest = rest(Stream.concat(FOUND.stream(), Stream.of("--creature")).toList());
+        return creaturesOf.entrySet().stream().map(one -> command(water(water) + " --creature "
+                + one.getValue().stream().map(String::valueOf).collect(Collectors.joining(",")),
+                new EvolutionPlan.Extent(extent.seeds(), one.getKey()), rest));
+    }
+
+    /** The options that were given, without those that the page has otherwise. */
+    private String rest(List<String> found) {
+        return CommandText.options(spec, Stream.concat(WITHOUT_OUTCOME.stream(), found.stream()).toList())
+                + " --output-dir " + ShellWord.of(directory);
     }
 
     private static String water(Water water) {

@@ -156,6 +156,29 @@ class ReproduceTest {
                 "```\n" + same + "--seeds 3 --generations 9" + rest + "```\n", "`python3 '" + study.resolve("recompute.py") + "' --entries 0` works ");
     }
 
+    /** Creatures of unlike generations each have a line. */
+    @Test
+    void thePageHasACommandForEachNumberOfGenerations() throws IOException {
+        for (int creature : List.of(1, 2, 3)) {
+            Path committed = Path.of("../../results/thesis/runs/creature-" + creature + "/flex/seed-1");
+            Path run = Files.createDirectories(folder.resolve("runs/creature-" + creature + "/flex/seed-1"));
+            for (String name : List.of("config.json", "checkpoint.json", "best.json", "finalists.json")) {
+                Files.copy(committed.resolve(name), run.resolve(name));
+            }
+        }
+        int generations = StoredRun.settings(folder.resolve("runs/creature-1/flex/seed-1")).generations();
+        Path config = folder.resolve("runs/creature-2/flex/seed-1/config.json");
+        String fewer = Files.readString(config).replace("\"generations\" : " + generations, "\"generations\" : " + (generations - 1));
+        Files.writeString(config, fewer);
+        String same = "java -jar ga-java/target/natator.jar reproduce ";
+        String rest = " --output-dir " + folder + "\n";
+
+        assertThat(page(folder, "--creature", "1,2,3", "--water", "flex", "--seeds", "1")).contains("```\n"
+                + same + "--water flex --creature 1,3 --seeds 1 --generations " + generations + rest
+                + same + "--water flex --creature 2 --seeds 1 --generations " + (generations - 1) + rest
+                + same + "--phase report --creature 1,2,3" + rest + "```\n");
+    }
+
     private String page(Path study, String... options) throws IOException {
         CommandLine command = Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of("reproduce", "--simulator-path", SIMULATOR.toString(), "--phase", "report", "--output-dir",

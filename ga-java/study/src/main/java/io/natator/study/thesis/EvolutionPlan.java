@@ -15,10 +15,12 @@ import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.EnumMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
 /**
@@ -57,7 +59,7 @@ public final class EvolutionPlan {
      * What is evolved in a water.
      *
      * @param seeds       evolutions of each creature
-     * @param generations of each
+     * @param generations of each, as the first has them
      */
     public record Extent(long seeds, int generations) {
     }
@@ -168,6 +170,17 @@ public final class EvolutionPlan {
                     finished.stream().anyMatch(one -> one.water() == water) ? finished : runs, water));
         }
         return extents;
+    }
+
+    /** Creatures by how many generations they have in a water; those of which nothing is finished have as many as the water. */
+    public Map<Integer, List<Integer>> creaturesByGenerations(Water water) {
+        int usual = extents().get(water).generations();
+        Map<Integer, Integer> generations = new LinkedHashMap<>();
+        runs.stream().filter(run -> run.water() == water).forEach(run -> generations.putIfAbsent(run.creature(), usual));
+        List<EvolvedRun> finished = new ArrayList<>(finished().stream().filter(run -> run.water() == water).toList());
+        Collections.reverse(finished);  // the first seed counts
+        finished.forEach(run -> generations.put(run.creature(), run.storedSettings().generations()));
+        return generations.keySet().stream().collect(Collectors.groupingBy(generations::get, LinkedHashMap::new, Collectors.toList()));
     }
 
     private static Extent extent(List<EvolvedRun> all, Water water) {
