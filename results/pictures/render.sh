@@ -6,10 +6,11 @@ root=$here/../..
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 
-# The gaits that results/thesis/README.md names as best evolved in scheme conserving.
-for run in 1/conserving/seed-1 2/conserving/seed-3 3/conserving/seed-2 4/conserving/seed-1; do
-    creature=${run%%/*}
-    java -jar "$root/ga-java/target/natator.jar" export "$root/results/thesis/runs/creature-$run" \
+# The gaits that results/thesis/README.md draws as best evolved in open water.
+for creature in 1 2 3 4; do
+    gunzip -c "$root/results/thesis/recordings/creature-$creature-open-water.json.gz" |
+        python3 -c 'import json, sys; json.dump(json.load(sys.stdin)["request"]["gait"], sys.stdout)' >"$work/gait.json"
+    java -jar "$root/ga-java/target/natator.jar" export "open-water/creature-$creature" --gait "$work/gait.json" \
         --format vtp --duration 3 --every 180 --output-dir "$work/$creature"
     "$root/.readers/bin/python" "$here/render.py" "$work/$creature" 3 "$here/paraview-creature-$creature.png"
 done
