@@ -3,14 +3,16 @@
 import json
 import re
 import subprocess
+import time
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from unittest import mock
 
 import natator
 import numpy as np
 from natator.program import simulator_path
-from natator.simulator import make_request
+from natator.simulator import _exchange, make_request
 
 ROOT = Path(__file__).resolve().parents[2]
 TANK = "bench/small-tank"
@@ -66,6 +68,23 @@ class EvaluationTest(unittest.TestCase):
             self.assertEqual(three.evaluate_all([]), [])
         self.assertEqual([r["hash"] for r in results], [r["hash"] for r in expected])
         self.assertEqual([r["frames"] for r in results], [3, 6, 9, 3, 6, 9, 3])
+
+    def test_threads_that_share_one_get_their_own_answers(self):
+        def most_at_once(process, lines):
+            nonlocal inside, most
+            inside += 1
+            most = max(most, inside)
+            time.sleep(0.02)
+            inside -= 1
+            return _exchange(process, lines)
+
+        inside, most = 0, 0
+        with natator.Simulator(1) as simulator, mock.patch("natator.simulator._exchange", most_at_once):
+            with ThreadPoolExecutor(4) as pool:
+                results = list(pool.map(lambda start: simulator.evaluate(TANK, GAIT, duration=0.05, start=start), range(4)))
+            self.assertEqual(most, 1)
+            self.assertEqual([r["hash"] for r in results],
+                             [simulator.evaluate(TANK, GAIT, duration=0.05, start=k)["hash"] for k in range(4)])
 
     def test_bad_requests_are_refused_and_others_go_on(self):
         with natator.Simulator(workers=1) as simulator:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import threading
 from concurrent.futures import ThreadPoolExecutor
 
 from natator import program as programs
@@ -14,12 +15,14 @@ class Simulator:
     """Keeps programs that evaluate requests, one for each worker; each is single-threaded.
 
     workers: how many at a time, from 1, by default as many as there are processors. With --backend cuda one worker does, which
-    computes what it is given together. arguments: more arguments of `natator-sim serve`. To be closed; a context manager.
+    computes what it is given together. arguments: more arguments of `natator-sim serve`. Threads may share one: they take
+    turns. To be closed; a context manager.
     """
 
     def __init__(self, workers=None, arguments=(), program=None):
         count = whole("workers", workers, 1) if workers is not None else _processors()
         self._processes = []
+        self._turn = threading.Lock()
         try:
             for _ in range(count):
                 self._processes.append(programs.start(program, ["serve", *arguments]))
@@ -37,23 +40,28 @@ class Simulator:
         """Results of many requests (make_request, or dicts as request.schema.json describes them), in their order. What
         one request gives does not depend on the others, nor on the number of workers. Raises InputError for the first that
         can't be used: when all are done, or at once where JSON has no form for it. A simulator that is interrupted is closed."""
-        if not self._processes:
-            raise ProgramError("the simulator is closed")
         requests = list(requests)
         lines = [line(dict(request, id=number), f"requests[{number}]" if len(requests) > 1 else "")
                  for number, request in enumerate(requests)]
-        shares = [lines[k::len(self._processes)] for k in range(len(self._processes))]
-        try:
-            with ThreadPoolExecutor(len(shares)) as pool:
-                answers = [answer for part in pool.map(_exchange, self._processes, shares) for answer in part]
-        except BaseException:
-            self._end(patience=0)  # what was not read would be the answers to the next requests
-            raise
+        with self._turn:
+            answers = self._answers(lines)
         answers.sort(key=lambda answer: answer["id"])
         for answer in answers:
             if answer["status"] == "error":
                 raise InputError(answer["error"])
         return answers
+
+    def _answers(self, lines):
+        """Of all programs, in any order."""
+        if not self._processes:
+            raise ProgramError("the simulator is closed")
+        shares = [lines[k::len(self._processes)] for k in range(len(self._processes))]
+        try:
+            with ThreadPoolExecutor(len(shares)) as pool:
+                return [answer for part in pool.map(_exchange, self._processes, shares) for answer in part]
+        except BaseException:
+            self._end(patience=0)  # what was not read would be the answers to the next requests
+            raise
 
     def close(self):
         self._end(patience=10)
