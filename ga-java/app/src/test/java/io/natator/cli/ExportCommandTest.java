@@ -315,12 +315,29 @@ class ExportCommandTest {
         assertThat(folder.resolve("out.partial")).doesNotExist();
     }
 
+    /** A shell that stands in it would be left in a folder that is gone, and see nothing of the export. */
+    @Test
+    void theCurrentFolderIsRefused() throws IOException, InterruptedException {
+        Path current = Files.createDirectory(folder.resolve("out")).toRealPath();
+        Process process = exportTo(".", simulator(whole(1), "exit 0")).directory(current.toFile()).start();
+
+        assertThat(process.waitFor()).isEqualTo(2);
+        assertThat(Files.readString(folder.resolve("log"))).isEqualTo("natator export: output folder . is the current folder, or holds it; "
+                + "expected another, such as " + current.resolve("swim") + "\n");
+        assertThat(folder.resolve("out.partial")).doesNotExist();
+        assertThat(folder.resolve("arguments")).doesNotExist();
+    }
+
+    private ProcessBuilder exportTo(String target, Path simulator) {
+        return new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-cp",
+                System.getProperty("java.class.path"), Main.class.getName(), "export", "test/pool", "--format", "vtp", "--duration", "1",
+                "--simulator-path", simulator.toString(), "--output-dir", target)
+                .redirectErrorStream(true).redirectOutput(folder.resolve("log").toFile());
+    }
+
     /** An export that has written as many frames and waits for more. */
     private Process exportOf50Frames() throws IOException, InterruptedException {
-        Process process = new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-cp",
-                System.getProperty("java.class.path"), Main.class.getName(), "export", "test/pool", "--format", "vtp", "--duration", "1",
-                "--simulator-path", simulator(frames(50), "sleep 3600").toString(), "--output-dir", folder.resolve("out").toString())
-                .redirectErrorStream(true).redirectOutput(folder.resolve("log").toFile()).start();
+        Process process = exportTo(folder.resolve("out").toString(), simulator(frames(50), "sleep 3600")).start();
         Path last = folder.resolve("out.partial/water/water_000049.vtp");
         while (process.isAlive() && !Files.exists(last)) {
             Thread.sleep(10);

@@ -2,6 +2,7 @@ package io.natator.export;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.checkpoint.RunFolder;
+import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.file.OutputFolder;
@@ -34,6 +35,7 @@ final class ExportFolder implements Closeable {
 
     private final Path target;
     private final Path partial;
+    private final Path replaced;
     private final FileChannel lock;
     private final ProgramEnd end = new ProgramEnd(Thread.currentThread()::interrupt, () -> { });
     private boolean committed;
@@ -41,6 +43,7 @@ final class ExportFolder implements Closeable {
     private ExportFolder(Path target, Path partial, FileChannel lock) {
         this.target = target;
         this.partial = partial;
+        this.replaced = target.resolveSibling(target.getFileName() + ".replaced");
         this.lock = lock;
     }
 
@@ -74,12 +77,20 @@ final class ExportFolder implements Closeable {
             throw new InvalidInputException("another export to " + folder + " is being written", e);
         }
         ExportFolder fresh = new ExportFolder(target, partial, lock);
-        for (Path old : contents(partial)) {
-            if (!old.equals(partial.resolve(LOCK))) {
-                delete(old);
+        try {
+            for (Path old : contents(partial)) {
+                if (!old.equals(partial.resolve(LOCK))) {
+                    delete(old);
+                }
             }
+            if (Files.exists(target)) {
+                fresh.failUnlessMovable(folder);
+            }
+            return fresh;
+        } catch (IOException | InvalidInputException e) {
+            fresh.close();
+            throw e;
         }
-        return fresh;
     }
 
     /** Where a link leads: a folder cannot take a link's name. */
@@ -109,6 +120,24 @@ final class ExportFolder implements Closeable {
         }
     }
 
+    /** What is there makes room for the export at its end: whether it can is tried before anything is computed. */
+    private void failUnlessMovable(Path folder) throws IOException {
+        if (Path.of("").toRealPath().startsWith(target)) {
+            throw new InvalidInputException("output folder " + folder + " is the current folder, or holds it; expected another, such as "
+                    + target.resolve("swim"));
+        }
+        if (RunFolder.isOccupied(replaced)) {
+            throw new InvalidInputException(replaced + " is in the way; remove it");
+        }
+        try {
+            Files.move(target, replaced, StandardCopyOption.ATOMIC_MOVE);
+            Files.move(replaced, target, StandardCopyOption.ATOMIC_MOVE);
+        } catch (IOException e) {
+            throw new InvalidInputException("output folder " + folder + " cannot be replaced: " + FileErrors.whyNotMade(target, e)
+                    + "; expected another, such as " + target.resolve("swim"), e);
+        }
+    }
+
     /** Names of all files in a folder and in its folders, in order, with slashes between; none of a lock. */
     static List<String> files(Path folder) throws IOException {
         try (Stream<Path> all = Files.walk(folder)) {
@@ -124,11 +153,9 @@ final class ExportFolder implements Closeable {
 
     /** Gives the folder its name; an earlier export goes. */
     void commit() throws IOException {
-        Path replaced = target.resolveSibling(target.getFileName() + ".replaced");
         Files.delete(partial.resolve(LOCK));
         boolean occupied = RunFolder.isOccupied(target);
         if (occupied) {
-            delete(replaced);
             Files.move(target, replaced, StandardCopyOption.ATOMIC_MOVE);
         }
         Files.move(partial, target, StandardCopyOption.ATOMIC_MOVE);

@@ -121,4 +121,16 @@ class ExportFolderTest {
                 .hasMessage(partial + " is in the way; remove it");
         assertThat(partial.resolve("mine")).exists();
     }
+
+    @Test
+    void whatHasTheNameThatTheReplacedExportGetsIsNotRemoved() throws IOException {
+        write("{\"files\":[\"metadata.json\"]}", false);
+        Path mine = Files.writeString(Files.createDirectories(parent.resolve("swim.replaced")).resolve("mine"), "x");
+
+        assertThatThrownBy(() -> ExportFolder.begin(target, true)).isInstanceOf(InvalidInputException.class)
+                .hasMessage(mine.getParent() + " is in the way; remove it");
+        assertThat(mine).exists();
+        assertThat(target.resolve(ExportFolder.METADATA)).exists();
+        assertThat(partial).doesNotExist();
+    }
 }
