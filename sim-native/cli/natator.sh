@@ -38,6 +38,11 @@ else
     echo "natator: no java on the PATH nor in JAVA_HOME: install a Java runtime, version 17 or later" >&2
     exit 1
 fi
+# Java takes file names for text in the locale's characters: without a locale, as under cron or in a container, and in one that
+# is not installed these are ASCII's alone.
+case $(locale charmap 2>/dev/null) in
+    ANSI_X3.4-1968 | US-ASCII) export LC_ALL=C.UTF-8 ;;
+esac
 # How it was called, for the commands that it suggests: a name that the PATH leads to is given to this script as a path.
 command=$0
 name=${0##*/}

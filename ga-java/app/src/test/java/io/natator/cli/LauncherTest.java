@@ -10,6 +10,8 @@ import java.nio.file.StandardCopyOption;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 /** The script {@code natator}, which starts this program: how it says that it was called. Its Java only tells its arguments. */
 class LauncherTest {
@@ -47,5 +49,24 @@ class LauncherTest {
     @Test
     void byAPathItIsThatPath() throws IOException, InterruptedException {
         assertThat(said("./natator new scene minnow")).isEqualTo("-Dnatator.command=./natator");
+    }
+
+    /** As under cron and in containers, and where the locale is not installed. */
+    @ParameterizedTest
+    @ValueSource(strings = {"C", "POSIX", "xx_XX.UTF-8", ""})
+    void namesOfFilesNeedNoLocale(String locale) throws IOException, InterruptedException {
+        String java = Path.of(System.getProperty("java.home"), "bin", "java").toString();
+        Files.writeString(folder.resolve("java"), "#!/bin/sh\nexec '" + java + "' -XshowSettings:properties -version 2>&1\n");
+
+        assertThat(said("unset LANG LC_CTYPE; LC_ALL=" + locale + " ./natator show run")).contains("sun.jnu.encoding = UTF-8");
+    }
+
+    @Test
+    void aLocaleThatKnowsMoreThanAsciiIsKept() throws IOException, InterruptedException {
+        Files.writeString(folder.resolve("java"), "#!/bin/sh\necho \"$LC_ALL\"\n");
+        Path locale = Files.writeString(folder.resolve("locale"), "#!/bin/sh\necho ISO-8859-1\n");
+        assertThat(locale.toFile().setExecutable(true)).isTrue();
+
+        assertThat(said("LC_ALL=de_DE ./natator show run")).isEqualTo("de_DE");
     }
 }
