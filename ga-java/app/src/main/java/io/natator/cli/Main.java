@@ -3,6 +3,7 @@ package io.natator.cli;
 import java.io.PrintWriter;
 import java.nio.charset.Charset;
 import java.nio.charset.StandardCharsets;
+import java.util.Locale;
 import java.util.concurrent.Callable;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
@@ -49,6 +50,7 @@ public final class Main implements Callable<Integer> {
      */
     public static void run(CommandLine command, String[] arguments) {
         System.setProperty("java.awt.headless", "true");
+        Locale.setDefault(Locale.ROOT);  // others write numbers in digits and with signs of their own
         if (Charset.defaultCharset().equals(StandardCharsets.US_ASCII)) {
             // A container without a locale: terminals show UTF-8 there too, and the signs in texts (±) are no question marks.
             command.setOut(new PrintWriter(System.out, true, StandardCharsets.UTF_8));
