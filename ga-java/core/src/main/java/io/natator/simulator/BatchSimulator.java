@@ -6,6 +6,7 @@ import io.natator.simulator.BatchJob.Reply;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicReference;
 import java.util.function.Consumer;
 
 /**
@@ -20,6 +21,8 @@ public final class BatchSimulator implements Evaluator {
     private final ProcessGroup group = new ProcessGroup();
     private final BatchQueue queue = new BatchQueue();
     private final List<Thread> threads = new ArrayList<>();
+    /** What ended a thread that computes batches, which nobody foresaw: that memory ran out, say. */
+    private final AtomicReference<Throwable> failure = new AtomicReference<>();
 
     /**
      * A simulator whose processes are started when they are needed.
@@ -33,6 +36,7 @@ public final class BatchSimulator implements Evaluator {
         }
         for (Thread thread : threads) {
             thread.setDaemon(true);
+            thread.setUncaughtExceptionHandler((ended, reason) -> failure.compareAndSet(null, reason));
             thread.start();
         }
     }
@@ -47,6 +51,7 @@ public final class BatchSimulator implements Evaluator {
                 Reply reply = null;
                 while (reply == null) {
                     group.failIfStopped();
+                    failIfThreadFailed();
                     reply = call.replies().poll(POLL_MILLISECONDS, TimeUnit.MILLISECONDS);
                 }
                 if (reply.rejection() != null) {
@@ -56,6 +61,16 @@ public final class BatchSimulator implements Evaluator {
             }
         } finally {
             call.abandon();
+        }
+    }
+
+    /** Whom a thread that has ended worked for would wait for ever. */
+    private void failIfThreadFailed() {
+        if (failure.get() instanceof Error lacking) {
+            throw lacking;
+        }
+        if (failure.get() instanceof RuntimeException unforeseen) {
+            throw unforeseen;
         }
     }
 

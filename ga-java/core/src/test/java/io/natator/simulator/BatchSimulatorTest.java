@@ -4,6 +4,11 @@ import static io.natator.simulator.Processes.assertThatNoChildIsLeft;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import com.fasterxml.jackson.core.JsonGenerator;
+import com.fasterxml.jackson.databind.JsonSerializable;
+import com.fasterxml.jackson.databind.SerializerProvider;
+import com.fasterxml.jackson.databind.jsontype.TypeSerializer;
+import com.fasterxml.jackson.databind.node.POJONode;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.simulator.SimulationResult.Status;
@@ -114,6 +119,28 @@ class BatchSimulatorTest {
         try (Evaluator evaluator = new BatchSimulator(execution)) {
             assertThatThrownBy(() -> evaluator.evaluate(FakeSimulator.request(1, "thesis/creature-1")))
                     .isInstanceOf(RequestRejectedException.class).hasMessageStartingWith("cannot start ");
+        }
+    }
+
+    /** Whoever asks then, or later, would wait for ever. */
+    @Test
+    void whatEndsTheThreadThatComputesIsToldToAll() {
+        SimulationRequest tooLarge = FakeSimulator.request(1, "thesis/creature-1").withOverrides(new POJONode(new JsonSerializable.Base() {
+            @Override
+            public void serialize(JsonGenerator generator, SerializerProvider serializers) {
+                throw new OutOfMemoryError("no room for a line");
+            }
+
+            @Override
+            public void serializeWithType(JsonGenerator generator, SerializerProvider serializers, TypeSerializer type) {
+                serialize(generator, serializers);
+            }
+        }));
+        try (Evaluator evaluator = new BatchSimulator(FakeSimulator.execution(folder, PATIENCE))) {
+            for (SimulationRequest request : List.of(tooLarge, FakeSimulator.request(2, "thesis/creature-1"))) {
+                assertThatThrownBy(() -> evaluator.evaluate(request)).isInstanceOf(OutOfMemoryError.class)
+                        .hasMessage("no room for a line");
+            }
         }
     }
 
