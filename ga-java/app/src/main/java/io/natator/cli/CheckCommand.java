@@ -59,7 +59,7 @@ final class CheckCommand implements Callable<Integer> {
         }
         StoredRun run = Archipelago.stored(folder);
         if (run.best() == null) {
-            throw new InvalidInputException(folder + " has no best gait yet; finish it by natator resume");
+            throw new InvalidInputException(run.whyNoBest());
         }
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(

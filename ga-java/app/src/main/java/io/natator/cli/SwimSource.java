@@ -83,8 +83,7 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
     private static Swimmer best(StoredRun run, Integer generation) {
         if (generation == null) {
             if (run.best() == null) {
-                throw new InvalidInputException(run.directory()
-                        + " has no best gait yet; finish it by natator resume, or give one by --gait");
+                throw new InvalidInputException(run.whyNoBest() + "; or give a gait by --gait");
             }
             return run.best().swimmer();
         }

@@ -208,11 +208,27 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(err.toString()).isEqualTo("natator report: " + folder.resolve("run") + " has no checkpoint yet; finish it by natator resume\n");
     }
 
-    /** What else is wrong with the run does not matter then. */
-    @Test
-    void noReportWithoutABestGaitIsOneLine() throws IOException {
+    /** What else is wrong with the run does not matter then. To finish what is finished would not help. */
+    @ParameterizedTest
+    @ValueSource(strings = {"report", "check"})
+    void withoutABestGaitIsOneLine(String command) throws IOException {
         assertThat(evolve("run", "--scene", "fault/unstable")).isZero();
         Files.delete(folder.resolve("run/evaluations.jsonl"));
+        forget();
+
+        assertThat(natator(command, folder.resolve("run").toString())).isEqualTo(2);
+
+        assertThat(err.toString()).isEqualTo("natator " + command + ": " + folder.resolve("run")
+                + " has no best gait: of its 42 evaluations none was measured, all were unstable, refused or failed; evolve anew, "
+                + "where they were unstable with more solver.substeps in --overrides\n");
+    }
+
+    @Test
+    void whatHasNoBestGaitYetIsToBeFinished() throws IOException {
+        assertThat(evolve("run")).isZero();
+        for (String name : List.of("checkpoint.json", "best.json")) {
+            Files.delete(folder.resolve("run").resolve(name));
+        }
         forget();
 
         assertThat(natator("report", folder.resolve("run").toString())).isEqualTo(2);

@@ -5,6 +5,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
+import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.Departure;
 import io.natator.evolution.EliteMap;
@@ -84,6 +85,16 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return Stream.of(compact ? null : RunFolder.damage(directory, state, recorded.end()), RunFolder.damage(directory, recorded),
                 RunFolder.damage(directory, settings.migration(), state, departures(directory).size()))
                 .filter(Objects::nonNull).findFirst().orElse(null);
+    }
+
+    /** Why there is no best gait, and what helps, in one line; null if there is one. */
+    public String whyNoBest() {
+        if (best != null) {
+            return null;
+        }
+        return state == null || !state.isLastOf(settings) ? directory + " has no best gait yet; finish it by natator resume"
+                : directory + " has no best gait: of its " + Numbers.count(state.evaluations(), "evaluation") + " none was measured, "
+                        + "all were unstable, refused or failed; evolve anew, where they were unstable with more solver.substeps in --overrides";
     }
 
     /**

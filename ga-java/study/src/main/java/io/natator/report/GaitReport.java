@@ -55,9 +55,11 @@ public final class GaitReport {
      * @throws InvalidInputException if the run has no best gait or no checkpoint yet, or the folder has a page of somebody's own
      */
     public GaitReport(StoredRun run, Path folder) {
-        if (run.best() == null || run.state() == null) {
-            throw new InvalidInputException(run.directory() + " has no " + (run.best() == null ? "best gait" : "checkpoint")
-                    + " yet; finish it by natator resume");
+        if (run.best() == null) {
+            throw new InvalidInputException(run.whyNoBest());
+        }
+        if (run.state() == null) {
+            throw new InvalidInputException(run.directory() + " has no checkpoint yet; finish it by natator resume");
         }
         GeneratedPage.check(folder);
         this.run = run;
