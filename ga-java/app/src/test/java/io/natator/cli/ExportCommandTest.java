@@ -5,6 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.JavaCommand;
 import io.natator.config.Json;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.GenerationSummary;
@@ -329,9 +330,8 @@ class ExportCommandTest {
     }
 
     private ProcessBuilder exportTo(String target, Path simulator) {
-        return new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-cp",
-                System.getProperty("java.class.path"), Main.class.getName(), "export", "test/pool", "--format", "vtp", "--duration", "1",
-                "--simulator-path", simulator.toString(), "--output-dir", target)
+        return new ProcessBuilder(JavaCommand.of(Main.class, "export", "test/pool", "--format", "vtp", "--duration", "1",
+                "--simulator-path", simulator.toString(), "--output-dir", target))
                 .redirectErrorStream(true).redirectOutput(folder.resolve("log").toFile());
     }
 

@@ -4,6 +4,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assumptions.assumeThat;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.JavaCommand;
 import io.natator.stream.StreamBytes;
 import java.io.File;
 import java.io.IOException;
@@ -232,10 +233,9 @@ class ExportReadersTest {
     @Test
     void memoryDoesNotGrowWithTheDuration() throws IOException, InterruptedException {
         Path log = folder.resolve("log");
-        int status = run(log.toFile(), Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-Xmx18m",
-                "-XX:+UseSerialGC", "-cp", System.getProperty("java.class.path"), Main.class.getName(), "export",
-                "thesis/tank", "--format", "npz", "--duration", "4", "--overrides", "{\"solver\":{\"substeps\":1}}",
-                "--simulator-path", SIMULATOR.toString(), "--output-dir", folder.resolve("long").toString());
+        int status = run(log.toFile(), JavaCommand.within(18, Main.class, "export", "thesis/tank", "--format", "npz", "--duration", "4",
+                "--overrides", "{\"solver\":{\"substeps\":1}}", "--simulator-path", SIMULATOR.toString(), "--output-dir",
+                folder.resolve("long").toString()).toArray(String[]::new));
 
         assertThat(status).as(Files.readString(log)).isZero();
         assertThat(Files.size(folder.resolve("long/swim.npz"))).isGreaterThan(2 * (18L << 20));

@@ -2,10 +2,10 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.JavaCommand;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.CountDownLatch;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -42,9 +42,7 @@ class InterruptedCommandTest extends FakeSimulatorTest {
     @ValueSource(strings = {"picture pool/eel --output NEW.png", "export pool/eel --format csv --output-dir NEW"})
     void whatTheyWereDoingIsNoFailure(String command) throws IOException, InterruptedException {
         String name = command.split(" ")[0];
-        List<String> words = new ArrayList<>(List.of(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-cp",
-                System.getProperty("java.class.path"), Patient.class.getName()));
-        words.addAll(List.of(command.replace("NEW", folder.resolve("new").toString()).split(" ")));
+        List<String> words = JavaCommand.of(Patient.class, command.replace("NEW", folder.resolve("new").toString()).split(" "));
         words.addAll(List.of("--simulator-path", folder.resolve("fake-simulator.sh").toString()));
         Path log = folder.resolve("log");
         Process process = new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(log.toFile()).start();

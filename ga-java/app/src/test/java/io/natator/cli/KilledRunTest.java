@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.JavaCommand;
 import io.natator.simulator.FakeSimulator;
 import java.io.IOException;
 import java.io.PrintWriter;
@@ -53,10 +54,7 @@ class KilledRunTest {
     }
 
     private List<String> command(String name, String... arguments) {
-        List<String> command = new ArrayList<>(List.of(
-                Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-XX:TieredStopAtLevel=1",
-                "-XX:-UsePerfData", "-XX:+UseSerialGC", "-cp", System.getProperty("java.class.path"), Main.class.getName(), name,
-                "--simulator-path", folder.resolve("fake-simulator.sh").toString()));
+        List<String> command = JavaCommand.of(Main.class, name, "--simulator-path", folder.resolve("fake-simulator.sh").toString());
         command.addAll(List.of(arguments));
         return command;
     }

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.JavaCommand;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -76,12 +77,7 @@ class TutorialTest {
 
     private Process start(String command) throws IOException {
         List<String> words = new ArrayList<>(List.of(command.split(" +")));
-        if (words.remove(0).equals("natator")) {
-            words.addAll(0, List.of(Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                    "-XX:TieredStopAtLevel=1", "-XX:+UseSerialGC", "-cp", System.getProperty("java.class.path"), Main.class.getName()));
-        } else {
-            words.add(0, SIMULATOR.toString());
-        }
+        words.addAll(0, words.remove(0).equals("natator") ? JavaCommand.of(Main.class) : List.of(SIMULATOR.toString()));
         ProcessBuilder builder = new ProcessBuilder(words).directory(folder.toFile()).redirectErrorStream(true)
                 .redirectOutput(folder.resolve("said.txt").toFile());
         builder.environment().put("NATATOR_SIM", SIMULATOR.toString());

@@ -3,6 +3,7 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.JavaCommand;
 import io.natator.config.Json;
 import io.natator.simulator.FakeSimulator;
 import java.io.BufferedReader;
@@ -55,10 +56,7 @@ class ViewCommandTest {
     }
 
     private URI startAt(String host, String... arguments) throws IOException {
-        List<String> command = new ArrayList<>(List.of(
-                Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-XX:TieredStopAtLevel=1",
-                "-XX:-UsePerfData", "-XX:+UseSerialGC", "-cp", System.getProperty("java.class.path"),
-                Main.class.getName(), "view", "--simulator-path", SIMULATOR, "--port", "0", "--no-browser"));
+        List<String> command = JavaCommand.of(Main.class, "view", "--simulator-path", SIMULATOR, "--port", "0", "--no-browser");
         command.addAll(List.of(arguments));
         program = new ProcessBuilder(command).redirectError(folder.resolve("errors").toFile()).start();
         BufferedReader out = program.inputReader();

@@ -2,9 +2,9 @@ package io.natator.simulator;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import io.natator.JavaCommand;
 import java.io.BufferedReader;
 import java.io.IOException;
-import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import org.junit.jupiter.api.Test;
@@ -33,8 +33,7 @@ class ProcessGroupTest {
     void whatAGroupWithinAGroupLeavesBehindIsEnded() throws InterruptedException, IOException {
         ProcessHandle left;
         try (ProcessGroup group = new ProcessGroup()) {
-            Process inner = group.start(List.of(Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                    "-cp", System.getProperty("java.class.path"), Inner.class.getName()));
+            Process inner = group.start(JavaCommand.of(Inner.class));
             try (BufferedReader output = inner.inputReader()) {
                 left = ProcessHandle.of(Long.parseLong(output.readLine())).orElseThrow();
             }
