@@ -130,12 +130,4 @@ public final class Charts {
     private static Marker marker(int number) {
         return MARKERS[number % MARKERS.length];
     }
-
-    /** Adds a thin line that belongs to an axis of its own, on the right. */
-    public static void addOnTheRight(XYChart chart, String name, double[] x, double[] y, String title, Color colour, int dashes) {
-        XYSeries series = chart.addSeries(name, x, y);
-        series.setMarker(SeriesMarkers.NONE).setLineColor(colour).setLineStyle(stroke(dashes, 1f)).setYAxisGroup(1);
-        chart.setYAxisGroupTitle(1, title);
-        chart.getStyler().setYAxisGroupPosition(1, Styler.YAxisPosition.Right);
-    }
 }
