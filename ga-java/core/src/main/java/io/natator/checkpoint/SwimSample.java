@@ -83,6 +83,11 @@ public record SwimSample(int substeps, int runs, double completed, Map<String, I
         return known.isEmpty() ? null : Spread.of(known).mean();
     }
 
+    /** Whether most of its runs ended by touching a wall. */
+    public boolean endsAtWall() {
+        return mostlyStopped().equals(SimulationResult.AT_WALL);
+    }
+
     /** How most runs ended. */
     public String mostlyStopped() {
         return stopped.entrySet().stream().max(Map.Entry.comparingByValue()).orElseThrow().getKey();

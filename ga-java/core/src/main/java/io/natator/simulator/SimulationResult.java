@@ -42,6 +42,9 @@ public record SimulationResult(Long id, Status status, Double distance, String s
         Effort effort)
         implements SimulationResultBuilder.With {
 
+    /** Why a simulation ended that {@code stopping.planeContact} ended: its body touched a wall. */
+    public static final String AT_WALL = "touched-plane";
+
     /** Copies the lists. What is {@code ok} has to have a distance and a time. */
     public SimulationResult {
         Objects.requireNonNull(status, "status");

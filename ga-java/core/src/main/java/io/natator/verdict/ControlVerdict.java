@@ -35,7 +35,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: the acceleration clamp moves it; without, "
                     + percent(left(clampOff, controls)) + " of its way is left");
         }
-        String end = isAtWall(controls) ? Verdict.UNTIL_WALL : "";
+        String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
         List<String> doubts = doubts(controls, net, unit);
         return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls))
                 : new ControlVerdict(Verdict.Kind.UNPROVEN, "may swim: " + speed + end + "; but " + String.join("; ", doubts));
@@ -46,7 +46,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         if (!Verdict.getsFar(net, controls.error(), unit)) {
             doubts.add("its runs differ too much to tell");
         }
-        if (isAtWall(controls) && controls.water().distance().mean() / unit < Verdict.WAY_TO_WALL) {
+        if (controls.water().endsAtWall() && controls.water().distance().mean() / unit < Verdict.WAY_TO_WALL) {
             doubts.add("the wall is nearer than " + Verdict.WAY_TO_WALL + (unit == 1 ? " units" : " body lengths"));
         }
         if (drift(controls) + error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
@@ -73,10 +73,6 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         if (sample != null && left(sample, controls) < Verdict.LEAST_LEFT) {
             doubts.add(where + " " + percent(left(sample, controls)) + " of its way is left");
         }
-    }
-
-    private static boolean isAtWall(Controls controls) {
-        return controls.water().mostlyStopped().equals(Verdict.AT_WALL);
     }
 
     private static String reasons(Controls controls) {

@@ -30,8 +30,6 @@ public record Verdict(Kind kind, String text, String advice) {
     static final double DRIFT_ONLY = 0.5;
     /** What touches a wall sooner than this many body lengths (or units) from its start has not shown how it swims. */
     static final double WAY_TO_WALL = 0.5;
-    /** How a swim ends that touches a wall. */
-    static final String AT_WALL = "touched-plane";
     static final String UNTIL_WALL = ", until it touches a wall";
 
     /** A mean is known to so many standard errors. */
@@ -117,7 +115,7 @@ public record Verdict(Kind kind, String text, String advice) {
                     + seconds(water.simulated()), LONGER);
         }
         String end = "";
-        if (water.stopped().equals(AT_WALL)) {
+        if (water.stopped().equals(SimulationResult.AT_WALL)) {
             end = UNTIL_WALL + (water.fresh() == null ? " at " + seconds(water.simulated()) : "");
             if (water.distance() / length.unit() < WAY_TO_WALL) {
                 return unproven("not judged: " + speeds + end, LONGER);

@@ -1,5 +1,6 @@
 package io.natator.study.thesis;
 
+import io.natator.checkpoint.SwimSample;
 import io.natator.kinematics.FishMode;
 import io.natator.plot.Picture;
 import io.natator.report.Charts;
@@ -23,9 +24,6 @@ import org.knowm.xchart.XYChart;
 
 /** The report's first screen: what came of the thesis, in five sentences, a table and a chart. */
 final class Answers {
-
-    /** A mean time below this share of the whole is one that walls ended. */
-    private static final double WHOLE = 0.99;
 
     private final StudyResults results;
     private final ClaimsSection claims;
@@ -104,7 +102,8 @@ final class Answers {
 
     /** Whether its speed is of a shorter time than the whole. */
     private boolean endsAtWall(Subject subject) {
-        return subject.water() == Water.OPEN_WATER && results.lasted(subject).mean() < WHOLE * results.duration();
+        SwimSample swim = results.swim(subject, Condition.WATER);
+        return subject.water() == Water.OPEN_WATER && swim != null && swim.endsAtWall();
     }
 
     private String seconds(Subject subject) {

@@ -3,6 +3,7 @@ package io.natator.study.thesis;
 import io.natator.config.Json;
 import io.natator.config.Numbers;
 import io.natator.report.ReportDocument;
+import io.natator.simulator.SimulationResult;
 import java.util.Arrays;
 import java.util.DoubleSummaryStatistics;
 import java.util.IntSummaryStatistics;
@@ -72,7 +73,7 @@ final class MethodsSection {
     private String sinking() {
         List<Experiment> all = List.of(1, 2, 3, 4).stream().map(results.catalogue()::sinking).toList();
         List<Double> times = all.stream().flatMap(one -> results.measurements().results(one).stream())
-                .filter(one -> "touched-plane".equals(one.stopped())).map(one -> one.simulated()).sorted().toList();
+                .filter(one -> SimulationResult.AT_WALL.equals(one.stopped())).map(one -> one.simulated()).sorted().toList();
         long runs = all.stream().mapToLong(one -> results.measurements().results(one).size()).sum();
         return "Not the thesis' tank in scheme `conserving`: its bodies weigh 1.7 times the water that they displace" + (runs == 0 ? "."
                 : "; " + times.size() + " of " + runs + " runs of its gaits there lie on the floor" + (times.isEmpty() ? "." : " after "

@@ -163,7 +163,8 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
         return verdict(subject).filter(verdict -> verdict.kind() != Verdict.Kind.DOES_NOT_SWIM).isPresent();
     }
 
-    private SwimSample swim(Subject subject, Condition condition) {
+    /** All figures of the runs that are measured of a gait; null without any. */
+    SwimSample swim(Subject subject, Condition condition) {
         return measurements.swim(catalogue.of(subject, condition), (condition == Condition.HALF_STEP ? 2 : 1) * Water.SUBSTEPS, duration,
                 length(subject.creature()));
     }
