@@ -108,11 +108,10 @@ const std::vector<Vector3<Real>>& Water<Real>::places_in_tank(const State<Real>&
     return in_tank_;
 }
 
-/// Numbers the slots by cell, first of the particles, then of the images.
+/// The grid, the cells of the particles, and where the slots of each cell begin.
 template <class Real>
-void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
-    const std::vector<Vector3<Real>>& position = places_in_tank(state);
-    const auto& images = images_.of(position, radius_, team);
+void Water<Real>::sort_into_cells(const std::vector<Vector3<Real>>& position, const std::vector<Image>& images,
+                                  ThreadTeam& team) {
     Box<Real> box = bounding_box(position, team);
     for (int axis = 0; axis < 3; ++axis) {
         box.low[axis] -= radius_;  // images that are further out are in the border cells
@@ -131,15 +130,28 @@ void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
         cell_begin_[c + 1] += cell_begin_[c];
         image_cell_begin_[c + 1] += image_cell_begin_[c];
     }
+}
+
+template <class Real>
+void Water<Real>::make_room(std::size_t slots) {
+    if (position_.x.size() >= slots) return;
+    const std::size_t room = round_up_to_block(static_cast<int>(slots + slots / 8));
+    for (auto* array : {&position_, &velocity_}) array->resize(room);
+    for (auto* array : {&volume_, &inverse_mass_, &mobility_, &impulse_}) array->resize(room);
+    for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_, &packed_relief_}) array->resize(4 * room);
+}
+
+/// Numbers the slots by cell, first of the particles, then of the images.
+template <class Real>
+void Water<Real>::lay_out(const State<Real>& state, ThreadTeam& team) {
+    const std::vector<Vector3<Real>>& position = places_in_tank(state);
+    const auto& images = images_.of(position, radius_, team);
+    sort_into_cells(position, images, team);
     far_slot_ = image_begin_ + static_cast<int>(images.size());
 
     const std::size_t all = round_up_to_block(far_slot_ + 1) + lanes;  // what searches may read behind the last slot
-    if (position_.x.size() < all) {
-        const std::size_t room = round_up_to_block(static_cast<int>(all + all / 8));
-        for (auto* array : {&position_, &velocity_}) array->resize(room);
-        for (auto* array : {&volume_, &inverse_mass_, &mobility_, &impulse_}) array->resize(room);
-        for (auto* array : {&packed_, &packed_velocity_, &packed_correction_, &packed_shear_, &packed_relief_}) array->resize(4 * room);
-    }
+    make_room(all);
+    const auto cell = [this](const auto& x) { return grid_.cell(x.x(), x.y(), x.z()); };
     const auto put = [this](int slot, int particle, const auto& x, const auto& v) {
         position_.set(slot, vec3<Real>(x));
         velocity_.set(slot, vec3<Real>(v));

@@ -72,9 +72,13 @@ public:
     std::vector<Vector3<Real>> forces() const;
 
 private:
+    using Image = typename Images<Real>::Image;
+
     /// Where the water has its particles: in a periodic tank all within its ends.
     const std::vector<Vector3<Real>>& places_in_tank(const State<Real>& state);
     void lay_out(const State<Real>& state, ThreadTeam& team);
+    void sort_into_cells(const std::vector<Vector3<Real>>& position, const std::vector<Image>& images, ThreadTeam& team);
+    void make_room(std::size_t slots);
     void list_neighbours(ThreadTeam& team);
     void give_images_corrections(ThreadTeam& team);
     /// Returns whether there are any.
