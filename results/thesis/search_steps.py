@@ -41,7 +41,7 @@ RUNS = {  # substeps x passes over the water, iterations of the solids in each: 
     "2 × 4, 32": (1, steps(2, 4, 32), DURATION),
     "1 × 4, 64": (1, steps(1, 4, 64), DURATION),
     "2 × 1, 128, small tank, 1.75 s": (1, both(small_tank(4, 1, 1.6, 0.5), steps(2, 1, 128)), 1.75),  # as creatures 1, 3 and 4 were searched
-    "2 × 1, 128, narrow tank": (1, both(small_tank(4.5, 1, 1.2, 0.5), steps(2, 1, 128)), DURATION),  # as creature 2 was, and as a new study is
+    "2 × 1, 128, narrow tank": (1, both(small_tank(4.5, 1, 1.2, 0.5), steps(2, 1, 128)), DURATION),  # as creature 2 was
 }
 
 

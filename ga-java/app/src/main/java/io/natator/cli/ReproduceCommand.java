@@ -91,8 +91,8 @@ final class ReproduceCommand implements Callable<Integer> {
 
     @Section(Topic.SCENE)
     @Option(names = "--duration", paramLabel = "SECONDS",
-            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 2.5, or that of the "
-                    + "evolutions in DIR.")
+            description = "Simulated time of a run. Default: the scene's (4); while evolving in open water 1.75, of "
+                    + "creature 2 2.5, or that of the evolutions in DIR.")
     private Double duration;
 
     @Section(Topic.OUTPUT)

@@ -91,7 +91,7 @@ public final class EvolutionPlan {
             for (Water water : waters) {
                 for (int creature : seed <= counts.get(water) ? creatures : List.<Integer>of()) {
                     Path folder = seeds(creature, water, directory).resolve(SEED + seed);
-                    EvolutionSettings settings = size.of(settings(creature, water, simulator), water, evolving(folder, water));
+                    EvolutionSettings settings = size.of(settings(creature, water, simulator), water, evolving(folder, water, creature));
                     runs.add(new EvolvedRun(creature, water, seed,
                             new PlannedRun(settings.withBackend(backend).withSeed(seed), folder)));
                 }
@@ -104,9 +104,9 @@ public final class EvolutionPlan {
     }
 
     /** As in the evolution in a folder, else as in the first seed beside it, else as usual. */
-    private static Water.Evolving evolving(Path folder, Water water) {
+    private static Water.Evolving evolving(Path folder, Water water, int creature) {
         return Stream.of(folder, folder.resolveSibling(SEED + 1)).filter(StoredRun::exists)
-                .map(one -> Water.Evolving.of(StoredRun.settings(one))).findFirst().orElse(water.evolving());
+                .map(one -> Water.Evolving.of(StoredRun.settings(one))).findFirst().orElse(water.evolving(creature));
     }
 
     /** The largest seed of a finished evolution, of any of the creatures; 0 without one. */

@@ -18,7 +18,8 @@ import org.junit.jupiter.api.io.TempDir;
 class EvolutionPlanTest {
 
     private static final Path SIMULATOR = Path.of(System.getProperty("natator.simulator")).normalize();
-    private static final Path FINISHED = Path.of("../../results/thesis/runs/creature-1/flex/seed-1");
+    private static final Path STUDY = Path.of("../../results/thesis");
+    private static final Path FINISHED = STUDY.resolve("runs/creature-1/flex/seed-1");
     private static final EvolutionPlan.Size SIZE = new EvolutionPlan.Size(null, 7, null, null);
 
     @TempDir
@@ -104,9 +105,21 @@ class EvolutionPlanTest {
     @Test
     void searchesReadBackAsTheyWere() throws IOException {
         for (Water water : Water.values()) {
-            JsonNode search = water.evolving().overrides();
-            assertThat(search == null ? null : Json.parse(Json.line(search), JsonNode.class)).isEqualTo(search);
+            for (int creature = 1; creature <= 4; creature++) {
+                JsonNode search = water.evolving(creature).overrides();
+                assertThat(search == null ? null : Json.parse(Json.line(search), JsonNode.class)).isEqualTo(search);
+            }
         }
+    }
+
+    /** The study's one command makes in an empty folder what is committed. */
+    @Test
+    void whatIsCommittedWasEvolvedAsItWouldBeAnew() throws InterruptedException {
+        EvolutionPlan anew = new EvolutionPlan(List.of(1, 2, 3, 4), List.of(Water.values()), 5,
+                new EvolutionPlan.Size(null, 100, null, null), Backend.CUDA, SIMULATOR, folder);
+
+        assertThat(anew.runs()).hasSize(40).allSatisfy(run -> assertThat(run.plan().settings())
+                .isEqualTo(StoredRun.settings(STUDY.resolve(folder.relativize(run.plan().directory())))));
     }
 
     @Test

@@ -26,7 +26,7 @@ class MethodsSectionTest {
     private void evolve(int creature, int generations, double duration) throws IOException {
         Path directory = folder.resolve("runs/creature-" + creature + "/open-water/seed-1");
         EvolutionSettings settings = EvolutionSettings.of("open-water/creature-" + creature, EncodingKind.DENSE, 2).withSize(60, generations)
-                .withScene(Water.OPEN_WATER.scheme(), duration, Water.OPEN_WATER.evolving().overrides());
+                .withScene(Water.OPEN_WATER.scheme(), duration, Water.OPEN_WATER.evolving(1).overrides());
         Files.createDirectories(directory);
         Files.writeString(directory.resolve("config.json"), Json.document(settings));
         Finalists.Finalist gait = new Finalists.Finalist(new Gait(1.0, List.of(0.5, 0.5), List.of(0.0, 0.5)), 1, 2);
