@@ -5,6 +5,7 @@ import io.natator.checkpoint.SwimSample;
 import io.natator.encoding.Gait;
 import io.natator.report.ReportDocument;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 import java.util.Locale;
 import java.util.SortedMap;
@@ -27,14 +28,15 @@ final class WinnersSection {
 
     void add(ReportDocument page) {
         page.heading(2, "What swims");
-        page.text("Speeds in body lengths per second. Re, St and cavities (water at the end that does not follow the body, in volumes of the body): means of the runs in "
-                + "open water, of what may swim; in `flex` there are none.");
+        page.text("Speeds in body lengths per second. Re, St and cavities (water at the end that does not follow the body, in volumes of the body): means of the runs, of "
+                + "what may swim in open water.");
         for (Water water : Water.values()) {
             page.heading(3, water == Water.FLEX ? "The thesis' tank, flex" : "Open water, conserving");
             List<Subject> subjects = results.subjects().filter(subject -> subject.water() == water)
                     .filter(subject -> results.speed(subject).isPresent()).toList();
-            page.table(List.of("creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "Re", "St", "cavities", "lasts (s)"),
-                    subjects.stream().map(this::speeds).toList());
+            List<String> header = new ArrayList<>(List.of("creature", "gait", "speed ± error", "starts", "half step", "half spacing", "per beat", "lasts (s)"));
+            header.addAll(water == Water.OPEN_WATER ? List.of("Re", "St", "cavities") : List.of());
+            page.table(header, subjects.stream().map(this::speeds).toList());
             page.folded("verdicts", inside -> inside.words(List.of("creature", "gait", "verdict"), subjects.stream().map(subject -> List.of(
                     "" + subject.creature(), subject.label(), results.verdict(subject).map(verdict -> Answers.sign(verdict) + " " + verdict.text())
                             .orElse(TableFormat.NOTHING))).toList()));
@@ -84,13 +86,20 @@ final class WinnersSection {
     private List<String> speeds(Subject subject) {
         Speed speed = results.speed(subject).orElseThrow();
         double length = results.bodyLength(subject.creature());
-        SwimSample water = results.controls(subject).map(Controls::water).orElse(null);
-        boolean maySwim = results.maySwim(subject);
-        return List.of("" + subject.creature(), subject.label(), speed.text(length), "± " + TableFormat.shortNumber(speed.scatter() / length),
-                signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
-                TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()), figure(maySwim ? water.reynolds() : null),
-                decimal(maySwim ? water.strouhal() : null), decimal(maySwim ? water.cavities() : null),
-                String.format(Locale.ROOT, "%.1f", results.lasted(subject).mean()));
+        List<String> row = new ArrayList<>(List.of("" + subject.creature(), subject.label(), speed.text(length),
+                "± " + TableFormat.shortNumber(speed.scatter() / length), signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
+                TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()),
+                String.format(Locale.ROOT, "%.1f", results.lasted(subject).mean())));
+        if (subject.water() == Water.OPEN_WATER) {
+            row.addAll(flow(results.maySwim(subject) ? results.controls(subject).orElseThrow().water() : null));
+        }
+        return row;
+    }
+
+    /** Numbers of the water around what may swim; without any, null. */
+    private static List<String> flow(SwimSample swim) {
+        return swim == null ? Collections.nCopies(3, TableFormat.NOTHING)
+                : List.of(figure(swim.reynolds()), decimal(swim.strouhal()), decimal(swim.cavities()));
     }
 
     private static String signed(double change) {
