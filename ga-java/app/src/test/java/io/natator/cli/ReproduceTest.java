@@ -76,6 +76,13 @@ class ReproduceTest {
         Files.delete(run.resolve("finalists.json"));
         assertThat(reproduce(Stream.concat(options.stream(), Stream.of("--generations", "3")).toArray(String[]::new))).isZero();
         assertThat(Files.readAllLines(run.resolve("generations.csv"))).isEqualTo(parts).hasSize(5);
+
+        Path config = run.resolve("config.json");
+        Files.writeString(config, Files.readString(config).replace("\"duration\" : 0.05", "\"duration\" : 0.1"));
+        err.getBuffer().setLength(0);
+        assertThat(reproduce(Stream.concat(options.stream(), Stream.of("--generations", "4")).toArray(String[]::new))).isEqualTo(2);
+        assertThat(err.toString()).endsWith("natator reproduce: " + config + " was edited after the run was begun: duration was 0.05, is now 0.1; "
+                + "expected the settings that it was begun with, or a new run\n");
     }
 
     @Test

@@ -19,9 +19,12 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.function.Consumer;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 import org.slf4j.LoggerFactory;
 
 /** {@code natator resume}: a run that was stopped, moved or damaged goes on. */
@@ -235,6 +238,82 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(files()).isEqualTo(before);
         assertThat(natator("resume", run, "--backend", "cuda")).as(err.toString()).isZero();
         assertThat(files()).isEqualTo(before);
+    }
+
+    /** Generations by other settings are another experiment: their fitnesses do not compare. */
+    @ParameterizedTest
+    @ValueSource(strings = {"finished", "compact", "stopped in the first generation"})
+    void editedSettingsAreRefused(String how) throws IOException {
+        boolean isStopped = how.startsWith("stopped");
+        if (isStopped) {
+            Files.writeString(folder.resolve("slow"), "0.5");
+        }
+        assertThat(evolve("run", "--overrides", "{\"solver\":{\"gravity\":[0,-1,0]}}", "--workers", "1", "--stop-after",
+                isStopped ? "2" : "100")).isZero();
+        Files.deleteIfExists(folder.resolve("slow"));
+        assertThat(folder.resolve("run/checkpoint.json").toFile().exists()).isNotEqualTo(isStopped);
+        if (how.equals("compact")) {
+            CompactRun.compact(folder.resolve("run"));
+        }
+        String run = folder.resolve("run").toString();
+        String config = file("run", "config.json");
+        edit("run/config.json", settings -> {
+            settings.put("duration", 3).put("seed", 6).put("population", 9).put("encoding", "sparse").put("scene", "pool/creature-3").remove("judge");
+            settings.withObject("/overrides/solver").put("substeps", 2).remove("gravity");
+        });
+        Map<String, String> before = files();
+        for (String[] command : new String[][] {{"resume", run, "--generations", "9"}, {"resume", run}, {"evolve", "--resume", run}}) {
+            err.getBuffer().setLength(0);
+            assertThat(natator(command)).isEqualTo(2);
+            assertThat(err.toString()).isEqualTo("natator " + command[0] + ": " + folder.resolve("run/config.json")
+                    + " was edited after the run was begun: scene was \"pool/creature-1\", is now \"pool/creature-3\"; encoding was \"dense\", is "
+                    + "now \"sparse\"; population was 8, is now 9; seed was 5, is now 6; duration was 2.0, is now 3.0; overrides.solver.gravity "
+                    + "was [0,-1,0], is now not set; overrides.solver.substeps was not set, is now 2; expected the settings that it was begun "
+                    + "with, or a new run\n");
+        }
+        assertThat(files()).isEqualTo(before);
+
+        Files.writeString(folder.resolve("run/config.json"), config);
+        assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
+    }
+
+    @Test
+    void howFarARunGoesMayBeEditedAndWhatAnEarlierVersionBeganGoesOn() throws IOException {
+        assertThat(evolve("run")).isZero();
+        edit("run/config.json", settings -> settings.put("generations", 4).put("evaluations", 1000));
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(file("run", "generations.csv").lines()).hasSize(6);
+
+        edit("run/environment.json", environment -> environment.remove("settings"));
+        edit("run/config.json", settings -> settings.put("generations", 5).remove("evaluations"));
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+        assertThat(Json.parse(file("run", "environment.json"), JsonNode.class).get("settings"))
+                .isEqualTo(Json.parse(file("run", "config.json"), JsonNode.class));
+    }
+
+    @Test
+    void editedSettingsOfIslandsAreRefused() throws IOException {
+        assertThat(evolve("run", "--islands", "2", "--migrate-every", "2")).as(err.toString()).isZero();
+        String run = folder.resolve("run").toString();
+        err.getBuffer().setLength(0);
+        edit("run/islands.json", plan -> ((ObjectNode) plan.get("settings")).put("duration", 3));
+        assertThat(natator("resume", run, "--generations", "6")).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run/island-1") + " was begun with other settings: duration was 2.0, "
+                + "is now 3.0; choose another --output-dir, or the options that it was begun with\n");
+        err.getBuffer().setLength(0);
+        for (int i = 1; i <= 2; i++) {
+            edit("run/island-" + i + "/config.json", settings -> settings.put("duration", 3));
+        }
+        assertThat(natator("resume", run, "--generations", "6")).isEqualTo(2);
+        assertThat(err.toString()).isEqualTo("natator resume: " + folder.resolve("run/island-1/config.json") + " was edited after the run was begun: "
+                + "duration was 2.0, is now 3.0; expected the settings that it was begun with, or a new run\n");
+    }
+
+    private void edit(String name, Consumer<ObjectNode> change) throws IOException {
+        Path file = folder.resolve(name);
+        ObjectNode content = Json.read(file, ObjectNode.class, name);
+        change.accept(content);
+        Files.writeString(file, Json.document(content));
     }
 
     private Map<String, String> files() throws IOException {

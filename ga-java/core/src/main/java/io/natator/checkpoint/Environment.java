@@ -2,6 +2,7 @@ package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.config.Backend;
+import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.SimulatorMode;
 import java.nio.file.Path;
@@ -10,8 +11,8 @@ import java.time.temporal.ChronoUnit;
 import java.util.List;
 
 /**
- * Where and how a run was carried out; {@code environment.json}. Nothing in it changes the outcome but the simulator's
- * build.
+ * Where and how a run was carried out, and by which settings; {@code environment.json}. Nothing else in it changes the outcome
+ * but the simulator's build.
  *
  * @param natator         version of this program
  * @param simulator       path of the native program, relative to the working directory
@@ -29,19 +30,23 @@ import java.util.List;
  * @param system          operating system and processor architecture
  * @param processors      processors available
  * @param started         when this was written
+ * @param settings        of the run, by which a {@code config.json} that was edited since is noticed; null of what is no run
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record Environment(String natator, String simulator, String simulatorSha256, String version, String commit,
         String instructionSet, SimulatorMode mode, Backend backend, List<Integer> devices, String gpu,
-        int workers, double timeoutSeconds, String java, String system, int processors, String started) {
+        int workers, double timeoutSeconds, String java, String system, int processors, String started,
+        EvolutionSettings settings) {
 
     /**
      * The present environment.
      *
+     * @param settings of the run, or null
+     *
      * @throws io.natator.simulator.RequestRejectedException if the simulator cannot be run
      * @throws InterruptedException                          if the calling thread is interrupted
      */
-    public static Environment present(ExecutionSettings execution) throws InterruptedException {
+    public static Environment present(ExecutionSettings execution, EvolutionSettings settings) throws InterruptedException {
         Program program = Program.at(execution.simulator(), execution.backend(), execution.device());
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
@@ -50,7 +55,7 @@ public record Environment(String natator, String simulator, String simulatorSha2
                 execution.timeout().toMillis() / 1000.0,
                 Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
-                Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString());
+                Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString(), settings);
     }
 
     private static String fromWorkingDirectory(Path path) {

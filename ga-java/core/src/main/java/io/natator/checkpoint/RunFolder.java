@@ -9,6 +9,7 @@ import io.natator.config.Json;
 import io.natator.config.Migration;
 import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
+import io.natator.config.SettingsChange;
 import io.natator.evolution.Departure;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
@@ -159,10 +160,11 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     /**
      * Opens the folder of an earlier run to continue it.
      *
-     * @throws InvalidInputException if it is not one, is damaged, or is in use
+     * @throws InvalidInputException if it is not one, is damaged, or is in use; or if its settings are not those that it was begun with
      */
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
+        folder.refuse(change(directory, folder.settings));
         folder.refuse(folder.checkpoint != null && folder.checkpoint.population().isEmpty()
                 ? directory + " has no population any more, which it would go on from: it lacks " + CompactRun.WHOLE
                 : damage(directory, folder.checkpoint, folder.recorded().end()));
@@ -184,6 +186,14 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             close();
             throw new InvalidInputException(wrong);
         }
+    }
+
+    /** Which settings were edited since the run computed by them, in one line; null if none were, or none are recorded. */
+    private static String change(Path directory, EvolutionSettings settings) {
+        EvolutionSettings before = StoredRun.settingsBefore(directory);
+        String change = before == null ? "" : SettingsChange.withinRun(before, settings);
+        return change.isEmpty() ? null : directory.resolve(CONFIG) + " was edited after the run was begun: " + change
+                + "; expected the settings that it was begun with, or a new run";
     }
 
     /**

@@ -1,5 +1,6 @@
 package io.natator.checkpoint;
 
+import com.fasterxml.jackson.annotation.JsonIgnoreProperties;
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
@@ -111,6 +112,17 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
             throw new InvalidInputException(directory + " is not a run folder: it has no " + RunFolder.CONFIG);
         }
         return Json.read(directory.resolve(RunFolder.CONFIG), EvolutionSettings.class, "settings");
+    }
+
+    /** Those by which the run has computed as yet; null if it has not begun, or an earlier version began it. */
+    static EvolutionSettings settingsBefore(Path directory) {
+        Begun begun = optional(directory, RunFolder.ENVIRONMENT, Begun.class);
+        return begun == null ? null : begun.settings();
+    }
+
+    /** What {@code environment.json} tells of the settings. */
+    @JsonIgnoreProperties(ignoreUnknown = true)
+    private record Begun(EvolutionSettings settings) {
     }
 
     private static <T> T optional(Path directory, String name, Class<T> type) {

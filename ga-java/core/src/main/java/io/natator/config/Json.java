@@ -83,6 +83,11 @@ public final class Json {
         return MAPPER.treeToValue(node, type);
     }
 
+    /** The value as it would be written. */
+    public static JsonNode tree(Object value) {
+        return MAPPER.valueToTree(value);
+    }
+
     /**
      * Reads one value that the user gave.
      *

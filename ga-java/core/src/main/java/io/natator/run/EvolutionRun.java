@@ -128,7 +128,7 @@ public final class EvolutionRun {
     Outcome run(ExecutionSettings execution, Evaluator evaluator, Exchange exchange, EvolutionListener... listeners)
             throws InterruptedException {
         if (!StoredRun.isFinished(folder.directory())) {
-            folder.write(Environment.present(execution));
+            folder.write(Environment.present(execution, settings));
         }
         if (evaluator instanceof CachedEvaluator shared) {
             CachedEvaluator own = shared.counting();

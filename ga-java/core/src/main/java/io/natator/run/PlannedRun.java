@@ -3,6 +3,7 @@ package io.natator.run;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.SettingsChange;
 import java.nio.file.Path;
 
 /**
@@ -39,9 +40,9 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
 
     private void check(RunFolder folder, EvolutionSettings wanted) {
         EvolutionSettings stored = folder.settings();
-        boolean isSame = (isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored).equals(wanted);
-        folder.refuse(isSame ? null : directory + " was begun with other settings; choose another --output-dir, "
-                + "or the options that it was begun with");
+        EvolutionSettings extended = isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored;
+        folder.refuse(extended.equals(wanted) ? null : directory + " was begun with other settings: " + SettingsChange.between(extended, wanted)
+                + "; choose another --output-dir, or the options that it was begun with");
         if (isShorter(stored)) {
             folder.checkMoreGenerations();
         }

@@ -340,7 +340,7 @@ class IslandsRunTest {
         Archipelago extended = archipelago.withGenerations(4);
 
         assertThatThrownBy(() -> IslandsRun.change(extended)).isInstanceOf(InvalidInputException.class)
-                .hasMessageStartingWith(archipelago.folder(3) + " was begun with other settings");
+                .hasMessageStartingWith(third + " was edited after the run was begun: seed was 5, is now 55; ");
         assertThat(Archipelago.in(archipelago.directory())).isEqualTo(archipelago);
         extended.withBackend(Backend.AUTO).write();
         assertThatThrownBy(() -> run(Archipelago.in(archipelago.directory()), new WorkerPool(new ToySimulator(), 2)))

@@ -3,6 +3,7 @@ package io.natator.study.optimizer;
 import io.natator.checkpoint.RunFolder;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.SettingsChange;
 import io.natator.file.JsonLines;
 import io.natator.study.KeyedLog;
 import java.io.IOException;
@@ -51,7 +52,8 @@ final class RunSummaries {
         }
         if (!found.settings().equals(settings)) {
             throw new InvalidInputException(file + ": " + variant.label() + ", seed " + settings.seed()
-                    + " was begun with other settings; choose another --output-dir, or the options that it was begun with");
+                    + " was begun with other settings: " + SettingsChange.between(found.settings(), settings)
+                    + "; choose another --output-dir, or the options that it was begun with");
         }
         return found;
     }

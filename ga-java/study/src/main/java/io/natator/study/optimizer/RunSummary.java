@@ -3,6 +3,7 @@ package io.natator.study.optimizer;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.FreshRuns;
 import io.natator.checkpoint.Leader;
@@ -19,7 +20,7 @@ import java.util.List;
  *
  * @param optimizer    label of the variant
  * @param settings     all that determines the run
- * @param environment  where it was carried out, as {@code environment.json}
+ * @param environment  where it was carried out, as {@code environment.json}, without the settings
  * @param statistics   what it did not have to simulate, as {@code savings.json}; null if that was not recorded
  * @param best         its best gait, or null if there is none
  * @param generations  figures of each
@@ -54,7 +55,11 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
                     one.genes().equals(before) ? null : one.genes()));
             before = one.genes();
         }
-        return new RunSummary(optimizer, run.settings(), run.document("environment.json"),
+        JsonNode environment = run.document("environment.json");
+        if (environment instanceof ObjectNode all) {
+            all.remove("settings");  // which stand beside it
+        }
+        return new RunSummary(optimizer, run.settings(), environment,
                 run.document("savings.json"), run.best(), run.state() == null ? List.of() : run.state().history(), improvements);
     }
 
