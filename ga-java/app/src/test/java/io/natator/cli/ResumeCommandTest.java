@@ -272,6 +272,9 @@ class ResumeCommandTest extends FakeSimulatorTest {
                     + "with, or a new run\n");
         }
         assertThat(files()).isEqualTo(before);
+        err.getBuffer().setLength(0);
+        assertThat(natator("show", run)).isZero();
+        assertThat(err.toString()).startsWith("natator show: ").contains("config.json was edited after the run was begun: scene was").hasLineCount(1);
 
         Files.writeString(folder.resolve("run/config.json"), config);
         assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();

@@ -189,7 +189,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     }
 
     /** Which settings were edited since the run computed by them, in one line; null if none were, or none are recorded. */
-    private static String change(Path directory, EvolutionSettings settings) {
+    static String change(Path directory, EvolutionSettings settings) {
         EvolutionSettings before = StoredRun.settingsBefore(directory);
         String change = before == null ? "" : SettingsChange.withinRun(before, settings);
         return change.isEmpty() ? null : directory.resolve(CONFIG) + " was edited after the run was begun: " + change

@@ -78,12 +78,12 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /**
-     * What of the run is lost though nobody trimmed it, or stands where it should not, in one line; null if nothing is. It was
-     * trimmed where there is no population either; {@link CompactRun}.
+     * What of the run is lost though nobody trimmed it, stands where it should not or was edited, in one line; null if nothing is.
+     * It was trimmed where there is no population either; {@link CompactRun}.
      */
     public String damage() {
         boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
-        return Stream.of(compact ? null : RunFolder.damage(directory, state, recorded.end()), RunFolder.damage(directory, recorded),
+        return Stream.of(RunFolder.change(directory, settings), compact ? null : RunFolder.damage(directory, state, recorded.end()), RunFolder.damage(directory, recorded),
                 RunFolder.damage(directory, settings.migration(), state, departures(directory).size()))
                 .filter(Objects::nonNull).findFirst().orElse(null);
     }
@@ -114,9 +114,9 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return Json.read(directory.resolve(RunFolder.CONFIG), EvolutionSettings.class, "settings");
     }
 
-    /** Those by which the run has computed as yet; null if it has not begun, or an earlier version began it. */
+    /** Those by which the run has computed as yet; null if it has not begun, an earlier version began it, or that is damaged. */
     static EvolutionSettings settingsBefore(Path directory) {
-        Begun begun = optional(directory, RunFolder.ENVIRONMENT, Begun.class);
+        Begun begun = readable(directory, RunFolder.ENVIRONMENT, Begun.class);
         return begun == null ? null : begun.settings();
     }
 
