@@ -3,6 +3,7 @@
 import json
 import re
 import subprocess
+import tempfile
 import time
 import unittest
 from concurrent.futures import ThreadPoolExecutor
@@ -53,6 +54,38 @@ class EvaluationTest(unittest.TestCase):
                     simulator.evaluate_all([make_request(TANK, GAIT, duration=0.05), {"scene": TANK, "duration": duration}])
                 self.assertEqual(str(refused.exception), message)
             self.assertEqual(simulator.evaluate(TANK, GAIT, duration=0.05)["status"], "ok")
+
+    def test_what_is_no_request_is_refused_in_one_line(self):
+        cyclic, deep = {}, {}
+        cyclic["solver"] = cyclic
+        part = deep
+        for _ in range(900):
+            part["solver"] = part = {}
+        with natator.Simulator(1) as simulator, natator.Stream(TANK) as stream:
+            for requests, message in (
+                    (3, "requests = 3: must be a list of dicts"),
+                    ({"scene": TANK}, "requests = {'scene': 'bench/small-tank'}: must be a list of dicts"),
+                    ([3], "requests[0] = 3: must be a dict"), ([{"scene": TANK}, "abc"], "requests[1] = 'abc': must be a dict"),
+                    ([None], "requests[0] = None: must be a dict"), ([[]], "requests[0] = []: must be a dict"),
+                    ([{(1, 2): 3}], "key (1, 2): must be a text"),
+                    ([make_request(TANK, GAIT, overrides={"solver": {(1, 2): 3}})], "overrides.solver: key (1, 2): must be a text"),
+                    ([make_request(TANK, GAIT, overrides=cyclic)],
+                     "overrides.solver.solver.solver.solver.solver.solver.solver.s…: nested deeper than 100 levels"),
+                    ([make_request(TANK, GAIT, overrides=deep)],
+                     "overrides.solver.solver.solver.solver.solver.solver.solver.s…: nested deeper than 100 levels")):
+                with self.subTest(message):
+                    with self.assertRaises(natator.InputError) as refused:
+                        simulator.evaluate_all(requests)
+                    self.assertEqual(str(refused.exception), message)
+            for overrides in ({(1, 2): 3}, cyclic, deep):
+                with self.assertRaises(natator.InputError):
+                    natator.Stream(TANK, overrides=overrides)
+                with self.assertRaises(natator.InputError):
+                    stream.ask({"do": "overrides", "overrides": overrides})
+            with self.assertRaisesRegex(natator.InputError, "null byte"):
+                natator.Stream("bench\0")
+            self.assertEqual(simulator.evaluate(TANK, GAIT, duration=0.05)["status"], "ok")
+            self.assertEqual(stream.step(1).frame, 1)
 
     def test_an_interrupted_simulator_is_closed(self):
         with natator.Simulator(1) as simulator:
@@ -110,6 +143,19 @@ class EvaluationTest(unittest.TestCase):
             natator.evaluate(TANK, GAIT, program="/no/such")
         with self.assertRaisesRegex(natator.ProgramError, "exit code 0"):
             natator.evaluate(TANK, GAIT, program="/bin/true")
+
+    def test_another_program_is_no_simulator(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, says in (("words", "y"), ("numbers", "3"), ("others", '{"id": 0}'), ("bytes", "\\377\\376")):
+                program = Path(folder, name)
+                program.write_text(f"#!/bin/sh\nwhile printf '%b\\n' '{says}'; do :; done\n")
+                program.chmod(0o755)
+                message = f"{program} answers as no simulator does: must be the program natator-sim"
+                with self.subTest(name), mock.patch.dict("os.environ", NATATOR_SIM=str(program)):
+                    with self.assertRaisesRegex(natator.ProgramError, message):
+                        natator.evaluate(TANK, GAIT)
+                    with self.assertRaisesRegex(natator.ProgramError, message):
+                        natator.Stream(TANK)
 
 
 class TrajectoryTest(unittest.TestCase):

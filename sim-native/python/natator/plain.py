@@ -10,17 +10,25 @@ from natator.errors import InputError
 from natator.gait import Gait
 
 
-def plain(name, value):
+DEEPEST = 100  # more than the simulator takes; what holds itself has no end
+
+
+def plain(name, value, depth=0):
     """A value without numpy's types, paths and gaits in it. Raises InputError, which names the place, for what JSON has no form
     for, and for numbers that are not finite."""
+    if depth > DEEPEST:
+        raise InputError(f"{name[:60]}…: nested deeper than {DEEPEST} levels")
     if isinstance(value, Gait):
         value = value.to_json()
     if isinstance(value, dict):
-        return {key: plain(f"{name}.{key}" if name else str(key), part) for key, part in value.items()}
+        for key in value:
+            if not isinstance(key, str):
+                raise InputError(f"{name}: key {key!r}: must be a text" if name else f"key {key!r}: must be a text")
+        return {key: plain(f"{name}.{key}" if name else key, part, depth + 1) for key, part in value.items()}
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, (list, tuple)):
-        return [plain(f"{name}[{i}]", part) for i, part in enumerate(value)]
+        return [plain(f"{name}[{i}]", part, depth + 1) for i, part in enumerate(value)]
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if isinstance(value, float) and not math.isfinite(value):

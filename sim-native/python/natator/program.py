@@ -15,7 +15,7 @@ def simulator_path(program=None):
     named = program or os.environ.get("NATATOR_SIM")
     if named:
         if not os.access(named, os.X_OK) or os.path.isdir(named):
-            raise ProgramError(f"{named}: must be the program natator-sim (argument `program`, or $NATATOR_SIM)")
+            raise _other_program(named)
         return str(named)
     found = shutil.which("natator-sim")
     if found:
@@ -26,16 +26,24 @@ def simulator_path(program=None):
     raise ProgramError("no natator-sim: put the folder of the program, build/release/bin, on the PATH, or name it by NATATOR_SIM")
 
 
+def _other_program(path, wrong=""):
+    return ProgramError(f"{path}{wrong}: must be the program natator-sim (argument `program`, or $NATATOR_SIM)")
+
+
 def start(program, arguments):
     """natator-sim with pipes as input and output. What it says on standard error is kept for `ended`."""
     command = [simulator_path(program), *map(str, arguments)]
+    said = tempfile.TemporaryFile()
     try:
-        said = tempfile.TemporaryFile()
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said)
-        process.said = said
-        return process
     except OSError as error:
+        said.close()
         raise ProgramError(f"{command[0]}: cannot be started: {error.strerror}") from error
+    except ValueError as error:
+        said.close()
+        raise InputError(f"argument of {command[0]}: {error}") from error
+    process.said = said
+    return process
 
 
 def ended(process):
@@ -46,6 +54,12 @@ def ended(process):
     if code == 2 and said:
         return InputError(said)
     return ProgramError(f"natator-sim has ended, exit code {code}" + (f": {said}" if said else ""))
+
+
+def no_simulator(process):
+    """The error of a program that answers as none of ours does, which is ended."""
+    process.kill()
+    return _other_program(process.args[0], " answers as no simulator does")
 
 
 def stop(process, patience=10):

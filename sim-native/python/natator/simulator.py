@@ -3,6 +3,7 @@
 import json
 import os
 import threading
+from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 
 from natator import program as programs
@@ -40,7 +41,7 @@ class Simulator:
         """Results of many requests (make_request, or dicts as request.schema.json describes them), in their order. What
         one request gives does not depend on the others, nor on the number of workers. Raises InputError for the first that
         can't be used: when all are done, or at once where JSON has no form for it. A simulator that is interrupted is closed."""
-        requests = list(requests)
+        requests = _mappings(requests)
         lines = [line(dict(request, id=number), f"requests[{number}]" if len(requests) > 1 else "")
                  for number, request in enumerate(requests)]
         with self._turn:
@@ -90,6 +91,17 @@ def evaluate(scene, gait=None, program=None, **request):
         return simulator.evaluate(scene, gait, **request)
 
 
+def _mappings(requests):
+    """A list of requests. Raises InputError for what is none."""
+    if isinstance(requests, (Mapping, str)) or not isinstance(requests, Iterable):
+        raise InputError(f"requests = {requests!r}: must be a list of dicts")
+    requests = list(requests)
+    for number, request in enumerate(requests):
+        if not isinstance(request, Mapping):
+            raise InputError(f"requests[{number}] = {request!r}: must be a dict")
+    return requests
+
+
 def _processors():
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
@@ -115,4 +127,10 @@ def _read(process):
     line = process.stdout.readline()
     if not line:
         raise programs.ended(process)
-    return json.loads(line)
+    try:
+        answer = json.loads(line)
+    except ValueError:
+        answer = None
+    if not isinstance(answer, dict) or not {"id", "status"} <= answer.keys():
+        raise programs.no_simulator(process)
+    return answer

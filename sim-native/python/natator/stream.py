@@ -1,6 +1,7 @@
 """A swimmer that a program drives, through `natator-sim stream` (sim-native/protocol/stream.md)."""
 
 import json
+import re
 import struct
 from dataclasses import dataclass
 
@@ -229,6 +230,8 @@ class Stream:
     def _message(self):
         self._torn = True
         head = self._read(8)
+        if not re.fullmatch(b"[A-Z]{4}", head[:4]):
+            raise programs.no_simulator(self._process)
         body = self._read(struct.unpack_from("<I", head, 4)[0])
         self._torn = False
         return head[:4], body
