@@ -5,9 +5,12 @@ import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
+import java.nio.file.LinkOption;
+import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.nio.file.StandardOpenOption;
+import java.nio.file.attribute.BasicFileAttributes;
 
 /** A file that the user names and that is written whole or not at all. */
 public final class OutputFile {
@@ -24,7 +27,7 @@ public final class OutputFile {
      * The file of this name; of a symbolic link, the one that it leads to.
      *
      * @throws InvalidInputException if something else is there that is not to be replaced, such as a folder, a device or
-     *                               a pipe; or if its folder does not exist or takes no files
+     *                               a pipe; if its folder does not exist or takes no files; or if its name is too long
      */
     public static OutputFile of(Path named) {
         Path target = followed(named);
@@ -40,7 +43,25 @@ public final class OutputFile {
         if (!Files.isWritable(folder)) {
             throw new InvalidInputException("output file is " + named + "; expected a folder that can be written to, unlike " + folder);
         }
+        checkName(named, fresh(target));
         return new OutputFile(named, target);
+    }
+
+    /** Refuses a name that no file can have. */
+    private static void checkName(Path named, Path fresh) {
+        try {
+            Files.readAttributes(fresh, BasicFileAttributes.class, LinkOption.NOFOLLOW_LINKS);
+        } catch (NoSuchFileException e) {
+            return;  // as it should be
+        } catch (IOException e) {
+            throw new InvalidInputException("output file is " + named + "; expected another name: " + FileErrors.reason(fresh, e)
+                    + ", with the .new that it is written by", e);
+        }
+    }
+
+    /** What is written before it is renamed. */
+    private static Path fresh(Path target) {
+        return target.resolveSibling(target.getFileName() + ".new");
     }
 
     /** Where links end, even if nothing is there. */
@@ -61,7 +82,7 @@ public final class OutputFile {
 
     /** Replaces what is there: writes beside it and renames. */
     public void write(byte[] content) {
-        Path fresh = target.resolveSibling(target.getFileName() + ".new");
+        Path fresh = fresh(target);
         try {
             Files.deleteIfExists(fresh);
             Files.write(fresh, content, StandardOpenOption.CREATE_NEW);

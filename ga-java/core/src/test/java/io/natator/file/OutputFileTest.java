@@ -9,6 +9,7 @@ import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -62,6 +63,18 @@ class OutputFileTest {
 
         assertThatThrownBy(() -> OutputFile.of(link)).isInstanceOf(InvalidInputException.class)
                 .hasMessageContaining("leads to itself");
+    }
+
+    @Test
+    void aNameThatIsTooLongIsRefusedBeforeItIsWritten() throws IOException {
+        Path longest = folder.resolve("a".repeat(247) + ".png");
+        OutputFile.of(longest).write(CONTENT);
+        assertThat(longest).hasBinaryContent(CONTENT);
+        for (String name : List.of("a".repeat(248), "a".repeat(300))) {
+            Path file = folder.resolve(name + ".png");
+            assertThatThrownBy(() -> OutputFile.of(file)).isInstanceOf(InvalidInputException.class)
+                    .hasMessage("output file is " + file + "; expected another name: File name too long, with the .new that it is written by");
+        }
     }
 
     @Test
