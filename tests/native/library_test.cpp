@@ -122,6 +122,10 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
         {[](Scene& scene) { scene.fluid = FluidBlock{.count = {2000000000, 2000000000, 2000000000}}; }, "must be at most 16000000"},
         {[](Scene& scene) { scene.fluid = FluidBlock{.spacing = 0}; }, "fluid.spacing = 0: must be a finite number above 0"},
         {[](Scene& scene) { scene.solver.radius = NAN; }, "solver.radius = NaN: must be a finite number above 0"},
+        {[](Scene& scene) { scene.creature->refinement = 65536; }, "30399297484750848 particles"},
+        {[](Scene& scene) { scene.creature->slices[0] = {.height = 65536, .width = 65536}; }, "4294967395 particles"},
+        {[](Scene& scene) { scene.duration = NAN; }, "duration = NaN: must be a finite number of at least 0"},
+        {[](Scene& scene) { scene.obstacles.emplace_back().radius = NAN; }, "obstacles[0].radius = NaN: must be a finite number above 0"},
         {[](Scene& scene) { scene.solver.substeps = 0; }, "solver.substeps = 0: must be at least 1"},
     };
     for (const auto& [change, expected] : changes) {
@@ -158,6 +162,13 @@ TEST(OwnSceneTest, ASolverRefusesAModelWhoseListsDoNotBelongTogether) {
         {[](Model& model) { model.clusters[0].particles[1] = -1; }, "model: clusters[0].particles[1] = -1: must be one of 2"},
         {[](Model& model) { model.clusters[0].rest_offset.clear(); }, "model: clusters[0].rest_offset has length 0"},
         {[](Model& model) { model.muscles[0].spring = 1; }, "model: muscles[0].spring = 1: must be one of 1"},
+        {[](Model& model) { model.actuators = -1; }, "model: actuators = -1: must be at least 0"},
+        {[](Model& model) { model.periodic = {{.axis = 7, .low = -1, .high = 1}}; }, "model: periodic[0].axis = 7: must be one of 3"},
+        {[](Model& model) { model.body.slices = {{0}, {2}}; }, "model: body.slices[1][0] = 2: must be one of 2"},
+        {[](Model& model) { model.companions.emplace_back().body.particles = {2}; }, "model: companions[0].body.particles[0] = 2: must be"},
+        {[](Model& model) { model.companions.emplace_back().gait.amplitude = {1}; }, "model: companions[0].gait.phase has length 0"},
+        {[](Model& model) { model.companions.emplace_back().gait = {.amplitude = {1}, .phase = {0}, .offset = {0, 0}}; },
+         "model: companions[0].gait.offset has length 2"},
         {[](Model& model) { model.actuators = 0; }, "model: muscles[0].actuator = 0: must be one of 0"},
     };
     for (const auto& [change, expected] : changes) {
@@ -184,9 +195,38 @@ TEST(OwnSceneTest, ASolverRefusesAGaitADriveAndAStateOfAnotherModel) {
                   std::string::npos);
         EXPECT_NE(test::refusal_of([&] { solver.frame(state, [](double) { return std::vector<double>{1}; }); }).find("drive has length 1"),
                   std::string::npos);
+        EXPECT_NE(test::refusal_of([&] { solver.frame(state, [](double) { return std::vector<double>{0, NAN}; }); })
+                      .find("drive[1] = NaN: must be a number in [-2, 2]"),
+                  std::string::npos);
         state.position.pop_back();
         EXPECT_NE(test::refusal_of([&] { solver.update(state, 0.01, 1); }).find("must have 108, 4, "), std::string::npos);
     }
+}
+
+TEST(OwnSceneTest, WhatIsMeasuredOfAStateOfAnotherModelIsRefused) {
+    const Model model = build_model(own_scene());
+    State<float> other;
+    const auto refuses = [](const auto& call) { return !test::refusal_of(call).empty(); };
+    EXPECT_TRUE(refuses([&] { actuate(model, resting_gait(2), 0, other); }));
+    EXPECT_TRUE(refuses([&] { sense(model, other, {}); }));
+    EXPECT_TRUE(refuses([&] { touches_plane(model, other); }));
+    EXPECT_TRUE(refuses([&] { measure_momentum(model, other); }));
+    EXPECT_TRUE(refuses([&] { centre_velocity(model, other, {0}); }));
+    EXPECT_TRUE(refuses([&] { course_of(model, model.body, other, 0); }));
+    EXPECT_TRUE(refuses([&] { cavities(model, other, {}); }));
+    EXPECT_TRUE(refuses([&] { cavities(model, initial_state<float>(model), {}); }));
+    EXPECT_TRUE(refuses([&] { write_snapshot(testing::TempDir() + "other.csv", model, Snapshot{}); }));
+    TrajectoryCsv path(testing::TempDir() + "path.csv", own_scene().creature->slices, TrajectoryCsv::Rows::slices);
+    EXPECT_TRUE(refuses([&] { path.add_frame(0, std::vector<Eigen::Vector3d>(50)); }));
+}
+
+TEST(OwnSceneTest, SteeringOfAnotherLengthAndAStartBelow0AreRefused) {
+    EXPECT_NE(test::refusal_of([] { steer(no_steering(2), no_steering(1), 0.5, {1, 1}); }).find("scale has length 1: must have length 2"),
+              std::string::npos);
+    EXPECT_NE(test::refusal_of([] { check_steering(no_steering(2), Gait{}, 2); }).find("gait.amplitude has length 0"), std::string::npos);
+    Scene scene = own_scene();
+    EXPECT_NE(test::refusal_of([&] { choose_start(-1, scene); }).find("start = -1: must be a whole number in [0, 2147483647]"),
+              std::string::npos);
 }
 
 }  // namespace

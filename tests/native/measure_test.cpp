@@ -45,6 +45,7 @@ TEST(MeasureTest, ABodyTouchesAPlaneAtTheCollisionDistance) {
     Model model;
     model.parameters.collisionDistance = 0.05;
     model.planes = {{{-1, 0, 0}, 4.51}, {{0, 1, 0}, 0}};
+    model.position.resize(2);
     model.body.particles = {1};
     State<float> state;
     state.position = {{4.5f, 0.0f, 0.0f}, {2.0f, 1.0f, 0.0f}};  // particle 0 touches both planes but is not of the body
@@ -64,8 +65,10 @@ TEST(MeasureTest, ABodyTouchesAPlaneAtTheCollisionDistance) {
 /// Masses 1 and 3: (1 (4, 0, 0) + 3 (0, 4, 0)) / 4; the particle that is held in place has no part in it.
 TEST(MeasureTest, VelocityOfTheCentreOfMass) {
     Model model;
+    model.position.resize(3);
     model.inverse_mass = {1, 1.0 / 3, 0};
     State<float> state;
+    state.position.resize(3);
     state.velocity = {{4, 0, 0}, {0, 4, 0}, {9, 9, 9}};
     EXPECT_TRUE(centre_velocity(model, state, {0, 1, 2}).isApprox(Eigen::Vector3d(1, 3, 0)));
     EXPECT_EQ(centre_velocity(model, state, {2}), Eigen::Vector3d::Zero());

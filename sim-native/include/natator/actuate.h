@@ -20,7 +20,7 @@ std::vector<double> drive(const Model& model, const Gait& gait, double time);
 
 /// Sets the rest length of every muscle for `time` (s): l = l_rest (1 + 1/2 z_m (o + a u)), thesis (2.7) and (2.8).
 /// The gait must fit the model (check_gait). The muscles of companions follow their own gaits. Throws InputError if there is not one
-/// value for each actuator.
+/// value for each actuator, or the state has not the model's number of springs.
 template <class Real>
 void actuate(const Model& model, const Gait& gait, double time, State<Real>& state);
 

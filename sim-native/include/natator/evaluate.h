@@ -40,7 +40,7 @@ struct Perturbation {
 
 /// Makes a scene begin from another of its many starts, as `start` of a request does: where the scheme disorders its water,
 /// from another arrangement of that, which becomes part of the scene; else from places that are all shifted by up to 0.001
-/// of fluidRestDistance, which is what is returned.
+/// of fluidRestDistance, which is what is returned. Throws InputError if it is below 0.
 Perturbation choose_start(int start, Scene& scene);
 
 /// How far the final state is from the laws of mechanics; all dimensionless.

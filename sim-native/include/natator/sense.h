@@ -51,7 +51,8 @@ struct Senses {
     double target_distance = 0;             ///< from the centre, length
 };
 
-/// Reads them off a state. `sensing` must fit the model (check_sensing). Real is float or double.
+/// Reads them off a state. `sensing` must fit the model (check_sensing). Throws InputError if the state has not as many particles
+/// as the model. Real is float or double.
 template <class Real>
 Senses sense(const Model& model, const State<Real>& state, const Sensing& sensing);
 

@@ -26,7 +26,7 @@ struct SnapshotRequest {
 /// Writes a snapshot as CSV. Columns: time (s), kind (body or fluid), mass, x, y, z (length), vx, vy, vz (length/s),
 /// density (rest densities). The mass of a particle that is held in place is inf.
 /// The file takes its place when it is whole; what stood there before stays until then.
-/// Throws std::runtime_error when the file can't be written.
+/// Throws InputError if it is not of so many particles as the model, std::runtime_error when the file can't be written.
 void write_snapshot(const std::string& path, const Model& model, const Snapshot& snapshot);
 
 }  // namespace natator

@@ -30,7 +30,7 @@ void check_drive(const std::vector<double>& values, int actuators, const char* n
 void check_steering(const Steering& steering, const Gait& gait, int actuators);
 
 /// What drives the actuators at a part (0 to 1) of the way from one steering to another, if the gait gives `driven`: all of
-/// it goes in a straight line.
+/// it goes in a straight line. Throws InputError unless both steerings have a value for each.
 std::vector<double> steer(const Steering& from, const Steering& to, double part, std::vector<double> driven);
 
 }  // namespace natator

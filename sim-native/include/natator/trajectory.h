@@ -22,6 +22,7 @@ public:
     TrajectoryCsv(const std::string& path, const std::vector<Slice>& slices, Rows rows);
     ~TrajectoryCsv();  ///< without finish() there is no file
 
+    /// Throws InputError if there are not as many places as the slices have particles, or a whole number of times so many.
     void add_frame(double time, const std::vector<Eigen::Vector3d>& body_positions);
     void finish();
 

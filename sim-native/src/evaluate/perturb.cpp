@@ -1,6 +1,9 @@
 #include "perturb.h"
 
 #include <random>
+#include <string>
+
+#include "natator/error.h"
 
 namespace natator {
 namespace {
@@ -11,6 +14,7 @@ constexpr double start_shift = 1e-3;
 }  // namespace
 
 Perturbation choose_start(int start, Scene& scene) {
+    if (start < 0) throw InputError("start = " + std::to_string(start) + ": must be a whole number in [0, 2147483647]");
     if (scene.scheme == Scheme::conserving && scene.fluid) {
         scene.fluid->disorder = start;
         return {};

@@ -1,6 +1,9 @@
 #include "natator/actuate.h"
 
+#include <string>
+
 #include "check_values.h"
+#include "natator/error.h"
 #include "physics/muscle.h"
 
 namespace natator {
@@ -36,6 +39,9 @@ void actuate(const Model& model, const Gait& gait, double time, State<Real>& sta
 template <class Real>
 void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state) {
     check_length("drive", driven.size(), model.actuators);
+    if (!model.muscles.empty() && state.spring_rest_length.size() != model.springs.size())
+        throw InputError("state of " + std::to_string(state.spring_rest_length.size()) + " springs: must have " +
+                         std::to_string(model.springs.size()) + " as its model");
     for (const CompanionBody& companion : model.companions) add_drive(companion.gait, ramp_at(model, time), time, driven);
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;

@@ -37,6 +37,7 @@ void check_drive(const std::vector<double>& values, int actuators, const char* n
 }
 
 void check_steering(const Steering& steering, const Gait& gait, int actuators) {
+    check_lengths(gait, actuators);
     check_values("scale", steering.scale, actuators, 0, most_scale, none);
     check_values("offset", steering.offset, actuators, -most_drive, most_drive, none);
     for (std::size_t i = 0; i < steering.scale.size(); ++i) {
@@ -53,6 +54,10 @@ void check_steering(const Steering& steering, const Gait& gait, int actuators) {
 }
 
 std::vector<double> steer(const Steering& from, const Steering& to, double part, std::vector<double> driven) {
+    for (const Steering* one : {&from, &to}) {
+        check_length("scale", one->scale.size(), static_cast<int>(driven.size()));
+        check_length("offset", one->offset.size(), static_cast<int>(driven.size()));
+    }
     for (std::size_t i = 0; i < driven.size(); ++i) {
         driven[i] = std::lerp(from.scale[i], to.scale[i], part) * driven[i] +
                     std::lerp(from.offset[i], to.offset[i], part);

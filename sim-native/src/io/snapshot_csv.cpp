@@ -1,9 +1,15 @@
 #include "io/whole_file.h"
+#include "natator/error.h"
 #include "natator/snapshot.h"
 
 namespace natator {
 
 void write_snapshot(const std::string& path, const Model& model, const Snapshot& snapshot) {
+    const auto particles = static_cast<std::size_t>(model.particles());
+    if (snapshot.position.size() != particles || snapshot.velocity.size() != particles || snapshot.density.size() != particles)
+        throw InputError("snapshot of " + std::to_string(snapshot.position.size()) + " places, " + std::to_string(snapshot.velocity.size()) +
+                         " velocities, " + std::to_string(snapshot.density.size()) + " densities: must have " +
+                         std::to_string(particles) + " of each as its model");
     WholeFile whole(path);
     std::ofstream& file = whole.stream();
     file.precision(9);

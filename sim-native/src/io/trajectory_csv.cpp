@@ -1,4 +1,5 @@
 #include "io/whole_file.h"
+#include "natator/error.h"
 #include "natator/trajectory.h"
 
 namespace natator {
@@ -18,6 +19,9 @@ void TrajectoryCsv::add_frame(double time, const std::vector<Eigen::Vector3d>& b
     } else {
         int described = 0;
         for (const Slice& slice : slices_) described += slice.particles();
+        if (described == 0 ? !body_positions.empty() : body_positions.empty() || body_positions.size() % described != 0)
+            throw InputError("trajectory: " + std::to_string(body_positions.size()) + " places of a body: must be " +
+                             std::to_string(described) + ", or so many times a whole number");
         const int parts = described > 0 ? static_cast<int>(body_positions.size()) / described : 1;
         auto particle = body_positions.begin();
         for (std::size_t i = 0; i < slices_.size(); ++i) {

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "model/water_volumes.h"
+#include "natator/error.h"
 #include "natator/swimming.h"
 #include "physics/dfsph.h"
+#include "solver/check_model.h"
 
 namespace natator {
 
@@ -12,6 +15,10 @@ std::optional<double> cavities(const Model& model, const State<Real>& state, con
     constexpr double below_surface = 0.95;  // of the water
     const double gravity = model.parameters.gravity.norm();
     if (model.body.particles.empty() || gravity == 0) return std::nullopt;
+    check_places(model, state);
+    if (densities.size() != model.position.size())
+        throw InputError("densities has length " + std::to_string(densities.size()) + ": must have length " +
+                         std::to_string(model.particles()));
     const Eigen::Vector3d down = model.parameters.gravity / gravity;
     const auto depth = [&](int i) { return down.dot(state.position[i].template cast<double>()); };
     std::vector<double> depths;

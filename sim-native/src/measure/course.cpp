@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "natator/pose.h"
+#include "solver/check_model.h"
 
 namespace natator {
 
@@ -14,6 +15,7 @@ template <class Real>
 Course course_of(const Model& model, const Body& body, const State<Real>& end, double distance) {
     Course course;
     if (body.particles.size() < 3) return course;
+    check_places(model, end);
     double rest = 0, now = 0;
     const std::vector<Eigen::Vector3d> places = body_places(body, end);
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "physics/early_stop.h"
+#include "solver/check_model.h"
 
 namespace natator {
 
@@ -16,6 +17,7 @@ double mean_x(const Body& body, const State<Real>& state) {
 
 template <class Real>
 bool touches_plane(const Model& model, const State<Real>& state) {
+    check_places(model, state);
     return std::any_of(model.planes.begin(), model.planes.end(), [&](const Plane& plane) {
         return std::any_of(model.body.particles.begin(), model.body.particles.end(), [&](int particle) {
             const double distance = plane.distance(state.position[particle].template cast<double>());

@@ -2,10 +2,13 @@
 
 #include <numeric>
 
+#include "solver/check_model.h"
+
 namespace natator {
 
 template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state, const std::vector<int>& particles) {
+    check_places_and_velocities(model, state);
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double total = 0;
     for (const int i : particles) {
@@ -33,6 +36,7 @@ Momentum measure_momentum(const Model& model, const State<Real>& state, const st
 
 template <class Real>
 Eigen::Vector3d centre_velocity(const Model& model, const State<Real>& state, const std::vector<int>& particles) {
+    check_places_and_velocities(model, state);
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
     double mass = 0;
     for (const int i : particles) {

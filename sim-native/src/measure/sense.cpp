@@ -9,6 +9,7 @@
 #include "natator/error.h"
 #include "natator/pose.h"
 #include "physics/constants.h"
+#include "solver/check_model.h"
 
 namespace natator {
 namespace {
@@ -191,6 +192,7 @@ template <class Real>
 Senses sense(const Model& model, const State<Real>& state, const Sensing& sensing) {
     Senses senses;
     if (model.body.particles.empty()) return senses;
+    check_places_and_velocities(model, state);
     const Cloud cloud(model, state);
     senses.centre = cloud.mean + state.origin;
     senses.axes = body_rotation(model, model.body, body_places(model.body, state));

@@ -19,6 +19,9 @@ public:
     void above_zero(const char* key, double value) const {
         if (!(value > 0) || std::isinf(value)) refuse(key, value, "a finite number above 0");
     }
+    void zero_or_above(const char* key, double value) const {
+        if (!(value >= 0) || std::isinf(value)) refuse(key, value, "a finite number of at least 0");
+    }
     void at_least(const char* key, int least, int value) const {
         if (value < least) refuse(key, value, "at least " + std::to_string(least));
     }
@@ -73,6 +76,13 @@ void check_fluid(const FluidBlock& fluid, const Check& check) {
     check.above_zero("mass.top", fluid.top_mass);
 }
 
+void check_obstacle(const Obstacle& obstacle, const Check& check) {
+    check.above_zero("spacing", obstacle.spacing);
+    if (obstacle.shape == Obstacle::Shape::sphere) check.above_zero("radius", obstacle.radius);
+    if (obstacle.shape == Obstacle::Shape::box)
+        for (const double edge : obstacle.size) check.above_zero("size", edge);
+}
+
 void check_solver(const SolverParameters& solver, const Check& check) {
     check.at_least("substeps", 1, solver.substeps);
     check.at_least("numIterations", 1, solver.numIterations);
@@ -88,6 +98,7 @@ void check_solver(const SolverParameters& solver, const Check& check) {
 
 void check_scene(const Scene& scene) {
     const Check check("scene " + quoted(scene.name) + ": ");
+    check.zero_or_above("duration", scene.duration);
     check.above_zero("timeStep", scene.time_step);
     check_solver(scene.solver, check.at("solver."));
     if (scene.fluid) check_fluid(*scene.fluid, check.at("fluid."));
@@ -95,7 +106,7 @@ void check_scene(const Scene& scene) {
     for (std::size_t k = 0; k < scene.companions.size(); ++k)
         check_creature(scene.companions[k].creature, check.at("companions[" + std::to_string(k) + "].creature."));
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k)
-        check.at("obstacles[" + std::to_string(k) + "].").above_zero("spacing", scene.obstacles[k].spacing);
+        check_obstacle(scene.obstacles[k], check.at("obstacles[" + std::to_string(k) + "]."));
 }
 
 }  // namespace natator

@@ -1,6 +1,7 @@
 #include "natator/model_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 
@@ -31,25 +32,28 @@ std::string shape_key(const Creature& creature) {
     return creature.skin ? "mesh" : creature.of_profile ? "profile" : "slices";
 }
 
-std::int64_t particles_of(const Creature& creature) {
-    std::int64_t particles = 0;
-    for (const Slice& slice : creature.slices) particles += std::int64_t{slice.particles()} * creature.parts();
-    return particles;
+/// A number that cannot overflow.
+double particles_of(const Creature& creature) {
+    double particles = 0;
+    for (const Slice& slice : creature.slices)
+        for (int iy = 0; iy < slice.height; ++iy) particles += slice.row(iy);
+    return particles * std::pow(creature.refinement, 3);
 }
 
 /// Checked before anything is allocated.
 void check_size(const Scene& scene) {
-    std::int64_t particles = scene.creature ? particles_of(*scene.creature) : 0;
-    for (const Companion& companion : scene.companions) particles += particles_of(companion.creature);
+    double sum = scene.creature ? particles_of(*scene.creature) : 0;
+    for (const Companion& companion : scene.companions) sum += particles_of(companion.creature);
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
         const double most = most_particles(scene.obstacles[k]);
         if (most > limits::particles)
             refuse(scene, "obstacles[" + std::to_string(k) + "]: up to " + number_text(most) +
                               " particles: must be at most " + std::to_string(limits::particles));
-        particles += static_cast<std::int64_t>(most);
+        sum += most;
     }
+    if (scene.fluid) sum += scene.fluid->count.cast<double>().prod();
     constexpr double countable = 1e18;  // of what a program asks for; files are held to less
-    if (scene.fluid) particles += static_cast<std::int64_t>(std::min(scene.fluid->count.cast<double>().prod(), countable));
+    const auto particles = static_cast<std::int64_t>(std::min(sum, countable));
     const std::string body = scene.creature ? shape_key(*scene.creature) : "slices";
     std::string parts = "creature." + body;
     if (!scene.companions.empty()) parts += ", companions";

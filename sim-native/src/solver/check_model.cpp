@@ -22,6 +22,14 @@ void require_one_of(int index, std::size_t count, const Name& name) {
                      ", numbered from 0");
 }
 
+void check_body(const Body& body, std::size_t particles, const std::string& name) {
+    for (std::size_t i = 0; i < body.particles.size(); ++i)
+        require_one_of(body.particles[i], particles, [&] { return item(name + ".particles", i); });
+    for (std::size_t k = 0; k < body.slices.size(); ++k)
+        for (std::size_t i = 0; i < body.slices[k].size(); ++i)
+            require_one_of(body.slices[k][i], particles, [&] { return item(item(name + ".slices", k), i); });
+}
+
 }  // namespace
 
 void check_model(const Model& model) {
@@ -40,14 +48,38 @@ void check_model(const Model& model) {
         for (std::size_t i = 0; i < cluster.particles.size(); ++i)
             require_one_of(cluster.particles[i], particles, [c, i] { return item("clusters", c) + item(".particles", i); });
     }
+    if (model.actuators < 0) throw InputError("model: actuators = " + std::to_string(model.actuators) + ": must be at least 0");
     std::size_t actuators = static_cast<std::size_t>(model.actuators);
-    for (const CompanionBody& companion : model.companions) actuators += companion.gait.amplitude.size();
+    for (std::size_t k = 0; k < model.companions.size(); ++k) {
+        const Gait& gait = model.companions[k].gait;
+        require_length(item("companions", k) + ".gait.phase", gait.phase.size(), gait.amplitude.size());
+        if (!gait.offset.empty()) require_length(item("companions", k) + ".gait.offset", gait.offset.size(), gait.amplitude.size());
+        actuators += gait.amplitude.size();
+    }
     for (std::size_t m = 0; m < model.muscles.size(); ++m) {
         require_one_of(model.muscles[m].spring, model.springs.size(), [m] { return item("muscles", m) + ".spring"; });
         require_one_of(model.muscles[m].actuator, actuators, [m] { return item("muscles", m) + ".actuator"; });
     }
-    for (std::size_t i = 0; i < model.body.particles.size(); ++i)
-        require_one_of(model.body.particles[i], particles, [i] { return item("body.particles", i); });
+    for (std::size_t k = 0; k < model.periodic.size(); ++k)
+        require_one_of(model.periodic[k].axis, 3, [k] { return item("periodic", k) + ".axis"; });
+    check_body(model.body, particles, "body");
+    for (std::size_t k = 0; k < model.companions.size(); ++k)
+        check_body(model.companions[k].body, particles, item("companions", k) + ".body");
+}
+
+template <class Real>
+void check_places(const Model& model, const State<Real>& state) {
+    if (state.position.size() == model.position.size()) return;
+    throw InputError("state of " + std::to_string(state.position.size()) + " particles: must have " + std::to_string(model.particles()) +
+                     " as its model");
+}
+
+template <class Real>
+void check_places_and_velocities(const Model& model, const State<Real>& state) {
+    check_places(model, state);
+    if (state.velocity.size() == model.position.size()) return;
+    throw InputError("state of " + std::to_string(state.velocity.size()) + " velocities: must have " + std::to_string(model.particles()) +
+                     " as its model has particles");
 }
 
 template <class Real>
@@ -62,6 +94,10 @@ void check_state(const Model& model, const State<Real>& state) {
                          std::to_string(model.springs.size()) + " as its model");
 }
 
+template void check_places(const Model&, const State<float>&);
+template void check_places(const Model&, const State<double>&);
+template void check_places_and_velocities(const Model&, const State<float>&);
+template void check_places_and_velocities(const Model&, const State<double>&);
 template void check_state(const Model&, const State<float>&);
 template void check_state(const Model&, const State<double>&);
 

@@ -9,6 +9,14 @@ namespace natator {
 /// clusters, muscles and bodies of particles, springs and actuators that are there.
 void check_model(const Model& model);
 
+/// Throws InputError unless a state has a place for each particle of its model: for what reads no more of it.
+template <class Real>
+void check_places(const Model& model, const State<Real>& state);
+
+/// The same for a place and a velocity.
+template <class Real>
+void check_places_and_velocities(const Model& model, const State<Real>& state);
+
 /// Throws InputError unless a state has as many particles, clusters and springs as its model.
 template <class Real>
 void check_state(const Model& model, const State<Real>& state);

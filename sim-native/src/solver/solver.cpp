@@ -1,13 +1,16 @@
 #include "natator/solver.h"
 
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <variant>
 
 #include "check_model.h"
 #include "cpu/conserving/conserving_stages.h"
 #include "cpu/flex/flex_stages.h"
+#include "gait/check_values.h"
 #include "natator/actuate.h"
+#include "natator/steering.h"
 #include "step.h"
 
 namespace natator {
@@ -56,6 +59,14 @@ private:
     StageProfile& profile_;
     mutable Clock::time_point last_ = Clock::now();
 };
+
+/// Of what drives the muscles in a frame; between two values that are 2 rounding may lead a little beyond.
+void check_driven(const std::vector<double>& driven, int actuators) {
+    constexpr double rounding = 1e-9;
+    check_length("drive", driven.size(), actuators);
+    for (std::size_t i = 0; i < driven.size(); ++i)
+        if (!(std::abs(driven[i]) <= 2 + rounding)) check_drive(driven, actuators);
+}
 
 /// Does nothing behind a stage.
 struct NoHook {
@@ -205,7 +216,11 @@ std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Gait& g
 
 template <class Real>
 std::optional<Instability> Solver<Real>::frame(State<Real>& state, const Drive& drive) {
-    return implementation_->frame(state, drive);
+    return implementation_->frame(state, [&](double time) {
+        std::vector<double> driven = drive(time);
+        check_driven(driven, implementation_->model().actuators);
+        return driven;
+    });
 }
 
 template <class Real>
