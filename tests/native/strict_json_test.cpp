@@ -28,6 +28,11 @@ TEST(StrictJsonTest, RefusesWhatIsNotJson) {
     }
 }
 
+/// The library takes it for the end, whatever follows.
+TEST(StrictJsonTest, RefusesAByte0BehindTheValue) {
+    EXPECT_EQ(refusal(std::string("{}\0{\"a\":1}", 11)), "here: not valid JSON: byte 3 is 0; must be text");
+}
+
 TEST(StrictJsonTest, RefusesDeepNesting) {
     EXPECT_EQ(refusal(std::string(32, '[') + std::string(32, ']')), "");
     EXPECT_NE(refusal(std::string(33, '[') + std::string(33, ']')).find("nested deeper than 32"), std::string::npos);

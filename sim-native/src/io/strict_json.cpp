@@ -94,10 +94,13 @@ std::string read_all(std::FILE* file, const std::string& source) {
 json parse_json(const std::string& text, const std::string& source) {
     OpenObjects open(source);
     try {
-        return json::parse(text, [&open](int depth, json::parse_event_t event, const json& parsed) {
+        json value = json::parse(text, [&open](int depth, json::parse_event_t event, const json& parsed) {
             open.see(depth, event, parsed);
             return true;
         });
+        if (const auto zero = text.find('\0'); zero != std::string::npos)  // which the library takes for the end
+            throw InputError(source + ": not valid JSON: byte " + std::to_string(zero + 1) + " is 0; must be text");
+        return value;
     } catch (const json::exception& error) {
         throw InputError(source + ": not valid JSON: " + plain_message(error));
     }
