@@ -5,7 +5,8 @@
 #include "natator/model.h"
 #include "natator/state.h"
 
-/// What is read off a State. Nothing here writes to it. What takes a Model throws InputError if the State has not as many particles. Real is float or double.
+/// What is read off a State. Nothing here writes to it. What takes a Model throws InputError if the State has not as many
+/// particles. Real is float or double.
 namespace natator {
 
 /// Mean x over the body's particles, length (thesis 2.6); 0 without a body.
