@@ -1,10 +1,8 @@
 #include "natator/actuate.h"
 
-#include <string>
-
 #include "check_values.h"
-#include "natator/error.h"
 #include "physics/muscle.h"
+#include "solver/check_model.h"
 
 namespace natator {
 
@@ -39,9 +37,7 @@ void actuate(const Model& model, const Gait& gait, double time, State<Real>& sta
 template <class Real>
 void actuate(const Model& model, std::vector<double> driven, double time, State<Real>& state) {
     check_length("drive", driven.size(), model.actuators);
-    if (!model.muscles.empty() && state.spring_rest_length.size() != model.springs.size())
-        throw InputError("state of " + std::to_string(state.spring_rest_length.size()) + " springs: must have " +
-                         std::to_string(model.springs.size()) + " as its model");
+    if (!model.muscles.empty()) check_springs(model, state);
     for (const CompanionBody& companion : model.companions) add_drive(companion.gait, ramp_at(model, time), time, driven);
     for (const Muscle& muscle : model.muscles) {
         const double rest = model.springs[muscle.spring].rest_length;

@@ -22,6 +22,12 @@ void require_one_of(int index, std::size_t count, const Name& name) {
                      ", numbered from 0");
 }
 
+void require_of_state(std::size_t found, const char* what, std::size_t wanted, const char* of_model = "") {
+    if (found != wanted)
+        throw InputError("state of " + std::to_string(found) + ' ' + what + ": must have " + std::to_string(wanted) + " as its model" +
+                         of_model);
+}
+
 void check_body(const Body& body, std::size_t particles, const std::string& name) {
     for (std::size_t i = 0; i < body.particles.size(); ++i)
         require_one_of(body.particles[i], particles, [&] { return item(name + ".particles", i); });
@@ -69,17 +75,18 @@ void check_model(const Model& model) {
 
 template <class Real>
 void check_places(const Model& model, const State<Real>& state) {
-    if (state.position.size() == model.position.size()) return;
-    throw InputError("state of " + std::to_string(state.position.size()) + " particles: must have " + std::to_string(model.particles()) +
-                     " as its model");
+    require_of_state(state.position.size(), "particles", model.position.size());
+}
+
+template <class Real>
+void check_springs(const Model& model, const State<Real>& state) {
+    require_of_state(state.spring_rest_length.size(), "springs", model.springs.size());
 }
 
 template <class Real>
 void check_places_and_velocities(const Model& model, const State<Real>& state) {
     check_places(model, state);
-    if (state.velocity.size() == model.position.size()) return;
-    throw InputError("state of " + std::to_string(state.velocity.size()) + " velocities: must have " + std::to_string(model.particles()) +
-                     " as its model has particles");
+    require_of_state(state.velocity.size(), "velocities", model.position.size(), " has particles");
 }
 
 template <class Real>
@@ -96,6 +103,8 @@ void check_state(const Model& model, const State<Real>& state) {
 
 template void check_places(const Model&, const State<float>&);
 template void check_places(const Model&, const State<double>&);
+template void check_springs(const Model&, const State<float>&);
+template void check_springs(const Model&, const State<double>&);
 template void check_places_and_velocities(const Model&, const State<float>&);
 template void check_places_and_velocities(const Model&, const State<double>&);
 template void check_state(const Model&, const State<float>&);

@@ -13,7 +13,11 @@ void check_model(const Model& model);
 template <class Real>
 void check_places(const Model& model, const State<Real>& state);
 
-/// The same for a place and a velocity.
+/// The same for a rest length of each spring.
+template <class Real>
+void check_springs(const Model& model, const State<Real>& state);
+
+/// The same for a place and a velocity of each particle.
 template <class Real>
 void check_places_and_velocities(const Model& model, const State<Real>& state);
 
