@@ -52,9 +52,8 @@ def main():
         found = [results[number * len(STARTS) + start] for start in STARTS]
         speeds = [recompute.speed(one, "open-water") for one in found]
         ends = [one["simulated"] for one in found]
-        error = statistics.stdev(speeds) / len(speeds)**0.5
         evaluations, way = searched(folder)
-        print(f"| {chromosomes} | {seed} | {evaluations} | {way:.3f} | {statistics.mean(speeds):.3f} ± {error:.3f} | {statistics.mean(ends):.1f} s |")
+        print(f"| {chromosomes} | {seed} | {evaluations} | {way:.3f} | {swims.with_error(speeds, 3)} | {statistics.mean(ends):.1f} s |")
 
 
 if __name__ == "__main__":

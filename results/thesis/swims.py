@@ -1,6 +1,7 @@
 """What search_steps.py, wider_tank.py, without_end.py and population.py share: all print requests, and make a table of their results."""
 import json
 import pathlib
+import statistics
 import sys
 
 
@@ -9,6 +10,11 @@ def tank(length, height, width, rear):
     return {"planes": [[0, 1, 0, 0], [1, 0, 0, 0], [-1, 0, 0, length], [0, 0, 1, 0], [0, 0, -1, width]],
             "fluid": {"count": [round(side / 0.1) for side in (length, height, width)]},
             "creature": {"rearCentre": [rear, height / 2, width / 2]}}
+
+
+def with_error(values, digits):
+    """Mean ± standard error."""
+    return f"{statistics.mean(values):.{digits}f} ± {statistics.stdev(values) / len(values)**0.5:.{digits}f}"
 
 
 def results(requests):

@@ -9,7 +9,6 @@ The winner of each seed from two starts, for a time in which it touches no wall 
 the tank, 4 s at most.
 """
 import itertools
-import statistics
 import sys
 
 import recompute
@@ -30,10 +29,6 @@ def request(number, swim):
             "overrides": swims.tank(6, 1.6, width, 1.0)}
 
 
-def with_error(values, digits):
-    return f"{statistics.mean(values):.{digits}f} ± {statistics.stdev(values) / len(values)**0.5:.{digits}f}"
-
-
 def main():
     asked = list(itertools.product(WIDTHS, [SHORT, LONG], winners(), STARTS))
     results = swims.results(itertools.starmap(request, enumerate(asked)))
@@ -48,7 +43,7 @@ def main():
         ways = [one["distance"] for one in found[width, SHORT]]
         ends = [one["simulated"] for one in found[width, LONG]]
         speeds = [recompute.speed(one, "open-water") for one in found[width, LONG]]
-        print(f"| {width} | {with_error(ways, 3)} | {min(ends):.1f} to {max(ends):.1f} s | {with_error(speeds, 2)} |")
+        print(f"| {width} | {swims.with_error(ways, 3)} | {min(ends):.1f} to {max(ends):.1f} s | {swims.with_error(speeds, 2)} |")
 
 
 if __name__ == "__main__":

@@ -83,8 +83,8 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      */
     public String damage() {
         boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
-        return Stream.of(RunFolder.change(directory, settings), compact ? null : RunFolder.damage(directory, state, recorded.end()), RunFolder.damage(directory, recorded),
-                RunFolder.damage(directory, settings.migration(), state, departures(directory).size()))
+        return Stream.of(RunFolder.change(directory, settings), compact ? null : RunFolder.damage(directory, state, recorded.end()),
+                RunFolder.damage(directory, recorded), RunFolder.damage(directory, settings.migration(), state, departures(directory).size()))
                 .filter(Objects::nonNull).findFirst().orElse(null);
     }
 

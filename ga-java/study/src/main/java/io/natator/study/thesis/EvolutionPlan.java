@@ -15,7 +15,6 @@ import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
-import java.util.Collections;
 import java.util.EnumMap;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -172,15 +171,13 @@ public final class EvolutionPlan {
         return extents;
     }
 
-    /** Creatures by how many generations they have in a water; those of which nothing is finished have as many as the water. */
+    /** Creatures by how many generations their first seed has in a water; those of which nothing is finished have as many as the water. */
     public Map<Integer, List<Integer>> creaturesByGenerations(Water water) {
         int usual = extents().get(water).generations();
-        Map<Integer, Integer> generations = new LinkedHashMap<>();
-        runs.stream().filter(run -> run.water() == water).forEach(run -> generations.putIfAbsent(run.creature(), usual));
-        List<EvolvedRun> finished = new ArrayList<>(finished().stream().filter(run -> run.water() == water).toList());
-        Collections.reverse(finished);  // the first seed counts
-        finished.forEach(run -> generations.put(run.creature(), run.storedSettings().generations()));
-        return generations.keySet().stream().collect(Collectors.groupingBy(generations::get, LinkedHashMap::new, Collectors.toList()));
+        List<EvolvedRun> finished = finished().stream().filter(run -> run.water() == water).toList();
+        return runs.stream().filter(run -> run.water() == water).map(EvolvedRun::creature).distinct()
+                .collect(Collectors.groupingBy(creature -> finished.stream().filter(run -> run.creature() == creature).findFirst()
+                        .map(run -> run.storedSettings().generations()).orElse(usual), LinkedHashMap::new, Collectors.toList()));
     }
 
     private static Extent extent(List<EvolvedRun> all, Water water) {
