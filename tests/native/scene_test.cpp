@@ -190,7 +190,10 @@ TEST_F(SceneFiles, TheDataDirectoryCanBeChosen) {
     const std::vector<std::string> names = scene_names();
     const double duration = load_scene("own").duration;
     const std::string other = message_of("thesis/tank");
+    ::setenv("NATATOR_DATA", "", 1);
+    const std::filesystem::path usual = data_directory();
     ::unsetenv("NATATOR_DATA");
+    EXPECT_EQ(usual, data_directory());
     EXPECT_EQ(names, (std::vector<std::string>{"own"}));
     EXPECT_EQ(duration, 2);
     EXPECT_NE(other.find("must be one of own"), std::string::npos) << other;

@@ -8,8 +8,8 @@
 
 namespace natator {
 
-/// The folder in which named scenes and creatures are looked up: $NATATOR_DATA, else `../share/natator` beside the
-/// folder of the running program. It is not said that it exists.
+/// The folder in which named scenes and creatures are looked up: $NATATOR_DATA if it is not empty, else `../share/natator`
+/// beside the folder of the running program. It is not said that it exists.
 std::filesystem::path data_directory();
 
 /// Where a scene is looked up, and what is changed in it.

@@ -43,7 +43,7 @@ bool is_plain_name(const std::string& name) {
 }  // namespace
 
 fs::path data_directory() {
-    if (const char* const chosen = std::getenv("NATATOR_DATA")) return chosen;
+    if (const char* const chosen = std::getenv("NATATOR_DATA"); chosen && *chosen != '\0') return chosen;
     std::error_code failed;
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);
     return program.parent_path().parent_path() / "share" / "natator";
