@@ -50,10 +50,10 @@ TEST(Parts, KeepNoStreamWaiting) {
 }
 
 TEST(Parts, EachStreamHasOne) {
-    EXPECT_EQ(Parts::most_of(150, 2, 1000), 75);
-    EXPECT_EQ(Parts::most_of(3, 2, 1000), 2);
-    EXPECT_EQ(Parts::most_of(1, 2, 1000), 1);
-    EXPECT_EQ(Parts::most_of(150, 2, 33), 33);
+    EXPECT_EQ(Parts(150, 1000, 2).size(), 75);
+    EXPECT_EQ(Parts(3, 1000, 2).size(), 2);
+    EXPECT_EQ(Parts(1, 1000, 2).count, 1);
+    EXPECT_EQ(Parts(150, 33, 2).size(), 25) << "six parts, three for each stream";
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "device_model.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
+#include "ghost_maps.h"
 #include "model/borders.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
@@ -43,11 +43,22 @@ struct Lists {
 
 template <class Real>
 DeviceModel<Real>::DeviceModel(const Model& model, bool whole_gpu) {
-    const cpu::Constants<Real> constants(model.parameters);
-    const SolverParameters& p = model.parameters;
     view_.plan = make_plan(model);
     view_.scheme = model.scheme;
-    view_.particles = model.particles();
+    set_constants(model);
+    number_particles(model);
+    upload_particles(model);
+    if (model.scheme != Scheme::flex) set_conserving(model);
+    upload_solids(model);
+    const bool many = whole_gpu || goes_either_way(model);
+    view_.grid = grid_over(model, view_.search_distance, 0, many ? cells_off_chip(model) : cells_on_chip(model));
+    if (view_.plan.water) set_water(model);
+}
+
+template <class Real>
+void DeviceModel<Real>::set_constants(const Model& model) {
+    const cpu::Constants<Real> constants(model.parameters);
+    const SolverParameters& p = model.parameters;
     view_.radius = constants.radius;
     view_.inverse_radius = constants.inverse_radius;
     view_.search_distance = constants.search_distance;
@@ -90,7 +101,12 @@ DeviceModel<Real>::DeviceModel(const Model& model, bool whole_gpu) {
         view_.plane[k] = {{vec3<Real>(plane.normal), static_cast<Real>(plane.offset)},
                           {vec3<double>(plane.normal), plane.offset}};
     }
+}
 
+/// The fluid first, then the solids, each in the Model's order.
+template <class Real>
+void DeviceModel<Real>::number_particles(const Model& model) {
+    view_.particles = model.particles();
     number_of_.resize(model.particles());
     for (int i = 0; i < model.particles(); ++i)
         if (model.is_fluid(i)) number_of_[i] = view_.fluid++;
@@ -99,7 +115,10 @@ DeviceModel<Real>::DeviceModel(const Model& model, bool whole_gpu) {
 
     particle_of_.resize(model.particles());
     for (int i = 0; i < model.particles(); ++i) particle_of_[number_of_[i]] = i;
+}
 
+template <class Real>
+void DeviceModel<Real>::upload_particles(const Model& model) {
     std::vector<Real> inverse_mass(model.particles());
     std::vector<std::uint32_t> phase(model.particles());
     std::vector<Vec3<Real>> rest(model.rest_position.size());
@@ -111,40 +130,7 @@ DeviceModel<Real>::DeviceModel(const Model& model, bool whole_gpu) {
     view_.inverse_mass = keep(inverse_mass_, inverse_mass);
     view_.phase = keep(phase_, phase);
     view_.rest_position = keep(rest_position_, rest);
-    if (model.scheme != Scheme::flex) set_conserving(model);
-    upload_solids(model);
-    const bool many = whole_gpu || goes_either_way(model);
-    view_.grid = grid_over(model, view_.search_distance, 0, many ? cells_off_chip(model) : cells_on_chip(model));
-    if (view_.plan.water) set_water(model);
 }
-
-namespace {
-
-/// `border` behind `first`.
-template <class Real>
-GhostMap<Real> through(const GhostMap<Real>& first, const physics::Border<Real>& border) {
-    const Vec3<Real>& n = border.surface.normal;
-    const Real component[3] = {n.x, n.y, n.z};
-    GhostMap<Real> both = first;
-    if (border.shift > 0) {
-        for (int k = 0; k < 3; ++k) both.row[k].w += border.shift * component[k];
-        return both;
-    }
-    Quad<Real> along{0, 0, 0, border.surface.offset};
-    for (int k = 0; k < 3; ++k) {
-        const Quad<Real>& row = first.row[k];
-        const Real part = component[k];
-        along = {along.x + part * row.x, along.y + part * row.y, along.z + part * row.z, along.w + part * row.w};
-    }
-    for (int k = 0; k < 3; ++k) {
-        Quad<Real>& row = both.row[k];
-        const Real twice = 2 * component[k];
-        row = {row.x - twice * along.x, row.y - twice * along.y, row.z - twice * along.z, row.w - twice * along.w};
-    }
-    return both;
-}
-
-}  // namespace
 
 template <class Real>
 void DeviceModel<Real>::set_water(const Model& model) {
@@ -176,25 +162,8 @@ void DeviceModel<Real>::set_water(const Model& model) {
     water.borders = static_cast<int>(borders.size());
     std::copy(seams.begin(), seams.end(), water.seam);
     std::copy(borders.begin(), borders.end(), water.border);
-    std::vector<GhostMap<Real>> ghost_maps(std::size_t(1) << borders.size());
-    ghost_maps[0] = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-    for (std::size_t set = 1; set < ghost_maps.size(); ++set) {
-        const int last = std::bit_width(set) - 1;
-        ghost_maps[set] = through(ghost_maps[set ^ std::size_t(1) << last], borders[last]);
-    }
-    water.ghost_map = keep(ghost_map_, ghost_maps);
-    water.most_copies = 1;
-    for (std::size_t k = 0; k < borders.size(); ++k) {
-        const physics::PlaneSurface<Real>& plane = borders[k].surface;
-        bool faces = false;  // one of those before: a particle may be near both
-        for (std::size_t e = 0; e < k; ++e) {
-            const physics::PlaneSurface<Real>& other = borders[e].surface;
-            if (!(dot(other.normal, plane.normal) < 0)) continue;
-            faces = true;
-            if (plane.offset + other.offset < 2 * water.radius) water.most_copies *= 2;
-        }
-        if (!faces) water.most_copies *= 2;
-    }
+    water.ghost_map = keep(ghost_map_, ghost_maps(borders));
+    water.most_copies = most_copies(borders, water.radius);
     water.grid = grid_over(model, water.radius, water.radius, cells_off_chip(model));
 }
 

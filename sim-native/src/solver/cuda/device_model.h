@@ -28,6 +28,9 @@ private:
         buffer = DeviceBuffer<T>(values);
         return buffer.data();
     }
+    void set_constants(const Model& model);
+    void number_particles(const Model& model);
+    void upload_particles(const Model& model);
     void set_conserving(const Model& model);
     void upload_solids(const Model& model);
     void set_water(const Model& model);

@@ -84,14 +84,15 @@ template <class Real>
 std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& company, const BatchOptions& options) {
     const int members = static_cast<int>(company.members.size());
     int streams = options.times && options.times->profile ? 1 : most_streams;
-    int most = Parts::most_of(members, streams, particles_at_a_time / streams / company.model.particles() + 1);
+    int most = particles_at_a_time / streams / company.model.particles() + 1;
     for (;;) {
+        const Parts parts(members, most, streams);
         try {
-            return evaluate_in_parts<Real>(scene, company, Parts(members, most, streams), options);
+            return evaluate_in_parts<Real>(scene, company, parts, options);
         } catch (const std::bad_alloc&) {
-            if (most == 1 && streams == 1) throw;
-            if (most == 1) streams = 1;
-            most = (most + 1) / 2;
+            if (parts.size() == 1 && streams == 1) throw;
+            if (parts.size() == 1) streams = 1;
+            most = (parts.size() + 1) / 2;
         }
     }
 }

@@ -20,9 +20,6 @@ struct Parts {
     /// Of the largest.
     int size() const { return size_of(0); }
 
-    /// So many that each stream has a part, but at most so many.
-    static int most_of(int all, int streams, int most) { return std::min(ceiling(all, streams), most); }
-
 private:
     static int ceiling(int dividend, int divisor) { return (dividend + divisor - 1) / divisor; }
 };
