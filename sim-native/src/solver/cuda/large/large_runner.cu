@@ -1,13 +1,10 @@
 #include "large_runner.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include "natator/actuate.h"
 #include "rows.h"
-#include "scan.h"
-#include "solver/cuda/device_states.h"
 #include "solver/cuda/event.h"
 
 namespace natator::cuda {
@@ -22,33 +19,28 @@ struct LargeRunner<Real>::Graph {
 
 namespace {
 
-constexpr int usual_neighbours = 32;      // of fluid in scheme flex: a lattice has 18, and it packs closer by half
-constexpr int usual_copies = 2;           // of a particle of the water, itself and ghosts, on average
-constexpr int fluid_around_a_solid = 32;  // that has room for lists of contacts
-
-template <class Real>
-Real as_quad_number(int i) {
-    if constexpr (sizeof(Real) == 4)
-        return std::bit_cast<float>(i);
-    else
-        return std::bit_cast<double>(static_cast<long long>(i));
+/// One that does not wait for the default stream.
+cudaStream_t new_stream() {
+    cudaStream_t stream = nullptr;
+    check(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "stream");
+    return stream;
 }
 
 }  // namespace
 
 template <class Real>
 LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room, bool keeps_forces)
-    : host_model_(model), device_model_(model, true), muscles_(states), idle_(states, 0), end_(states) {
-    base_.model = device_model_.view();
-    base_.states = states;
-    base_.slots.room = room;
-    base_.keeps_forces = keeps_forces && base_.model.plan.water;
-    check(cudaStreamCreateWithFlags(&base_.stream, cudaStreamNonBlocking), "stream");
-    allocate();
-    const std::size_t particles = base_.model.particles;
-    before_.position = DeviceBuffer<Quad<Real>>(states * particles);
-    before_.velocity = DeviceBuffer<Quad<Real>>(states * particles);
-    before_.fit = DeviceBuffer<ClusterFit<Real>>(states * std::size_t(base_.model.clusters));
+    : host_model_(model),
+      device_model_(model, true),
+      base_{.model = device_model_.view(),
+            .states = states,
+            .stream = new_stream(),
+            .keeps_forces = keeps_forces && device_model_.view().plan.water},
+      memory_(model, device_model_, states, room, base_.keeps_forces, base_.stream),
+      muscles_(states),
+      end_(states) {
+    base_.slots = memory_.slots();
+    base_.scan_room = memory_.scan_room();
     launch_far_slot(base_);
     wait_for_uploads();  // the stream does not wait for the Model's by itself
 }
@@ -59,102 +51,12 @@ LargeRunner<Real>::~LargeRunner() {
     cudaStreamDestroy(base_.stream);
 }
 
-/// The arrays of a State one behind the other, and so for each State.
-template <class Real>
-void LargeRunner<Real>::allocate() {
-    const ModelView<Real>& size = base_.model;
-    const Plan& plan = size.plan;
-    Slots<Real>& slots = base_.slots;
-    const bool turns = size.scheme != Scheme::flex, keeps_forces = base_.keeps_forces;
-    const std::size_t all = size.particles + 1, water = plan.water ? size.particles : 0;
-    if (plan.contacts && plan.fluid) slots.room.fluid_rows = std::min(size.fluid, fluid_around_a_solid * size.solids);
-    const struct {
-        std::size_t next, cells, neighbours, fluid_contacts, solid_contacts;
-    } room{all, std::size_t(2) * size.grid.cells, 0,
-           std::size_t(slots.room.fluid_rows) * slots.room.fluid,
-           plan.contacts ? std::size_t(size.solids) * slots.room.solid : 0};
-    std::vector<std::pair<void**, std::size_t>> places;
-    std::size_t bytes = 0;
-    const auto give = [&](auto*& array, std::size_t count) {
-        constexpr std::size_t alignment = 256;
-        places.emplace_back(reinterpret_cast<void**>(&array), bytes);
-        bytes += (count * sizeof *array + alignment - 1) / alignment * alignment;
-    };
-#define NATATOR_GIVE(type, name, count, ...) give(slots.at.name, count);
-    NATATOR_STATE_ARRAYS(NATATOR_GIVE)
-#undef NATATOR_GIVE
-#define NATATOR_GIVE(type, name, count) give(slots.water.name, count);
-    NATATOR_WATER_ARRAYS(NATATOR_GIVE)
-#undef NATATOR_GIVE
-    memory_ = DeviceBuffer<char>(bytes * base_.states);
-    for (const auto& [array, place] : places) *array = memory_.data() + place;
-    slots.stride = bytes;
-    shared_ = DeviceBuffer<LargeShared<Real>>(base_.states);
-    slots.at.shared = shared_.data();
-    device_idle_ = DeviceBuffer<int>(idle_);
-    slots.at.idle = device_idle_.data();
-    scan_room_ = DeviceBuffer<char>(scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells), base_.states));
-    base_.scan_room = scan_room_.data();
-    if (plan.water) {
-        make_room_for_rows(blocks_for(size.particles, slots_of_row) *
-                           blocks_for(usual_water_neighbours(host_model_.parameters.kernelSupport), water_lists));
-        make_room_for_copies(std::min(size.water.most_copies, usual_copies) * size.particles);
-    }
-    if (plan.fluid) make_room_in_fluid(std::min(size.most_neighbours, usual_neighbours));
-}
-
-namespace {
-
-/// A new array in a buffer, in place of the old one: both are never there.
-template <class T>
-void renew(DeviceBuffer<T>& buffer, std::size_t count, T*& array) {
-    buffer = {};
-    buffer = DeviceBuffer<T>(count);
-    array = buffer.data();
-}
-
-}  // namespace
-
-/// In the water's lists of each State.
-template <class Real>
-void LargeRunner<Real>::make_room_for_rows(int rows) {
-    WaterArrays<Real>& water = base_.slots.water;
-    const std::size_t entries = static_cast<std::size_t>(rows) * water_row * base_.states;
-    graphs_.clear();  // they know the old place
-    base_.slots.water_room.lists = rows;
-    renew(neighbour_room_, entries, water.neighbour);
-    renew(pair_room_, entries, water.pair);
-}
-
-/// Of the water's particles in each State: themselves and their ghosts.
-template <class Real>
-void LargeRunner<Real>::make_room_for_copies(int copies) {
-    WaterArrays<Real>& water = base_.slots.water;
-    const std::size_t all = static_cast<std::size_t>(copies) * base_.states;
-    graphs_.clear();
-    base_.slots.water_room.copies = copies;
-    renew(key_room_, all, water.keys);
-    renew(candidate_room_, all, water.candidate);
-}
-
-/// Likewise in the lists of scheme flex.
-template <class Real>
-void LargeRunner<Real>::make_room_in_fluid(int neighbours) {
-    Slots<Real>& slots = base_.slots;
-    graphs_.clear();
-    slots.chunks = (neighbours + 3) / 4;
-    slots.list_chunks = static_cast<std::size_t>(blocks_for(base_.model.fluid, 32)) * 32 * slots.chunks;
-    renew(chunk_room_, slots.list_chunks * base_.states, slots.at.neighbour);
-}
-
 template <class Real>
 void LargeRunner<Real>::make_room(ListRoom needed) {
-    if (needed.copies > room().copies) make_room_for_copies(needed.copies);
-    if (needed.lists <= room().lists) return;
-    if (base_.model.plan.water)
-        make_room_for_rows(needed.lists);
-    else
-        make_room_in_fluid(std::min(needed.lists, base_.model.most_neighbours));
+    if (memory_.has_room(needed)) return;
+    graphs_.clear();  // they know the old place
+    memory_.make_room(needed);
+    base_.slots = memory_.slots();
 }
 
 /// Was there room for what the last update found? If not, makes more than that.
@@ -165,43 +67,10 @@ bool LargeRunner<Real>::had_room() {
         needed.lists = std::max(needed.lists, end_[k].needed.lists);
         needed.copies = std::max(needed.copies, end_[k].needed.copies);
     }
-    if (needed.lists <= room().lists && needed.copies <= room().copies) return true;
+    if (memory_.has_room(needed)) return true;
     const int share = base_.model.plan.water ? 8 : 4;  // all slots of the water together vary less than a particle does
     make_room({needed.lists + needed.lists / share, needed.copies + needed.copies / share});
     return false;
-}
-
-namespace {
-
-template <class T>
-void copy(T* to, const T* from, std::size_t count, cudaStream_t stream) {
-    if (count > 0) check(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDefault, stream), "copy");
-}
-
-}  // namespace
-
-/// Of all States, beside them.
-template <class Real>
-void LargeRunner<Real>::keep_before() const {
-    const auto keep = [&](const auto& to, const auto* from, std::size_t count) {
-        copy_rows(to.data(), count * sizeof *from, from, base_.slots.stride, count, base_.states, base_.stream);
-    };
-    const StateArrays<Real>& at = base_.slots.at;
-    keep(before_.position, at.state_position, base_.model.particles);
-    keep(before_.velocity, at.state_velocity, base_.model.particles);
-    keep(before_.fit, at.fit, base_.model.clusters);
-}
-
-/// Of State k; what else there is of it is made anew in every substep.
-template <class Real>
-void LargeRunner<Real>::restore_before(int k) const {
-    const Slots<Real> slots = base_.slots.state(k);
-    const auto restore = [&](auto* to, const auto& from, std::size_t count) {
-        copy(to, from.data() + k * count, count, base_.stream);
-    };
-    restore(slots.at.state_position, before_.position, base_.model.particles);
-    restore(slots.at.state_velocity, before_.velocity, base_.model.particles);
-    restore(slots.at.fit, before_.fit, base_.model.clusters);
 }
 
 template <class Real>
@@ -211,58 +80,8 @@ void LargeRunner<Real>::wait() const {
 
 template <class Real>
 void LargeRunner<Real>::upload(int k, const State<Real>& state) {
-    const std::vector<int>& number_of = device_model_.number_of();
-    const std::size_t particles = number_of.size();
-    std::vector<Quad<Real>> position(particles), velocity(particles);
-    for (std::size_t i = 0; i < particles; ++i) {
-        const Vector3<Real>&x = state.position[i], &v = state.velocity[i];
-        const int number = number_of[i];
-        position[number] = {x.x(), x.y(), x.z(), static_cast<Real>(host_model_.inverse_mass[i])};
-        velocity[number] = {v.x(), v.y(), v.z(), as_quad_number<Real>(number)};
-    }
-    std::vector<ClusterFit<Real>> fits(base_.model.clusters);
-    for (std::size_t k = 0; k < fits.size(); ++k) {
-        const Vector3<Real>& centre = state.cluster_centre[k];
-        fits[k].centre = {centre.x(), centre.y(), centre.z()};
-        for (int e = 0; e < 4; ++e) fits[k].rotation[e] = state.cluster_rotation[k].coeffs()[e];
-    }
-    std::vector<int> slot_of_solid(base_.model.solids);
-    for (std::size_t k = 0; k < slot_of_solid.size(); ++k) slot_of_solid[k] = base_.model.fluid + static_cast<int>(k);
-    const Slots<Real> slots = base_.slots.state(k);
-    const StateArrays<Real>& at = slots.at;
-    copy(at.state_position, position.data(), particles, base_.stream);
-    copy(at.state_velocity, velocity.data(), particles, base_.stream);
-    copy(at.fit, fits.data(), fits.size(), base_.stream);
-    copy(at.slot_of_solid, slot_of_solid.data(), slot_of_solid.size(), base_.stream);
+    memory_.upload(k, state);
     muscles_[k].spring_rest_length = state.spring_rest_length;
-    wait();
-}
-
-template <class Real>
-State<Real> LargeRunner<Real>::download(int k, const State<Real>& like) const {
-    const std::size_t particles = base_.model.particles;
-    std::vector<Quad<Real>> position(particles), velocity(particles);
-    std::vector<ClusterFit<Real>> fits(base_.model.clusters);
-    const Slots<Real> slots = base_.slots.state(k);
-    const StateArrays<Real>& at = slots.at;
-    copy(position.data(), at.state_position, particles, base_.stream);
-    copy(velocity.data(), at.state_velocity, particles, base_.stream);
-    copy(fits.data(), at.fit, fits.size(), base_.stream);
-    wait();
-    State<Real> state = like;
-    state.position = by_particle(device_model_, position.data(), velocity.data());
-    state.velocity = by_particle(device_model_, velocity.data(), velocity.data());
-    for (std::size_t c = 0; c < fits.size(); ++c) {
-        state.cluster_centre[c] = {fits[c].centre.x, fits[c].centre.y, fits[c].centre.z};
-        for (int e = 0; e < 4; ++e) state.cluster_rotation[c].coeffs()[e] = fits[c].rotation[e];
-    }
-    return state;
-}
-
-template <class Real>
-void LargeRunner<Real>::set_idle(const std::vector<bool>& idle) {
-    idle_.assign(idle.begin(), idle.end());
-    device_idle_.upload(idle_);
 }
 
 /// Scheme flex sets the muscles once for a frame, the others for the end of every substep.
@@ -320,12 +139,12 @@ void LargeRunner<Real>::launch_substeps(const Update& update, int substeps, Stag
 template <class Real>
 void LargeRunner<Real>::launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const {
     const std::size_t of_state = std::size_t(update.substeps + 1) * base_.model.springs;
-    copy(device_rest_lengths_.data(), rest_lengths_.data(), of_state * base_.states, base_.stream);
-    keep_before();
+    copy_row(device_rest_lengths_.data(), rest_lengths_.data(), of_state * base_.states, base_.stream);
+    memory_.keep_before();
     launch_substeps(update, update.substeps, clock, trace);
     if (update.settling) launch_rest(base_);
     launch_measure(base_);
-    copy(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
+    copy_row(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
     if (clock) clock->mark(Stage::measure);
 }
 
@@ -386,7 +205,7 @@ std::vector<typename LargeRunner<Real>::End> LargeRunner<Real>::run(const Update
             check(cudaGraphLaunch(graph_of(update), base_.stream), "launch");
         wait();
         if (had_room()) break;
-        for (int k = 0; k < base_.states; ++k) restore_before(k);  // and once more, with room for all neighbours
+        for (int k = 0; k < base_.states; ++k) memory_.restore_before(k);  // and once more, with room for all neighbours
     }
     if (clock) clock->add_to(*profile);
     std::vector<End> ends;
@@ -399,22 +218,22 @@ std::vector<typename LargeRunner<Real>::End> LargeRunner<Real>::run(const Update
 /// Takes State k, which `update` has changed, to the start of a substep of it.
 template <class Real>
 void LargeRunner<Real>::go_to(int k, int substep, const Update& update) {
-    restore_before(k);
+    memory_.restore_before(k);
     wait();
     if (substep == 0) return;
-    const std::vector<bool> idle(idle_.begin(), idle_.end());
+    const std::vector<bool> idle = memory_.idle();
     std::vector<bool> others(idle.size(), true);
     others[k] = false;
-    set_idle(others);
+    memory_.set_idle(others);
     launch_substeps(update, substep, nullptr, {});
     wait();
-    set_idle(idle);
+    memory_.set_idle(idle);
 }
 
 template <class Real>
 std::vector<typename LargeRunner<Real>::Place> LargeRunner<Real>::places() {
     launch_measure(base_);
-    copy(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
+    copy_row(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
     wait();
     std::vector<Place> places;
     for (int k = 0; k < base_.states; ++k) places.push_back({end_[k].mean_x, end_[k].tail_z});

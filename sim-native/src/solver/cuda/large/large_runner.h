@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "large_memory.h"
 #include "natator/gait.h"
 #include "natator/state.h"
 #include "solver/cuda/device_model.h"
@@ -32,14 +33,12 @@ public:
     bool keeps_forces() const { return base_.keeps_forces; }
 
     /// What lists have room for, and makes it for at least so much. An update that finds more does so by itself, but is done twice then.
-    ListRoom room() const {
-        return base_.model.plan.water ? base_.slots.water_room : ListRoom{.lists = 4 * base_.slots.chunks};
-    }
+    ListRoom room() const { return memory_.room(); }
     void make_room(ListRoom room);
 
     void upload(int k, const State<Real>& state);
     /// Time and spring rest lengths are those of `like`.
-    State<Real> download(int k, const State<Real>& like) const;
+    State<Real> download(int k, const State<Real>& like) const { return memory_.download(k, like); }
 
     struct Update {
         double start_time = 0;
@@ -57,7 +56,7 @@ public:
         bool touches_plane = false;
     };
     /// States that updates leave as they are.
-    void set_idle(const std::vector<bool>& idle);
+    void set_idle(const std::vector<bool>& idle) { memory_.set_idle(idle); }
     /// Makes ready what updates of this kind need, so that the first is as fast as the others.
     void prepare(const Update& update);
     /// Ends by State; those of idle ones mean nothing. `profile` gets the time of every stage; the stages are launched
@@ -89,13 +88,7 @@ public:
     double fetch_seconds(Fetch what) const;
 
 private:
-    void allocate();
-    void make_room_for_rows(int rows);
-    void make_room_for_copies(int copies);
-    void make_room_in_fluid(int neighbours);
     bool had_room();
-    void keep_before() const;
-    void restore_before(int k) const;
     LargeLaunch<Real> launch_of(const Update& update, int substep) const;
     void launch_substeps(const Update& update, int substeps, StageClock* clock, const Trace<Real>& trace) const;
     void launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const;
@@ -107,21 +100,9 @@ private:
 
     const Model& host_model_;
     DeviceModel<Real> device_model_;
-    LargeLaunch<Real> base_{};
-    DeviceBuffer<char> memory_, scan_room_;
-    DeviceBuffer<LargeShared<Real>> shared_;
-    DeviceBuffer<uint4> chunk_room_;
-    DeviceBuffer<std::uint64_t> key_room_;
-    DeviceBuffer<Quad<Real>> candidate_room_;
-    DeviceBuffer<unsigned> neighbour_room_;
-    DeviceBuffer<PairGradient<Real>> pair_room_;
-    struct {
-        DeviceBuffer<Quad<Real>> position, velocity;
-        DeviceBuffer<ClusterFit<Real>> fit;
-    } before_;                          ///< the States at an update's start
+    LargeLaunch<Real> base_;
+    LargeMemory<Real> memory_;
     std::vector<State<Real>> muscles_;  ///< only their spring rest lengths
-    std::vector<int> idle_;
-    DeviceBuffer<int> device_idle_;
     struct Graph;
     std::map<std::tuple<double, int, bool>, std::unique_ptr<Graph>> graphs_;
     // Of the host, where the device reads and writes them.

@@ -8,6 +8,12 @@ namespace natator::cuda {
 /// State of some million particles are further apart.
 inline constexpr std::size_t most_pitch = 0x7fffffff;
 
+/// Copies a row of `count` on the device, to it or from it.
+template <class T>
+void copy_row(T* to, const T* from, std::size_t count, cudaStream_t stream) {
+    if (count > 0) check(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDefault, stream), "copy");
+}
+
 /// Copies `rows` rows of `count` on the device; their begins are so many bytes apart.
 template <class T>
 void copy_rows(T* to, std::size_t to_stride, const T* from, std::size_t from_stride, std::size_t count, int rows,

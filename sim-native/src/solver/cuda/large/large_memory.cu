@@ -1,0 +1,216 @@
+#include "large_memory.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "rows.h"
+#include "scan.h"
+#include "solver/cuda/device_states.h"
+#include "substep.cuh"
+
+namespace natator::cuda {
+namespace {
+
+constexpr int usual_neighbours = 32;      // of fluid in scheme flex: a lattice has 18, and it packs closer by half
+constexpr int usual_copies = 2;           // of a particle of the water, itself and ghosts, on average
+constexpr int fluid_around_a_solid = 32;  // that has room for lists of contacts
+
+template <class Real>
+Real as_quad_number(int i) {
+    if constexpr (sizeof(Real) == 4)
+        return std::bit_cast<float>(i);
+    else
+        return std::bit_cast<double>(static_cast<long long>(i));
+}
+
+/// A new array in a buffer, in place of the old one: both are never there.
+template <class T>
+void renew(DeviceBuffer<T>& buffer, std::size_t count, T*& array) {
+    buffer = {};
+    buffer = DeviceBuffer<T>(count);
+    array = buffer.data();
+}
+
+}  // namespace
+
+template <class Real>
+LargeMemory<Real>::LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states, ContactRoom room,
+                               bool keeps_forces, cudaStream_t stream)
+    : model_(model),
+      device_model_(device_model),
+      view_(device_model.view()),
+      states_(states),
+      stream_(stream),
+      idle_(states, 0) {
+    slots_.room = room;
+    allocate(keeps_forces);
+    const std::size_t particles = view_.particles;
+    before_.position = DeviceBuffer<Quad<Real>>(states * particles);
+    before_.velocity = DeviceBuffer<Quad<Real>>(states * particles);
+    before_.fit = DeviceBuffer<ClusterFit<Real>>(states * std::size_t(view_.clusters));
+}
+
+/// The arrays of a State one behind the other, and so for each State.
+template <class Real>
+void LargeMemory<Real>::allocate(bool keeps_forces) {
+    const ModelView<Real>& size = view_;
+    const Plan& plan = size.plan;
+    const bool turns = size.scheme != Scheme::flex;
+    const std::size_t all = size.particles + 1, water = plan.water ? size.particles : 0;
+    if (plan.contacts && plan.fluid) slots_.room.fluid_rows = std::min(size.fluid, fluid_around_a_solid * size.solids);
+    const struct {
+        std::size_t next, cells, neighbours, fluid_contacts, solid_contacts;
+    } room{all, std::size_t(2) * size.grid.cells, 0,
+           std::size_t(slots_.room.fluid_rows) * slots_.room.fluid,
+           plan.contacts ? std::size_t(size.solids) * slots_.room.solid : 0};
+    std::vector<std::pair<void**, std::size_t>> places;
+    std::size_t bytes = 0;
+    const auto give = [&](auto*& array, std::size_t count) {
+        constexpr std::size_t alignment = 256;
+        places.emplace_back(reinterpret_cast<void**>(&array), bytes);
+        bytes += (count * sizeof *array + alignment - 1) / alignment * alignment;
+    };
+#define NATATOR_GIVE(type, name, count, ...) give(slots_.at.name, count);
+    NATATOR_STATE_ARRAYS(NATATOR_GIVE)
+#undef NATATOR_GIVE
+#define NATATOR_GIVE(type, name, count) give(slots_.water.name, count);
+    NATATOR_WATER_ARRAYS(NATATOR_GIVE)
+#undef NATATOR_GIVE
+    memory_ = DeviceBuffer<char>(bytes * states_);
+    for (const auto& [array, place] : places) *array = memory_.data() + place;
+    slots_.stride = bytes;
+    shared_ = DeviceBuffer<LargeShared<Real>>(states_);
+    slots_.at.shared = shared_.data();
+    device_idle_ = DeviceBuffer<int>(idle_);
+    slots_.at.idle = device_idle_.data();
+    scan_room_ = DeviceBuffer<char>(scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells), states_));
+    if (plan.water) {
+        make_room_for_rows(blocks_for(size.particles, slots_of_row) *
+                           blocks_for(usual_water_neighbours(model_.parameters.kernelSupport), water_lists));
+        make_room_for_copies(std::min(size.water.most_copies, usual_copies) * size.particles);
+    }
+    if (plan.fluid) make_room_in_fluid(std::min(size.most_neighbours, usual_neighbours));
+}
+
+/// In the water's lists of each State.
+template <class Real>
+void LargeMemory<Real>::make_room_for_rows(int rows) {
+    const std::size_t entries = static_cast<std::size_t>(rows) * water_row * states_;
+    slots_.water_room.lists = rows;
+    renew(neighbour_room_, entries, slots_.water.neighbour);
+    renew(pair_room_, entries, slots_.water.pair);
+}
+
+/// Of the water's particles in each State: themselves and their ghosts.
+template <class Real>
+void LargeMemory<Real>::make_room_for_copies(int copies) {
+    const std::size_t all = static_cast<std::size_t>(copies) * states_;
+    slots_.water_room.copies = copies;
+    renew(key_room_, all, slots_.water.keys);
+    renew(candidate_room_, all, slots_.water.candidate);
+}
+
+/// Likewise in the lists of scheme flex.
+template <class Real>
+void LargeMemory<Real>::make_room_in_fluid(int neighbours) {
+    slots_.chunks = (neighbours + 3) / 4;
+    slots_.list_chunks = static_cast<std::size_t>(blocks_for(view_.fluid, 32)) * 32 * slots_.chunks;
+    renew(chunk_room_, slots_.list_chunks * states_, slots_.at.neighbour);
+}
+
+template <class Real>
+void LargeMemory<Real>::make_room(ListRoom needed) {
+    if (needed.copies > room().copies) make_room_for_copies(needed.copies);
+    if (needed.lists <= room().lists) return;
+    if (view_.plan.water)
+        make_room_for_rows(needed.lists);
+    else
+        make_room_in_fluid(std::min(needed.lists, view_.most_neighbours));
+}
+
+template <class Real>
+void LargeMemory<Real>::keep_before() const {
+    const auto keep = [&](const auto& to, const auto* from, std::size_t count) {
+        copy_rows(to.data(), count * sizeof *from, from, slots_.stride, count, states_, stream_);
+    };
+    keep(before_.position, slots_.at.state_position, view_.particles);
+    keep(before_.velocity, slots_.at.state_velocity, view_.particles);
+    keep(before_.fit, slots_.at.fit, view_.clusters);
+}
+
+template <class Real>
+void LargeMemory<Real>::restore_before(int k) const {
+    const Slots<Real> slots = slots_.state(k);
+    const auto restore = [&](auto* to, const auto& from, std::size_t count) {
+        copy_row(to, from.data() + k * count, count, stream_);
+    };
+    restore(slots.at.state_position, before_.position, view_.particles);
+    restore(slots.at.state_velocity, before_.velocity, view_.particles);
+    restore(slots.at.fit, before_.fit, view_.clusters);
+}
+
+template <class Real>
+void LargeMemory<Real>::wait() const {
+    check(cudaStreamSynchronize(stream_), "run");
+}
+
+template <class Real>
+void LargeMemory<Real>::upload(int k, const State<Real>& state) const {
+    const std::vector<int>& number_of = device_model_.number_of();
+    const std::size_t particles = number_of.size();
+    std::vector<Quad<Real>> position(particles), velocity(particles);
+    for (std::size_t i = 0; i < particles; ++i) {
+        const Vector3<Real>&x = state.position[i], &v = state.velocity[i];
+        const int number = number_of[i];
+        position[number] = {x.x(), x.y(), x.z(), static_cast<Real>(model_.inverse_mass[i])};
+        velocity[number] = {v.x(), v.y(), v.z(), as_quad_number<Real>(number)};
+    }
+    std::vector<ClusterFit<Real>> fits(view_.clusters);
+    for (std::size_t c = 0; c < fits.size(); ++c) {
+        const Vector3<Real>& centre = state.cluster_centre[c];
+        fits[c].centre = {centre.x(), centre.y(), centre.z()};
+        for (int e = 0; e < 4; ++e) fits[c].rotation[e] = state.cluster_rotation[c].coeffs()[e];
+    }
+    std::vector<int> slot_of_solid(view_.solids);
+    for (std::size_t s = 0; s < slot_of_solid.size(); ++s) slot_of_solid[s] = view_.fluid + static_cast<int>(s);
+    const Slots<Real> slots = slots_.state(k);
+    const StateArrays<Real>& at = slots.at;
+    copy_row(at.state_position, position.data(), particles, stream_);
+    copy_row(at.state_velocity, velocity.data(), particles, stream_);
+    copy_row(at.fit, fits.data(), fits.size(), stream_);
+    copy_row(at.slot_of_solid, slot_of_solid.data(), slot_of_solid.size(), stream_);
+    wait();
+}
+
+template <class Real>
+State<Real> LargeMemory<Real>::download(int k, const State<Real>& like) const {
+    const std::size_t particles = view_.particles;
+    std::vector<Quad<Real>> position(particles), velocity(particles);
+    std::vector<ClusterFit<Real>> fits(view_.clusters);
+    const Slots<Real> slots = slots_.state(k);
+    const StateArrays<Real>& at = slots.at;
+    copy_row(position.data(), at.state_position, particles, stream_);
+    copy_row(velocity.data(), at.state_velocity, particles, stream_);
+    copy_row(fits.data(), at.fit, fits.size(), stream_);
+    wait();
+    State<Real> state = like;
+    state.position = by_particle(device_model_, position.data(), velocity.data());
+    state.velocity = by_particle(device_model_, velocity.data(), velocity.data());
+    for (std::size_t c = 0; c < fits.size(); ++c) {
+        state.cluster_centre[c] = {fits[c].centre.x, fits[c].centre.y, fits[c].centre.z};
+        for (int e = 0; e < 4; ++e) state.cluster_rotation[c].coeffs()[e] = fits[c].rotation[e];
+    }
+    return state;
+}
+
+template <class Real>
+void LargeMemory<Real>::set_idle(const std::vector<bool>& idle) {
+    idle_.assign(idle.begin(), idle.end());
+    device_idle_.upload(idle_);
+}
+
+template class LargeMemory<float>;
+template class LargeMemory<double>;
+
+}  // namespace natator::cuda

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "natator/state.h"
+#include "slots.cuh"
+#include "solver/cuda/device_model.h"
+
+namespace natator::cuda {
+
+/// The device memory of States of a Model side by side, and the way of States to it and back.
+template <class Real>
+class LargeMemory {
+public:
+    /// `device_model` is the copy of `model`; both must outlive it. `keeps_forces`: with room for the impulses on solids. All copies
+    /// are asked of `stream`. Throws std::bad_alloc without memory for so many States.
+    LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states, ContactRoom room, bool keeps_forces,
+                cudaStream_t stream);
+
+    /// Where everything lies: until the next make_room.
+    const Slots<Real>& slots() const { return slots_; }
+    void* scan_room() const { return scan_room_.data(); }
+
+    /// What lists have room for.
+    ListRoom room() const { return view_.plan.water ? slots_.water_room : ListRoom{.lists = 4 * slots_.chunks}; }
+    bool has_room(ListRoom needed) const { return needed.lists <= room().lists && needed.copies <= room().copies; }
+    /// Makes it for at least so much; lists that grow lie elsewhere then, and are empty.
+    void make_room(ListRoom needed);
+
+    /// Keeps all States as they are before an update.
+    void keep_before() const;
+    /// Takes State k back to that; what else there is of it is made anew in every substep.
+    void restore_before(int k) const;
+
+    /// Waits until it is done.
+    void upload(int k, const State<Real>& state) const;
+    /// Likewise. Time and spring rest lengths are those of `like`.
+    State<Real> download(int k, const State<Real>& like) const;
+
+    /// States that updates leave as they are; none at first.
+    void set_idle(const std::vector<bool>& idle);
+    std::vector<bool> idle() const { return {idle_.begin(), idle_.end()}; }
+
+private:
+    void allocate(bool keeps_forces);
+    void make_room_for_rows(int rows);
+    void make_room_for_copies(int copies);
+    void make_room_in_fluid(int neighbours);
+    void wait() const;
+
+    const Model& model_;
+    const DeviceModel<Real>& device_model_;
+    const ModelView<Real>& view_;
+    int states_;
+    cudaStream_t stream_;
+    Slots<Real> slots_{};
+    DeviceBuffer<char> memory_, scan_room_;
+    DeviceBuffer<LargeShared<Real>> shared_;
+    DeviceBuffer<uint4> chunk_room_;
+    DeviceBuffer<std::uint64_t> key_room_;
+    DeviceBuffer<Quad<Real>> candidate_room_;
+    DeviceBuffer<unsigned> neighbour_room_;
+    DeviceBuffer<PairGradient<Real>> pair_room_;
+    struct {
+        DeviceBuffer<Quad<Real>> position, velocity;
+        DeviceBuffer<ClusterFit<Real>> fit;
+    } before_;  ///< the States at an update's start
+    std::vector<int> idle_;
+    DeviceBuffer<int> device_idle_;
+};
+
+}  // namespace natator::cuda
