@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "natator/version.h"
+#include "options.h"
 
 int main(int argc, char** argv) {
     using namespace natator::cli;
@@ -7,6 +8,15 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "natator-bench " NATATOR_VERSION);
     app.footer("Exit codes: 0 ok, 1 failure, 2 bad usage or input, 4 no such device.");
     int status = ok;
-    add_studies(app, status);
+    add_precision(app, status);
+    add_ensemble(app, status);
+    add_roofline(app, status);
+    add_speed(app, status);
+    add_stability(app, status);
+    add_stages(app, status);
+    add_throughput(app, status);
+    add_validation(app, status);
+    add_water(app, status);
+    refuse_repeated_values(app);
     return run_program(app, status, argc, argv);
 }

@@ -17,8 +17,16 @@ void add_stream(CLI::App& app, int& status);
 void add_info(CLI::App& app, int& status);
 void add_particles(CLI::App& app, int& status);
 
-/// Adds all studies of natator-bench.
-void add_studies(CLI::App& app, int& status);
+/// Likewise a study of natator-bench each, in studies/.
+void add_precision(CLI::App& app, int& status);
+void add_ensemble(CLI::App& app, int& status);
+void add_roofline(CLI::App& app, int& status);
+void add_speed(CLI::App& app, int& status);
+void add_stability(CLI::App& app, int& status);
+void add_stages(CLI::App& app, int& status);
+void add_throughput(CLI::App& app, int& status);
+void add_validation(CLI::App& app, int& status);
+void add_water(CLI::App& app, int& status);
 
 /// Becomes natator-bench, the program beside this one, with the same arguments. Returns only by an exception, when that
 /// program is not there.

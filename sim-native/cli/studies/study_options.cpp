@@ -1,0 +1,83 @@
+#include "study_options.h"
+
+#include <iostream>
+#include <utility>
+
+#include "../options.h"
+#include "../program.h"
+
+namespace natator::cli {
+
+using namespace natator::bench;
+
+std::vector<Scheme> StudyOptions::chosen_schemes() const {
+    std::vector<Scheme> result;
+    for (const std::string& name : schemes)
+        result.push_back(name == to_string(Scheme::flex) ? Scheme::flex : Scheme::conserving);
+    return result;
+}
+
+std::vector<Precision> StudyOptions::chosen_precisions() const {
+    std::vector<Precision> result;
+    for (const std::string& name : precisions)
+        result.push_back(name == "double" ? Precision::double_precision : Precision::single_precision);
+    return result;
+}
+
+void add_study_options(CLI::App* command, StudyOptions& common, std::vector<std::string> precisions) {
+    common.precisions = std::move(precisions);
+    command->add_option("--scheme", common.schemes, "flex, conserving.")
+        ->check(one_of({"flex", "conserving"}))
+        ->capture_default_str();
+    command->add_option("--precision", common.precisions, "float, double.")
+        ->check(one_of({"float", "double"}))
+        ->capture_default_str();
+    command->add_option("--output,-o", common.output,
+                        "CSV file; rows that it holds already are kept. Default: standard output.");
+    command->add_flag("--quick", common.quick, "A small part of the study, in seconds.");
+}
+
+void add_repeats(CLI::App* command, int& repeats, const std::string& description) {
+    command->add_option("--repeats", repeats, description)->check(whole_number_in(1, 1000))->capture_default_str();
+}
+
+void add_grid(CLI::App* command, Grid& grid) {
+    command->add_option("--substeps", grid.substeps, "Substeps per frame.")
+        ->check(whole_number_in(1, 1000))
+        ->capture_default_str();
+    command->add_option("--iterations", grid.iterations, "Iterations per substep.")
+        ->check(whole_number_in(1, 1000))
+        ->capture_default_str();
+}
+
+std::vector<Setting> settings_of(const StudyOptions& common, const std::vector<std::string>& texts) {
+    std::vector<Setting> settings;
+    for (const Scheme scheme : common.chosen_schemes())
+        for (const Precision precision : common.chosen_precisions())
+            for (const std::string& text : texts) {
+                const Steps steps = steps_of(text);
+                settings.push_back({scheme, precision, steps.substeps, steps.iterations});
+            }
+    return settings;
+}
+
+void report(const std::string& line) {
+    std::cerr << line << '\n';
+}
+
+ResultTable table_beside(const StudyOptions& common, const std::string& suffix, Row columns, std::size_t key_columns) {
+    return {common.output.empty() ? "" : path_beside(common.output, suffix), std::move(columns), key_columns};
+}
+
+void finish(const StudyOptions& common, const ResultTable& table) {
+    if (common.output.empty()) print(table.text());
+}
+
+void finish(const StudyOptions& common, const ResultTable& table, const ResultTable& summary, const std::string& suffix) {
+    if (common.output.empty())
+        print(table.text());
+    else
+        summary.write(path_beside(common.output, suffix));
+}
+
+}  // namespace natator::cli
