@@ -78,83 +78,134 @@ private:
     std::vector<Eigen::Vector3d> centre_, tail_;
 };
 
+/// The larva in its box of water, from start to end.
 template <class Real>
-WaterRun run_as(const WaterSetting& setting) {
-    const double spacing = spacing_of(setting);
-    const Larva larva(length, frequency, spacing);
-    const auto even = [&](double size) { return 2 * particles_along(size * length / 2, setting); };
-    const Eigen::Vector3i count(even(box_length), even(box_height), even(box_width));
-    const Eigen::Vector3d start(nose * length, count.y() * spacing / 2, count.z() * spacing / 2);
-    std::vector<int> body;
-    WaterTank<Real> tank(count, setting, [&](Model& model) {
-        model.parameters.gravity = {0, -gravity, 0};
-        body = hold([&](const Eigen::Vector3d& x) { return larva.holds(x - start); }, model);
-    });
-    State<Real>& state = tank.state();
-    std::vector<Eigen::Vector3d> places, straight;
-    std::size_t tail = 0;
-    for (const int i : body) {
-        places.push_back(state.position[i].template cast<double>());
-        straight.push_back(places.back() - start);
-        if (straight.back().x() < straight[tail].x()) tail = straight.size() - 1;
-    }
-    FreeMotion motion(places);
-    const double frame = tank.model().time_step, h = frame / tank.model().parameters.substeps;
-    const double box_step = std::round(step * length / spacing) * spacing;
-    double time = 0, bending_time = 0, unshifted = 0, shifted = 0;
-    const auto set_off = [&] {
-        bending_time += h;
-        const std::vector<Eigen::Vector3d> velocities = motion.set_off(larva.bent(straight, bending_time), h);
-        for (std::size_t k = 0; k < body.size(); ++k) state.velocity[body[k]] = velocities[k].template cast<Real>();
-    };
-    const auto arrive = [&](double, const std::vector<Vector3<Real>>& forces) {
-        std::vector<Eigen::Vector3d> on_body;
-        for (const int i : body) on_body.push_back(forces[i].template cast<double>());
-        motion.arrive(on_body, h);
-        for (std::size_t k = 0; k < body.size(); ++k) state.position[body[k]] = motion.places()[k].template cast<Real>();
-    };
-
-    std::vector<WaterFigure> figures;
-    std::vector<WaterSample> curve;
-    const long frames_per_beat = std::lround(larva.beat() / frame);
-    Helm helm(frames_per_beat);
-    for (const auto& [viscosity, beats] : legs) {
-        tank.set_kinematic_viscosity(viscosity);
-        Track track;
-        for (long k = 1; k <= beats * frames_per_beat; ++k) {
-            const double before = motion.centre().x();
-            if (!tank.drive(set_off, arrive)) return tank.run();
-            time += frame;
-            unshifted += motion.centre().x() - before;
-            motion.steer(helm.rate(motion.angle(), (motion.centre() - start).z() / length));
-            const Eigen::Vector3d way(shifted, 0, 0);
-            if (k >= (beats - counted) * frames_per_beat)
-                track.add(time, motion.centre() + way, motion.places()[tail] + way);
-            curve.push_back({time, motion.velocity().x() / length});
-            if (unshifted < box_step) continue;
-            tank.shift(box_step);
-            motion.shift({-box_step, 0, 0});
-            shifted += box_step;
-            unshifted -= box_step;
+class Swim {
+public:
+    explicit Swim(const WaterSetting& setting)
+        : spacing_(spacing_of(setting)),
+          larva_(length, frequency, spacing_),
+          count_(even(box_length, setting), even(box_height, setting), even(box_width, setting)),
+          start_(nose * length, count_.y() * spacing_ / 2, count_.z() * spacing_ / 2),
+          tank_(count_, setting, [this](Model& model) { immerse(model); }),
+          motion_(places_of_body()),
+          frames_per_beat_(std::lround(larva_.beat() / tank_.model().time_step)),
+          helm_(frames_per_beat_) {
+        for (const Eigen::Vector3d& place : motion_.places()) {
+            straight_.push_back(place - start_);
+            if (straight_.back().x() < straight_[tail_].x()) tail_ = straight_.size() - 1;
         }
+    }
+
+    /// Without figures if the water becomes unstable.
+    WaterRun run() {
+        for (const Leg& leg : legs)
+            if (!swim(leg)) return tank_.run();
+        figures_.push_back({.value = helm_.drift(), .reference = 0, .greatest = most_drift});
+        WaterRun run = tank_.run();
+        run.figures = figures_;
+        run.curve = curve_;
+        return run;
+    }
+
+private:
+    static int even(double size, const WaterSetting& setting) { return 2 * particles_along(size * length / 2, setting); }
+
+    void immerse(Model& model) {
+        model.parameters.gravity = {0, -gravity, 0};
+        body_ = hold([this](const Eigen::Vector3d& x) { return larva_.holds(x - start_); }, model);
+    }
+    std::vector<Eigen::Vector3d> places_of_body() const {
+        std::vector<Eigen::Vector3d> places;
+        for (const int i : body_) places.push_back(tank_.state().position[i].template cast<double>());
+        return places;
+    }
+
+    /// False if the water becomes unstable.
+    bool swim(const Leg& leg) {
+        tank_.set_kinematic_viscosity(leg.viscosity);
+        Track track;
+        for (long k = 1; k <= leg.beats * frames_per_beat_; ++k) {
+            if (!advance_frame()) return false;
+            const Eigen::Vector3d way(shifted_, 0, 0);
+            if (k >= (leg.beats - counted) * frames_per_beat_)
+                track.add(time_, motion_.centre() + way, motion_.places()[tail_] + way);
+            curve_.push_back({time_, motion_.velocity().x() / length});
+            move_box_along();
+        }
+        add_figures(track, leg.viscosity);
+        return true;
+    }
+
+    /// False if the water becomes unstable.
+    bool advance_frame() {
+        const double frame = tank_.model().time_step, h = frame / tank_.model().parameters.substeps;
+        const double before = motion_.centre().x();
+        const auto arrive_with = [&](double, const std::vector<Vector3<Real>>& forces) { arrive(forces, h); };
+        if (!tank_.drive([&] { set_off(h); }, arrive_with)) return false;
+        time_ += frame;
+        unshifted_ += motion_.centre().x() - before;
+        motion_.steer(helm_.rate(motion_.angle(), (motion_.centre() - start_).z() / length));
+        return true;
+    }
+
+    /// A substep of h, s, begins: the body bends on.
+    void set_off(double h) {
+        bending_time_ += h;
+        const std::vector<Eigen::Vector3d> velocities = motion_.set_off(larva_.bent(straight_, bending_time_), h);
+        for (std::size_t k = 0; k < body_.size(); ++k)
+            tank_.state().velocity[body_[k]] = velocities[k].template cast<Real>();
+    }
+
+    /// It is over; `forces` are the water's, by particle.
+    void arrive(const std::vector<Vector3<Real>>& forces, double h) {
+        std::vector<Eigen::Vector3d> on_body;
+        for (const int i : body_) on_body.push_back(forces[i].template cast<double>());
+        motion_.arrive(on_body, h);
+        for (std::size_t k = 0; k < body_.size(); ++k)
+            tank_.state().position[body_[k]] = motion_.places()[k].template cast<Real>();
+    }
+
+    /// By whole spacings, once the body has gone far enough.
+    void move_box_along() {
+        const double box_step = std::round(step * length / spacing_) * spacing_;
+        if (unshifted_ < box_step) return;
+        tank_.shift(box_step);
+        motion_.shift({-box_step, 0, 0});
+        shifted_ += box_step;
+        unshifted_ -= box_step;
+    }
+
+    void add_figures(const Track& track, double viscosity) {
         const double reynolds = track.speed() * length / viscosity;
         const double beating = frequency * track.beat();
-        figures.push_back(figure_within(0.25, beating / track.speed(), strouhal_of_larvae(reynolds)));
-        figures.push_back({.value = reynolds, .reference = reynolds_of_larvae(beating * length / viscosity)});
-        figures.push_back({.value = track.beat() / length, .reference = 0.5});
+        figures_.push_back(figure_within(0.25, beating / track.speed(), strouhal_of_larvae(reynolds)));
+        figures_.push_back({.value = reynolds, .reference = reynolds_of_larvae(beating * length / viscosity)});
+        figures_.push_back({.value = track.beat() / length, .reference = 0.5});
     }
-    figures.push_back({.value = helm.drift(), .reference = 0, .greatest = most_drift});
-    WaterRun run = tank.run();
-    run.figures = figures;
-    run.curve = curve;
-    return run;
-}
+
+    double spacing_;
+    Larva larva_;
+    Eigen::Vector3i count_;
+    Eigen::Vector3d start_;  ///< of the nose
+    std::vector<int> body_;  ///< its particles
+    WaterTank<Real> tank_;
+    FreeMotion motion_;
+    std::vector<Eigen::Vector3d> straight_;  ///< places of the body's particles, as Larva has them
+    std::size_t tail_ = 0;                   ///< the rearmost of them
+    long frames_per_beat_;
+    Helm helm_;
+    double time_ = 0, bending_time_ = 0;  ///< s
+    double shifted_ = 0, unshifted_ = 0;  ///< how far the box was moved along, and has still to be
+    std::vector<WaterFigure> figures_;
+    std::vector<WaterSample> curve_;
+};
 
 }  // namespace
 
 /// A larva that beats its tail and swims as far as the water pushes it, ever more viscous.
 WaterRun run_travelling_wave(const WaterSetting& setting) {
-    return in_precision(setting.solver.precision, [&](auto real) { return run_as<decltype(real)>(setting); });
+    return in_precision(setting.solver.precision, [&](auto real) { return Swim<decltype(real)>(setting).run(); });
 }
 
 }  // namespace natator::bench
