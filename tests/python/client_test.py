@@ -129,6 +129,14 @@ class EvaluationTest(unittest.TestCase):
         with self.assertRaisesRegex(natator.ProgramError, "closed"):
             simulator.evaluate(TANK, GAIT)
 
+    def test_arguments_are_a_list(self):
+        for client in (natator.Simulator, lambda **options: natator.Stream(TANK, **options)):
+            for bad in (3, None, "--no-cache", {"--no-cache": True}):
+                with self.assertRaisesRegex(natator.InputError, r"^arguments = .*: must be a list of texts$"):
+                    client(arguments=bad)
+        with self.assertRaisesRegex(natator.InputError, "^fields = 3: must be a list of texts$"):
+            natator.Stream(TANK, fields=3)
+
     def test_workers_are_counted(self):
         for bad in (0, -1, 1.5, True, "2"):
             with self.assertRaisesRegex(natator.InputError, "workers = .*: must be a whole number from 1 on"):

@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from natator.errors import InputError, ProgramError
@@ -28,6 +29,13 @@ def simulator_path(program=None):
 
 def _other_program(path, wrong=""):
     return ProgramError(f"{path}{wrong}: must be the program natator-sim (argument `program`, or $NATATOR_SIM)")
+
+
+def listed(name, values):
+    """A list of an argument of this package that is to be one. Raises InputError for what is none, as a single text."""
+    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+        raise InputError(f"{name} = {values!r}: must be a list of texts")
+    return list(values)
 
 
 def start(program, arguments):

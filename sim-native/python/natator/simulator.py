@@ -16,12 +16,13 @@ class Simulator:
     """Keeps programs that evaluate requests, one for each worker; each is single-threaded.
 
     workers: how many at a time, from 1, by default as many as there are processors. With --backend cuda one worker does, which
-    computes what it is given together. arguments: more arguments of `natator-sim serve`. Threads may share one: they take
-    turns. To be closed; a context manager.
+    computes what it is given together. arguments: a list of more arguments of `natator-sim serve`. Threads may share one: they
+    take turns. To be closed; a context manager. Raises InputError.
     """
 
     def __init__(self, workers=None, arguments=(), program=None):
         count = whole("workers", workers, 1) if workers is not None else _processors()
+        arguments = programs.listed("arguments", arguments)
         self._processes = []
         self._turn = threading.Lock()
         try:

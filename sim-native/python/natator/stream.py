@@ -75,14 +75,15 @@ class Stream:
 
     scene: name or path. gait, overrides (a dict merged into the scene), scheme, start (an int: which of its many starts):
     as in a request. fields: what frames hold of each particle, of "position", "velocity", "density"; without any there are
-    no frames. arguments: more arguments of `natator-sim stream`. To be closed; a context manager. Raises InputError.
+    no frames. arguments: a list of more arguments of `natator-sim stream`. To be closed; a context manager. Raises InputError.
 
     Attributes: `scene`, the SCEN message as a dict (particles, body, slices, bodyLength, actuators …); `frame`, the last
     Frame, None without fields.
     """
 
     def __init__(self, scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
-        fields = (fields,) if isinstance(fields, str) else tuple(fields)
+        fields = [fields] if isinstance(fields, str) else programs.listed("fields", fields)
+        arguments = programs.listed("arguments", arguments)
         options = ["stream", scene, "--paused", "--fields", ",".join(fields) or "none"]
         for name, value in (("--gait", gait), ("--overrides", overrides)):
             if value is not None:
