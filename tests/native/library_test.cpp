@@ -127,6 +127,7 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
         {[](Scene& scene) { scene.duration = NAN; }, "duration = NaN: must be a finite number of at least 0"},
         {[](Scene& scene) { scene.obstacles.emplace_back().radius = NAN; }, "obstacles[0].radius = NaN: must be a finite number above 0"},
         {[](Scene& scene) { scene.solver.substeps = 0; }, "solver.substeps = 0: must be at least 1"},
+        {[](Scene& scene) { scene.solver.kernelSupport = 1e6; }, "solver.kernelSupport = 1e+06: must be a number in [2, 4] (rest"},
     };
     for (const auto& [change, expected] : changes) {
         Scene scene = own_scene();
@@ -170,6 +171,11 @@ TEST(OwnSceneTest, ASolverRefusesAModelWhoseListsDoNotBelongTogether) {
         {[](Model& model) { model.companions.emplace_back().gait = {.amplitude = {1}, .phase = {0}, .offset = {0, 0}}; },
          "model: companions[0].gait.offset has length 2"},
         {[](Model& model) { model.actuators = 0; }, "model: muscles[0].actuator = 0: must be one of 0"},
+        {[](Model& model) { model.parameters.kernelSupport = 1e6; },
+         "model: parameters.kernelSupport = 1e+06: must be a number in [2, 4] (rest distances of the fluid)"},
+        {[](Model& model) { model.parameters.kernelSupport = 1.999; }, "model: parameters.kernelSupport = 1.999: must be"},
+        {[](Model& model) { model.parameters.kernelSupport = NAN; }, "model: parameters.kernelSupport = NaN: must be"},
+        {[](Model& model) { model.parameters.kernelSupport = 4; }, ""},
     };
     for (const auto& [change, expected] : changes) {
         Model model = own_model();

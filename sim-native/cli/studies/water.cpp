@@ -5,6 +5,7 @@
 #include "../commands.h"
 #include "../options.h"
 #include "natator/error.h"
+#include "natator/limits.h"
 #include "study_options.h"
 #include "water/water_study.h"
 
@@ -46,7 +47,7 @@ void add_water(CLI::App& app, int& status) {
         ->capture_default_str();
     command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4.")->capture_default_str();
     command->add_option("--support", options->supports, "Of the kernel of scheme conserving, in particle distances.")
-        ->check(number_in(2, 4))
+        ->check(number_in(limits::least_kernel_support, limits::most_kernel_support))
         ->capture_default_str();
     command->callback([options, command, &status] {
         const StudyOptions& common = options->common;

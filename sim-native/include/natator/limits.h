@@ -22,6 +22,9 @@ inline constexpr double neighbours = 2e9;
 /// radius / fluidRestDistance: the rest density is a sum over that many particles cubed, and fluid at rest has 3000
 /// neighbours at a ratio of 8 already. Room for four times those at 20 is still counted in 32 bits.
 inline constexpr int radius_ratio = 20;
+/// kernelSupport, rest distances of the fluid: in a kernel of fewer a particle has too few neighbours for a density; the volume
+/// of a particle is a sum over the cube of so many.
+inline constexpr double least_kernel_support = 2, most_kernel_support = 4;
 /// Lattice points that are looked at when the fluid is kept clear of a body, a minute's worth.
 inline constexpr double clearance_points = 1e10;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "check_kernel_support.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
 
@@ -36,6 +37,7 @@ public:
                 refuse(key + ("[" + std::to_string(i) + "]"), slices[i],
                        "a slice in [" + std::to_string(first) + ", " + std::to_string(last) + "]");
     }
+    const std::string& place() const { return place_; }
     [[noreturn]] void refuse(const std::string& key, double value, const std::string& must_be) const {
         throw InputError(place_ + key + " = " + number_text(value) + ": must be " + must_be);
     }
@@ -92,6 +94,7 @@ void check_solver(const SolverParameters& solver, const Check& check) {
     check.above_zero("fluidRestDistance", solver.fluidRestDistance);
     if (solver.fluidRestDistance >= solver.radius)
         check.refuse("fluidRestDistance", solver.fluidRestDistance, "less than radius = " + number_text(solver.radius));
+    check_kernel_support(solver, check.place());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "model/check_kernel_support.h"
 #include "natator/error.h"
 
 namespace natator {
@@ -39,6 +40,7 @@ void check_body(const Body& body, std::size_t particles, const std::string& name
 }  // namespace
 
 void check_model(const Model& model) {
+    check_kernel_support(model.parameters, "model: parameters.");
     const std::size_t particles = model.position.size();
     require_length("velocity", model.velocity.size(), particles);
     require_length("inverse_mass", model.inverse_mass.size(), particles);

@@ -6,7 +6,7 @@
 namespace natator {
 
 /// Throws InputError unless a model's lists belong together: as many velocities, masses and phases as positions, and springs,
-/// clusters, muscles and bodies of particles, springs and actuators that are there.
+/// clusters, muscles and bodies of particles, springs and actuators that are there; and unless kernelSupport is within its limits.
 void check_model(const Model& model);
 
 /// Throws InputError unless a state has a place for each particle of its model: for what reads no more of it.
