@@ -87,9 +87,7 @@ public final class FreshStarts {
         try {
             evaluator.evaluateInOrder(again.requests(swimmer, starts, change), results::add);
         } catch (RequestRejectedException e) {
-            if (!e.isBadInput()) {
-                throw e;
-            }
+            e.throwUnlessBadInput();
             LOG.warn("the winner is not run from fresh starts: {}", e.getMessage());
             return null;
         }

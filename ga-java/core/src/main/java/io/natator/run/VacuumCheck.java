@@ -58,9 +58,7 @@ final class VacuumCheck implements EvolutionListener {
         try {
             return evaluator.evaluate(VacuumRequests.of(request, duration));
         } catch (RequestRejectedException e) {
-            if (!e.isBadInput()) {
-                throw e;
-            }
+            e.throwUnlessBadInput();
             return SimulationResult.failed(request.id(), e.getMessage());
         }
     }

@@ -21,4 +21,15 @@ public class RequestRejectedException extends RuntimeException {
     public boolean isBadInput() {
         return badInput;
     }
+
+    /**
+     * For those who can do without what was refused, but not without a machine.
+     *
+     * @throws RequestRejectedException this one, unless the fault lies in the request
+     */
+    public void throwUnlessBadInput() {
+        if (!badInput) {
+            throw this;
+        }
+    }
 }
