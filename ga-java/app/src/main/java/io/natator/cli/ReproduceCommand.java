@@ -19,6 +19,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.Callable;
+import java.util.function.Function;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
 import picocli.CommandLine.Command;
@@ -209,21 +210,22 @@ final class ReproduceCommand implements Callable<Integer> {
     private String commands(EvolutionPlan plan) {
         String rest = rest(FOUND);
         Map<Water, EvolutionPlan.Extent> extents = plan.extents();
-        boolean same = extents.keySet().stream().allMatch(water -> plan.creaturesByGenerations(water).size() == 1);
+        Map<Water, Map<Integer, List<Integer>>> creaturesOf = extents.keySet().stream()
+                .collect(Collectors.toMap(Function.identity(), plan::creaturesByGenerations));
+        boolean same = creaturesOf.values().stream().allMatch(byGenerations -> byGenerations.size() == 1);
         if (same && Set.copyOf(extents.values()).size() == 1) {
             return command(extents.size() == Water.values().length ? "" : water(waters.get(0)), extents.get(waters.get(0)), rest);
         }
-        return extents.entrySet().stream().flatMap(one -> commands(plan, one.getKey(), one.getValue()))
+        return extents.entrySet().stream().flatMap(one -> commands(creaturesOf.get(one.getKey()), one.getKey(), one.getValue()))
                 .collect(Collectors.joining("\n")) + "\n" + CommandText.of(spec, " --phase report" + rest);
     }
 
-    private Stream<String> commands(EvolutionPlan plan, Water water, EvolutionPlan.Extent extent) {
-        Map<Integer, List<Integer>> creaturesOf = plan.creaturesByGenerations(water);
-        if (creaturesOf.size() == 1) {
+    private Stream<String> commands(Map<Integer, List<Integer>> creaturesByGenerations, Water water, EvolutionPlan.Extent extent) {
+        if (creaturesByGenerations.size() == 1) {
             return Stream.of(command(water(water), extent, rest(FOUND)));
         }
         String rest = rest(Stream.concat(FOUND.stream(), Stream.of("--creature")).toList());
-        return creaturesOf.entrySet().stream().map(one -> command(water(water) + " --creature "
+        return creaturesByGenerations.entrySet().stream().map(one -> command(water(water) + " --creature "
                 + one.getValue().stream().map(String::valueOf).collect(Collectors.joining(",")),
                 new EvolutionPlan.Extent(extent.seeds(), one.getKey()), rest));
     }
