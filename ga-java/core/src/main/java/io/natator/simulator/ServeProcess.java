@@ -1,13 +1,9 @@
 package io.natator.simulator;
 
-import java.io.BufferedInputStream;
-import java.io.ByteArrayOutputStream;
 import java.io.IOException;
-import java.io.InputStream;
 import java.io.OutputStream;
 import java.nio.charset.StandardCharsets;
 import java.util.List;
-import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.BlockingQueue;
 import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.TimeUnit;
@@ -19,27 +15,19 @@ import java.util.concurrent.TimeUnit;
  */
 final class ServeProcess implements AutoCloseable {
 
-    /** A result is some 400 bytes. */
-    static final int MAX_LINE_BYTES = 1 << 20;
     private static final int EXIT_BAD_INPUT = 2;
     private static final int EXIT_NO_DEVICE = 4;
-    /** Answers that wait to be taken; a program that writes more than it was asked for blocks itself. */
-    private static final int QUEUED_LINES = 4096;
     private static final byte[] CLOSE = new byte[0];
     private static final long GRACE_MILLISECONDS = 5000;
 
     private final ProcessGroup group;
     private final ServeCommands.Command command;
     private final Process process;
-    private final BlockingQueue<Line> answers = new ArrayBlockingQueue<>(QUEUED_LINES);
+    private final AnswerLines answers;
     private final BlockingQueue<byte[]> requests = new LinkedBlockingQueue<>();
     private final ErrorTail errors;
     private final List<Thread> threads;
     private boolean answered;
-
-    /** A line of output; or, with a fault, that no more will come and why. */
-    private record Line(String text, String fault) {
-    }
 
     /**
      * Starts the program.
@@ -54,7 +42,8 @@ final class ServeProcess implements AutoCloseable {
         this.command = command;
         this.process = group.start(command.words());
         this.errors = new ErrorTail(process.getErrorStream());
-        this.threads = List.of(new Thread(this::write, "serve-input"), new Thread(this::read, "serve-output"),
+        this.answers = new AnswerLines(process.getInputStream(), () -> group.kill(process));
+        this.threads = List.of(new Thread(this::write, "serve-input"), new Thread(answers, "serve-output"),
                 new Thread(errors, "serve-errors"));
         for (Thread thread : threads) {
             thread.setDaemon(true);
@@ -85,14 +74,14 @@ final class ServeProcess implements AutoCloseable {
      * @throws InterruptedException     if the calling thread is interrupted
      */
     SimulationResult receive(long nanoseconds) throws SimulatorFailure, InterruptedException {
-        Line line = answers.poll(nanoseconds, TimeUnit.NANOSECONDS);
+        AnswerLines.Line line = answers.poll(nanoseconds);
         if (line == null) {
             throw new SimulatorFailure("no answer within " + Math.round(nanoseconds / 1e6) / 1e3 + " s");
         }
-        if (line.fault != null) {
-            throw new SimulatorFailure(line.fault + end());
+        if (line.fault() != null) {
+            throw new SimulatorFailure(line.fault() + end());
         }
-        SimulationResult result = ResultReader.read(line.text);
+        SimulationResult result = ResultReader.read(line.text());
         answered = true;
         return result;
     }
@@ -118,30 +107,6 @@ final class ServeProcess implements AutoCloseable {
             }
         } catch (IOException e) {
             // The program has closed its input or has ended: what it answers, or does not, tells.
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
-    }
-
-    private void read() {
-        try (InputStream stdout = new BufferedInputStream(process.getInputStream())) {
-            ByteArrayOutputStream line = new ByteArrayOutputStream();
-            for (int next = stdout.read(); next >= 0; next = stdout.read()) {
-                if (next == '\n') {
-                    answers.put(new Line(line.toString(StandardCharsets.UTF_8), null));
-                    line.reset();
-                } else if (line.size() == MAX_LINE_BYTES) {
-                    answers.put(new Line(null, "more than " + MAX_LINE_BYTES + " bytes in one line"));
-                    group.kill(process);
-                    return;
-                } else {
-                    line.write(next);
-                }
-            }
-            answers.put(new Line(null, line.size() == 0 ? "output ended"
-                    : "output ended within a line: " + ResultReader.shown(line.toString(StandardCharsets.UTF_8))));
-        } catch (IOException e) {
-            answers.offer(new Line(null, "output not readable: " + e.getMessage()));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
