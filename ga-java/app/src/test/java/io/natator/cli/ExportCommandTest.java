@@ -316,13 +316,18 @@ class ExportCommandTest {
         assertThat(folder.resolve("out.partial")).doesNotExist();
     }
 
-    /** A shell that stands in it would be left in a folder that is gone, and see nothing of the export. */
+    /** A shell that stands in it would be left in a folder that is gone, and see nothing of the export; an empty one is filled. */
     @Test
-    void theCurrentFolderIsRefused() throws IOException, InterruptedException {
+    void theCurrentFolderIsFilledButNotReplaced() throws IOException, InterruptedException {
         Path current = Files.createDirectory(folder.resolve("out")).toRealPath();
-        Process process = exportTo(".", simulator(whole(1), "exit 0")).directory(current.toFile()).start();
+        Path simulator = simulator(whole(1), "exit 0");
+        assertThat(exportTo(".", simulator).directory(current.toFile()).start().waitFor()).as(Files.readString(folder.resolve("log"))).isZero();
+        assertThat(current.resolve("metadata.json")).exists();
+        Files.delete(folder.resolve("arguments"));
 
-        assertThat(process.waitFor()).isEqualTo(2);
+        ProcessBuilder again = exportTo(".", simulator);
+        again.command().add("--force");
+        assertThat(again.directory(current.toFile()).start().waitFor()).isEqualTo(2);
         assertThat(Files.readString(folder.resolve("log"))).isEqualTo("natator export: output folder . is the current folder, or holds it; "
                 + "expected another, such as " + current.resolve("swim") + "\n");
         assertThat(folder.resolve("out.partial")).doesNotExist();

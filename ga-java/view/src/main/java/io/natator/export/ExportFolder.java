@@ -23,7 +23,8 @@ import java.util.stream.Stream;
 
 /**
  * A folder that appears only when all in it is written: until then it is called {@code NAME.partial}. That goes when the
- * export fails or this program is told to end; what {@code kill -9} leaves goes with the next export to the same place.
+ * export fails or this program is told to end; what {@code kill -9} leaves goes with the next export to the same place. An empty
+ * folder that is there already stays, with its owner and mode: at the end it is filled, {@code metadata.json} last.
  */
 final class ExportFolder implements Closeable {
 
@@ -31,7 +32,7 @@ final class ExportFolder implements Closeable {
     static final String METADATA = "metadata.json";
     /** Its entry with the names of all files of the export: whoever replaces it removes these alone. */
     static final String FILES = "files";
-    private static final String LOCK = "export.lock";
+    static final String LOCK = "export.lock";
 
     private final Path target;
     private final Path partial;
@@ -59,10 +60,11 @@ final class ExportFolder implements Closeable {
         if (target.getFileName() == null) {
             throw new InvalidInputException("output folder is " + folder + "; expected a folder of its own");
         }
-        if (RunFolder.isOccupied(target)) {
+        Path partial = target.resolveSibling(target.getFileName() + ".partial");
+        boolean isFilling = ExportFilling.isBegun(partial, target);
+        if (RunFolder.isOccupied(target) && !isFilling) {
             failUnlessReplaceable(folder, target, replace);
         }
-        Path partial = target.resolveSibling(target.getFileName() + ".partial");
         if (RunFolder.isOccupied(partial) && !Files.exists(partial.resolve(LOCK))) {
             throw new InvalidInputException(partial + " is in the way; remove it");
         }
@@ -78,13 +80,21 @@ final class ExportFolder implements Closeable {
         }
         ExportFolder fresh = new ExportFolder(target, partial, lock);
         try {
+            if (isFilling) {
+                ExportFilling.takeBack(partial, target);
+                if (RunFolder.isOccupied(target)) {
+                    failUnlessReplaceable(folder, target, replace);
+                }
+            }
             for (Path old : contents(partial)) {
                 if (!old.equals(partial.resolve(LOCK))) {
                     delete(old);
                 }
             }
-            if (Files.exists(target)) {
+            if (RunFolder.isOccupied(target)) {
                 fresh.failUnlessMovable(folder);
+            } else if (Files.exists(target)) {
+                fresh.failUnlessFillable(folder);
             }
             return fresh;
         } catch (IOException | InvalidInputException e) {
@@ -138,6 +148,16 @@ final class ExportFolder implements Closeable {
         }
     }
 
+    /** The same of an empty folder, which is to be filled. */
+    private void failUnlessFillable(Path folder) throws IOException {
+        try {
+            ExportFilling.rehearse(partial, target);
+        } catch (IOException e) {
+            throw new InvalidInputException("output folder " + folder + " cannot be filled: " + FileErrors.whyNotMade(target, e)
+                    + "; expected another, such as " + target.resolve("swim"), e);
+        }
+    }
+
     /** Names of all files in a folder and in its folders, in order, with slashes between; none of a lock. */
     static List<String> files(Path folder) throws IOException {
         try (Stream<Path> all = Files.walk(folder)) {
@@ -151,8 +171,14 @@ final class ExportFolder implements Closeable {
         return partial;
     }
 
-    /** Gives the folder its name; an earlier export goes. */
+    /** Gives the folder its name, or fills that which is there; an earlier export goes. */
     void commit() throws IOException {
+        if (Files.exists(target) && !RunFolder.isOccupied(target)) {
+            ExportFilling.fill(partial, target);
+            delete(partial);
+            committed = true;
+            return;
+        }
         Files.delete(partial.resolve(LOCK));
         boolean occupied = RunFolder.isOccupied(target);
         if (occupied) {

@@ -7,6 +7,7 @@ import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.nio.file.attribute.PosixFilePermissions;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -51,12 +52,63 @@ class ExportFolderTest {
         assertThat(parent).isEmptyDirectory();
     }
 
+    /** Whoever made it for others to read, or to write, finds it so. */
     @Test
-    void anEmptyFolderIsTaken() throws IOException {
+    void anEmptyFolderIsFilledAndStaysItself() throws IOException {
         Files.createDirectories(target);
-        write("first", false);
+        Files.setPosixFilePermissions(target, PosixFilePermissions.fromString("rwxrwx--x"));
+        Object before = Files.getAttribute(target, "unix:ino");
 
+        try (ExportFolder folder = ExportFolder.begin(target, false)) {
+            Files.writeString(Files.createDirectories(folder.path().resolve("water")).resolve("1.ply"), "x");
+            Files.writeString(folder.path().resolve(ExportFolder.METADATA), "first");
+            assertThat(target).isEmptyDirectory();
+            folder.commit();
+        }
+
+        assertThat(ExportFolder.files(target)).containsExactly(ExportFolder.METADATA, "water/1.ply");
         assertThat(target.resolve(ExportFolder.METADATA)).hasContent("first");
+        assertThat(Files.getAttribute(target, "unix:ino")).isEqualTo(before);
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(target))).isEqualTo("rwxrwx--x");
+        assertThat(parent).isDirectoryNotContaining(path -> !path.equals(target));
+    }
+
+    /** What somebody puts into the folder meanwhile stays, and nothing of the export comes between. */
+    @Test
+    void anEmptyFolderThatCannotBeFilledStaysEmpty() throws IOException {
+        Files.createDirectories(target);
+        try (ExportFolder folder = ExportFolder.begin(target, false)) {
+            Files.writeString(folder.path().resolve("a.csv"), "x");
+            Files.writeString(folder.path().resolve(ExportFolder.METADATA), "{\"files\":[\"a.csv\",\"metadata.json\",\"swim.csv\"]}");
+            Path swim = Files.writeString(folder.path().resolve("swim.csv"), "x");
+            Path obstacle = Files.createDirectories(target.resolve("swim.csv"));
+            Files.writeString(obstacle.resolve("notes.txt"), "mine");
+
+            assertThatThrownBy(() -> ExportFilling.fill(folder.path(), target)).isInstanceOf(IOException.class);
+
+            assertThat(ExportFolder.files(target)).containsExactly("swim.csv/notes.txt");
+            assertThat(swim).exists();
+        }
+    }
+
+    /** Killed between two of its files: what it had moved goes, what is somebody's own stays. */
+    @Test
+    void whatAnExportThatWasKilledWhileItFilledTheFolderLeftGoesWithTheNext() throws IOException {
+        Files.writeString(Files.createDirectories(target.resolve("water")).resolve("1.ply"), "moved");
+        Files.writeString(Files.createDirectories(partial).resolve("export.lock"), "");
+        Files.writeString(partial.resolve("swim.csv"), "not moved");
+        Files.writeString(partial.resolve(ExportFolder.METADATA), "{\"files\":[\"metadata.json\",\"swim.csv\",\"water/1.ply\"]}");
+        Path mine = Files.writeString(target.resolve("swim.csv"), "mine");
+
+        assertThatThrownBy(() -> ExportFolder.begin(target, false)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("is not empty");
+        assertThat(mine).hasContent("mine");
+        assertThat(ExportFolder.files(target)).containsExactly("swim.csv");
+        Files.delete(mine);
+
+        write("next", false);
+        assertThat(ExportFolder.files(target)).containsExactly(ExportFolder.METADATA);
+        assertThat(parent).isDirectoryNotContaining(path -> !path.equals(target));
     }
 
     @Test
