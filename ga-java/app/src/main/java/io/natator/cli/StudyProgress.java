@@ -7,6 +7,7 @@ import io.natator.report.FitnessPlot;
 import io.natator.run.EvolutionRun;
 import io.natator.run.RunQueue;
 import java.io.PrintWriter;
+import java.nio.file.Path;
 import java.util.Locale;
 
 /** Tells how a study goes: a line for each finished run, and every few seconds one for the whole. */
@@ -58,6 +59,11 @@ abstract class StudyProgress implements RunQueue.Watcher {
     public synchronized void said(String line) {
         out.println(line);
         out.flush();
+    }
+
+    @Override
+    public synchronized void foundFinished(Path run) {
+        FitnessPlot.drawIfMissing(run);
     }
 
     @Override

@@ -33,6 +33,11 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(folder.resolve("study/creature-1.png")).isNotEmptyFile();
         assertThat(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png")).isNotEmptyFile();
 
+        // As a kill leaves it between the last generation and the drawing.
+        Files.delete(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png"));
+        assertThat(natator(study)).as(err.toString()).isZero();
+        assertThat(folder.resolve("study/creature-1/random/seed-2/plots/fitness.png")).isNotEmptyFile();
+
         String page = file("study", "README.md");
         assertThat(page).contains("At equal evaluations:", "At equal simulated time:", "too few to tell");
         List<String> compact = new ArrayList<>(List.of(study));

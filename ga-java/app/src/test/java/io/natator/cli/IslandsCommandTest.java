@@ -3,6 +3,8 @@ package io.natator.cli;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import org.junit.jupiter.api.Test;
@@ -77,6 +79,18 @@ class IslandsCommandTest extends FakeSimulatorTest {
 
         assertThat(file("run", "island-1/evaluations.jsonl")).isEqualTo(file("plain", "evaluations.jsonl"));
         assertThat(file("run", "island-1/best.json")).isEqualTo(file("plain", "best.json"));
+    }
+
+    /** A kill may come between its last generation and the drawing. */
+    @Test
+    void aFinishedIslandWithoutItsCurveGetsIt() throws IOException {
+        assertThat(evolve("run", "--islands", "2")).as(err.toString()).isZero();
+        Path curve = folder.resolve("run/island-2/plots/fitness.png");
+        Files.delete(curve);
+
+        assertThat(natator("resume", folder.resolve("run").toString())).as(err.toString()).isZero();
+
+        assertThat(curve).isNotEmptyFile();
     }
 
     @Test

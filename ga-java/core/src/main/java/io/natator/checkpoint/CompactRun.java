@@ -46,6 +46,11 @@ public final class CompactRun {
         }
     }
 
+    /** Whether a finished run was made small and has not gone on since. */
+    public static boolean isCompact(Path directory) {
+        return !Files.exists(directory.resolve(RunFolder.EVALUATIONS));
+    }
+
     /**
      * What a run goes on from.
      *

@@ -385,9 +385,14 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
         AtomicFile.write(directory.resolve(BEST), Json.document(best));
     }
 
-    /** The folder for pictures, made if it is not there. */
+    /** The folder for pictures of a run, which need not be there. */
+    public static Path plots(Path directory) {
+        return directory.resolve(PLOTS);
+    }
+
+    /** The same, made if it is not there. */
     public Path plots() {
-        Path plots = directory.resolve(PLOTS);
+        Path plots = plots(directory);
         try {
             return Files.createDirectories(plots);
         } catch (IOException e) {

@@ -90,7 +90,9 @@ public final class IslandsRun {
             Evaluator evaluator, RunQueue.Watcher watcher) throws InterruptedException {
         boolean isFinished = false;
         try {
-            if (!run.isFinished()) {
+            if (run.isFinished()) {
+                watcher.foundFinished(run.directory());
+            } else {
                 RunQueue.carryOut(run, execution, evaluator, watcher, folder -> exchange(folder, ring, before));
             }
             isFinished = true;

@@ -1,10 +1,14 @@
 package io.natator.report;
 
+import io.natator.checkpoint.CompactRun;
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.StoredRun;
+import io.natator.config.EvolutionSettings;
 import io.natator.evolution.GenerationSummary;
 import io.natator.plot.Drawing;
 import io.natator.plot.Picture;
 import java.io.IOException;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.function.ToDoubleFunction;
@@ -16,15 +20,31 @@ import org.slf4j.LoggerFactory;
 public final class FitnessPlot {
 
     private static final Logger LOG = LoggerFactory.getLogger(FitnessPlot.class);
+    private static final String NAME = "fitness";
 
     private FitnessPlot() {
     }
 
     /** Draws the curve of a finished run into its folder; where Java cannot draw, a warning says so. */
     public static void draw(RunFolder run, List<GenerationSummary> history) {
+        draw(run.settings(), history, run.plots());
+    }
+
+    /**
+     * Draws the curve of a finished run that has none, as after a kill right behind its last generation. Not of one that was made
+     * small: of its folder only what was left is wanted.
+     */
+    public static void drawIfMissing(Path run) {
+        Path plots = RunFolder.plots(run);
+        if (!CompactRun.isCompact(run) && !Files.exists(plots.resolve(NAME + ".png"))) {
+            draw(StoredRun.settings(run), StoredRun.state(run).history(), plots);
+        }
+    }
+
+    private static void draw(EvolutionSettings settings, List<GenerationSummary> history, Path folder) {
         try {
             // A Java without fonts still has the curve in generations.csv.
-            Drawing.orWarn("fitness curve", () -> draw(run.settings().scene() + ", seed " + run.settings().seed(), history, run.plots()));
+            Drawing.orWarn("fitness curve", () -> draw(settings.scene() + ", seed " + settings.seed(), history, folder));
         } catch (IOException e) {
             LOG.warn("fitness curve not drawn: {}", e.toString());
         }
@@ -42,7 +62,7 @@ public final class FitnessPlot {
         add(chart, "best", history, GenerationSummary::best, 0);
         add(chart, "mean", history, GenerationSummary::mean, 1);
         add(chart, "median", history, GenerationSummary::median, 2);
-        Picture.save(chart, folder.resolve("fitness"));
+        Picture.save(chart, folder.resolve(NAME));
     }
 
     private static void add(XYChart chart, String name, List<GenerationSummary> history,
