@@ -166,6 +166,10 @@ info)
     if [[ $2 = --json ]]; then
         echo '{"version":"0.1.0","commit":"0123456789ab","instructionSet":"any","devices":[]}'
     elif [[ $* = *--definition* ]]; then
+        if [[ -e $here/scene ]]; then
+            cat "$here/scene"
+            exit
+        fi
         last=${*: -1}
         [[ $2 = pool/eel ]] && creature=",\"creature\":$eel"
         echo "{\"what\":\"$2 ${last//\"/}\"$creature}"

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
@@ -75,6 +76,7 @@ final class ResumeCommand implements Callable<Integer> {
         Backend before = settings.backend();
         // Asks the simulator, so that where there is none nothing is changed.
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
+        SceneDigest.check(directory, settings, SceneDigest.of(settings, execution.simulator()));
         RunFolder folder = RunFolder.open(directory);
         if (generations != null) {
             changeGenerations(folder, generations);
@@ -104,6 +106,8 @@ final class ResumeCommand implements Callable<Integer> {
         EvolutionSettings settings = stored.plan().settings();
         Backend before = settings.backend();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(cache.in(options.execution(before)), settings);
+        String scene = SceneDigest.of(settings, execution.simulator());
+        stored.folders().forEach(folder -> SceneDigest.check(folder, settings, scene));
         Archipelago extended = generations == null ? stored : extended(stored, generations);
         boolean isFinished = extended.plan().islands() == IslandsRun.finished(extended);
         Archipelago archipelago = isChanged(before, isFinished, options) ? extended.withBackend(options.backend()) : extended;

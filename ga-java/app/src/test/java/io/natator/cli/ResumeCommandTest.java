@@ -292,6 +292,49 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(curve).isNotEmptyFile();
     }
 
+    /** A file's scene may be edited: its name says nothing of that. */
+    @ParameterizedTest
+    @ValueSource(strings = {"alone", "islands"})
+    void aSceneThatWasChangedIsRefused(String how) throws IOException {
+        boolean isAlone = how.equals("alone");
+        assertThat(isAlone ? evolve("run") : evolve("run", "--islands", "2", "--migrate-every", "2")).as(err.toString()).isZero();
+        String run = folder.resolve("run").toString();
+        Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
+        Map<String, String> before = files();
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("resume", run, "--generations", "4")).isEqualTo(2);
+
+        assertThat(err.toString()).isEqualTo("natator resume: scene pool/creature-1 was changed after " + run + (isAlone ? "" : "/island-1")
+                + " was begun; expected the scene that it was begun with, or a new run\n");
+        assertThat(files()).isEqualTo(before);
+        Files.delete(folder.resolve("scene"));
+        assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
+    }
+
+    @Test
+    void aDescriptionOfTheSceneMayBeChanged() throws IOException {
+        Path scene = Files.writeString(folder.resolve("scene"), "{\"creature\":{\"spacing\":1,\"description\":\"an eel\"},\"description\":\"one\"}");
+        assertThat(evolve("run")).as(err.toString()).isZero();
+
+        Files.writeString(scene, "{\"creature\":{\"description\":\"a conger\",\"spacing\":1}}");
+        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString()).isZero();
+        Files.writeString(scene, "{\"creature\":{\"spacing\":2}}");
+        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "5")).isEqualTo(2);
+    }
+
+    @Test
+    void aRunThatDoesNotTellItsSceneGoesOn() throws IOException {
+        assertThat(evolve("run")).isZero();
+        edit("run/environment.json", environment -> environment.remove("sceneSha256"));
+        Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
+
+        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "4")).as(err.toString()).isZero();
+
+        Files.delete(folder.resolve("scene"));
+        assertThat(natator("resume", folder.resolve("run").toString(), "--generations", "5")).isEqualTo(2);
+    }
+
     @Test
     void howFarARunGoesMayBeEditedAndWhatAnEarlierVersionBeganGoesOn() throws IOException {
         assertThat(evolve("run")).isZero();

@@ -30,23 +30,26 @@ import java.util.List;
  * @param system          operating system and processor architecture
  * @param processors      processors available
  * @param started         when this was written
+ * @param sceneSha256     digest of the run's scene, by which a scene that was changed since is noticed; null of what is no run
  * @param settings        of the run, by which a {@code config.json} that was edited since is noticed; null of what is no run
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record Environment(String natator, String simulator, String simulatorSha256, String version, String commit,
         String instructionSet, SimulatorMode mode, Backend backend, List<Integer> devices, String gpu,
         int workers, double timeoutSeconds, String java, String system, int processors, String started,
-        EvolutionSettings settings) {
+        String sceneSha256, EvolutionSettings settings) {
 
     /**
      * The present environment.
      *
-     * @param settings of the run, or null
+     * @param sceneSha256 digest of the run's scene, or null
+     * @param settings    of the run, or null
      *
      * @throws io.natator.simulator.RequestRejectedException if the simulator cannot be run
      * @throws InterruptedException                          if the calling thread is interrupted
      */
-    public static Environment present(ExecutionSettings execution, EvolutionSettings settings) throws InterruptedException {
+    public static Environment present(ExecutionSettings execution, String sceneSha256, EvolutionSettings settings)
+            throws InterruptedException {
         Program program = Program.at(execution.simulator(), execution.backend(), execution.device());
         String version = Environment.class.getPackage().getImplementationVersion();
         return new Environment(version == null ? "development" : version, fromWorkingDirectory(execution.simulator()),
@@ -55,7 +58,8 @@ public record Environment(String natator, String simulator, String simulatorSha2
                 execution.timeout().toMillis() / 1000.0,
                 Runtime.version().toString(),
                 System.getProperty("os.name") + " " + System.getProperty("os.arch"),
-                Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString(), settings);
+                Runtime.getRuntime().availableProcessors(), Instant.now().truncatedTo(ChronoUnit.SECONDS).toString(), sceneSha256,
+                settings);
     }
 
     private static String fromWorkingDirectory(Path path) {

@@ -116,13 +116,18 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
 
     /** Those by which the run has computed as yet; null if it has not begun, an earlier version began it, or that is damaged. */
     static EvolutionSettings settingsBefore(Path directory) {
-        Begun begun = readable(directory, RunFolder.ENVIRONMENT, Begun.class);
+        Begun begun = begun(directory);
         return begun == null ? null : begun.settings();
     }
 
-    /** What {@code environment.json} tells of the settings. */
+    /** By what the run has computed as yet; null if it has not begun, or that is damaged. */
+    static Begun begun(Path directory) {
+        return readable(directory, RunFolder.ENVIRONMENT, Begun.class);
+    }
+
+    /** What {@code environment.json} tells of the experiment; null what an earlier version did not write. */
     @JsonIgnoreProperties(ignoreUnknown = true)
-    private record Begun(EvolutionSettings settings) {
+    record Begun(String sceneSha256, EvolutionSettings settings) {
     }
 
     private static <T> T optional(Path directory, String name, Class<T> type) {

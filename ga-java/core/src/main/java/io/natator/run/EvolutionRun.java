@@ -5,6 +5,7 @@ import io.natator.cache.EvaluationCache;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Environment;
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
@@ -105,6 +106,8 @@ public final class EvolutionRun {
      * @throws io.natator.evolution.EvolutionStoppedException if the evaluator is closed, or the calling thread
      *                                                        interrupted; the run can be continued
      * @throws io.natator.evolution.EvolutionFailedException  if most simulations of a generation fail
+     * @throws InvalidInputException                          if the scene was changed since the run was begun, or the run does
+     *                                                        not go on by itself
      */
     public Outcome run(ExecutionSettings execution, Evaluator evaluator, EvolutionListener... listeners)
             throws InterruptedException {
@@ -127,8 +130,10 @@ public final class EvolutionRun {
     /** The same of an island. */
     Outcome run(ExecutionSettings execution, Evaluator evaluator, Exchange exchange, EvolutionListener... listeners)
             throws InterruptedException {
+        String scene = SceneDigest.of(settings, execution.simulator());
+        SceneDigest.check(folder.directory(), settings, scene);
         if (!StoredRun.isFinished(folder.directory())) {
-            folder.write(Environment.present(execution, settings));
+            folder.write(Environment.present(execution, scene, settings));
         }
         if (evaluator instanceof CachedEvaluator shared) {
             CachedEvaluator own = shared.counting();

@@ -41,7 +41,7 @@ public record FlexStudy(Path variantsFile, Path directory, int runs) {
         Limits.checkCount("--runs", runs, Limits.REPETITIONS);
         GeneratedPage.check(directory);
         OutputFolder.make(directory);
-        Environment environment = Environment.present(execution, null);
+        Environment environment = Environment.present(execution, null, null);
         List<Comparison> comparisons;
         try (Evaluator evaluator = Evaluator.open(execution)) {
             comparisons = new FlexComparison(variants, runs, directory.resolve("evaluations.jsonl"),

@@ -1,0 +1,59 @@
+package io.natator.checkpoint;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
+import io.natator.simulator.SceneInfo;
+import io.natator.simulator.Sha256;
+import java.nio.file.Path;
+import java.util.Objects;
+
+/** By what a scene is known again: a file that was changed since a run was begun makes another experiment of it. */
+public final class SceneDigest {
+
+    private static final String WITHOUT_EFFECT = "description";
+
+    private SceneDigest() {
+    }
+
+    /**
+     * Of the scene of a run with all that it builds on and the run's overrides, but for descriptions.
+     *
+     * @param simulator the native program
+     * @return SHA-256 in hexadecimal digits
+     * @throws InvalidInputException                         if the simulator does not know the scene
+     * @throws io.natator.simulator.RequestRejectedException if it cannot be run
+     * @throws InterruptedException                          if the calling thread is interrupted
+     */
+    public static String of(EvolutionSettings settings, Path simulator) throws InterruptedException {
+        try {
+            JsonNode scene = Json.parse(SceneInfo.definition(settings.scene(), settings.overrides(), simulator), JsonNode.class);
+            scene.findParents(WITHOUT_EFFECT).forEach(part -> ((ObjectNode) part).remove(WITHOUT_EFFECT));
+            return Sha256.of(Json.line(scene));
+        } catch (JsonProcessingException e) {
+            throw new InvalidInputException("simulator does not define scene " + settings.scene() + ": " + Json.reason(e), e);
+        }
+    }
+
+    /**
+     * Refuses to go on with a run whose scene was changed.
+     *
+     * @param directory of the run; one that has not begun, or that an earlier version began, has any scene
+     * @param settings  by which it is to go on; where they have another scene, or other overrides, nothing is said of that here
+     * @param digest    of their scene as it is now
+     * @throws InvalidInputException that says which scene
+     */
+    public static void check(Path directory, EvolutionSettings settings, String digest) {
+        StoredRun.Begun begun = StoredRun.begun(directory);
+        boolean isKnown = begun != null && begun.sceneSha256() != null && begun.settings() != null
+                && begun.settings().scene().equals(settings.scene())
+                && Objects.equals(begun.settings().overrides(), settings.overrides());
+        if (isKnown && !begun.sceneSha256().equals(digest)) {
+            throw new InvalidInputException("scene " + settings.scene() + " was changed after " + directory
+                    + " was begun; expected the scene that it was begun with, or a new run");
+        }
+    }
+}
