@@ -109,7 +109,9 @@ public:
     }
 
 private:
-    static int even(double size, const WaterSetting& setting) { return 2 * particles_along(size * length / 2, setting); }
+    static int even(double size, const WaterSetting& setting) {
+        return 2 * particles_along(size * length / 2, setting);
+    }
 
     void immerse(Model& model) {
         model.parameters.gravity = {0, -gravity, 0};
