@@ -6,10 +6,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.FileErrors;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
-import io.natator.config.Migration;
-import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
-import io.natator.config.SettingsChange;
 import io.natator.evolution.Departure;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
@@ -164,13 +161,13 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
      */
     public static RunFolder open(Path directory) {
         RunFolder folder = new RunFolder(directory, StoredRun.settings(directory));
-        folder.refuse(change(directory, folder.settings));
+        folder.refuse(RunDamage.editedSettings(directory, folder.settings));
         folder.refuse(folder.checkpoint != null && folder.checkpoint.population().isEmpty()
                 ? directory + " has no population any more, which it would go on from: it lacks " + CompactRun.WHOLE
-                : damage(directory, folder.checkpoint, folder.recorded().end()));
-        folder.refuse(damage(directory, folder.recorded()));
-        folder.refuse(damagedGenes(directory, folder.genome, folder.checkpoint));
-        folder.refuse(damage(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size()));
+                : RunDamage.lostEvaluations(directory, folder.checkpoint, folder.recorded().end()));
+        folder.refuse(RunDamage.misplacedEvaluation(directory, folder.recorded()));
+        folder.refuse(RunDamage.genes(directory, folder.genome, folder.checkpoint));
+        folder.refuse(RunDamage.lostMigrants(directory, folder.settings.migration(), folder.checkpoint, folder.departures.rows().size()));
         folder.dropFailures();
         return folder;
     }
@@ -186,62 +183,6 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
             close();
             throw new InvalidInputException(wrong);
         }
-    }
-
-    /** Which settings were edited since the run computed by them, in one line; null if none were, or none are recorded. */
-    static String change(Path directory, EvolutionSettings settings) {
-        EvolutionSettings before = StoredRun.settingsBefore(directory);
-        String change = before == null ? "" : SettingsChange.withinRun(before, settings);
-        return change.isEmpty() ? null : directory.resolve(CONFIG) + " was edited after the run was begun: " + change
-                + "; expected the settings that it was begun with, or a new run";
-    }
-
-    /**
-     * What of a run is lost, in one line; null if nothing is. Evaluations are on the disk before the checkpoint that counts
-     * them, so there are never fewer of a sound run, also while it is written.
-     */
-    static String damage(Path directory, EvolutionState checkpoint, long recorded) {
-        if (checkpoint != null && checkpoint.evaluations() < 0) {
-            return directory + " is damaged: evaluations of " + CHECKPOINT + " is " + checkpoint.evaluations() + "; expected at least 0";
-        }
-        return checkpoint == null || recorded >= checkpoint.evaluations() ? null : directory + " is damaged: " + EVALUATIONS
-                + " has " + Numbers.count(recorded, "whole line") + "; expected at least the " + checkpoint.evaluations() + " of " + CHECKPOINT;
-    }
-
-    /** Which evaluation stands where another should, in one line; null if none does. */
-    static String damage(Path directory, Recorded recorded) {
-        for (int i = 0; i < recorded.rows().size(); i++) {
-            long id = recorded.rows().get(i).result().id();
-            if (id != recorded.first() + i) {
-                return directory + " is damaged: " + EVALUATIONS + ", line " + (i + 1) + ": id is " + id + "; expected "
-                        + (recorded.first() + i);
-            }
-        }
-        return null;
-    }
-
-    /** Which genes of a checkpoint stand for nothing, in one line; null if none do. */
-    static String damagedGenes(Path directory, Genome genome, EvolutionState checkpoint) {
-        if (checkpoint == null) {
-            return null;
-        }
-        try {
-            Stream.concat(checkpoint.population().stream(), Stream.ofNullable(checkpoint.best()))
-                    .forEach(one -> genome.decode(one.genes()));
-            return null;
-        } catch (IllegalArgumentException e) {
-            return directory + " is damaged: genes of " + CHECKPOINT + ": " + e.getMessage();
-        }
-    }
-
-    /**
-     * What its island lacks that gaits should have left, in one line; null if nothing, or it is none. After each exchange up to
-     * the checkpoint somebody left, if only nobody: the next island has gone on by that.
-     */
-    static String damage(Path directory, Migration migration, EvolutionState checkpoint, int left) {
-        int expected = migration == null || checkpoint == null ? 0 : Math.max(checkpoint.generation() - 1, 0) / migration.every();
-        return left >= expected ? null : directory + " is damaged: " + MIGRANTS + " has " + Numbers.count(left, "whole line") + "; expected at least "
-                + expected + ", one for each exchange before generation " + checkpoint.generation();
     }
 
     /**

@@ -83,8 +83,10 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
      */
     public String damage() {
         boolean compact = state != null && state.population().isEmpty() && recorded.rows().isEmpty();
-        return Stream.of(RunFolder.change(directory, settings), compact ? null : RunFolder.damage(directory, state, recorded.end()),
-                RunFolder.damage(directory, recorded), RunFolder.damage(directory, settings.migration(), state, departures(directory).size()))
+        return Stream.of(RunDamage.editedSettings(directory, settings),
+                compact ? null : RunDamage.lostEvaluations(directory, state, recorded.end()),
+                RunDamage.misplacedEvaluation(directory, recorded),
+                RunDamage.lostMigrants(directory, settings.migration(), state, departures(directory).size()))
                 .filter(Objects::nonNull).findFirst().orElse(null);
     }
 
@@ -202,7 +204,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         if (state == null || state.best() == null) {
             return null;
         }
-        String damage = RunFolder.damagedGenes(directory, settings.genome(), state);
+        String damage = RunDamage.genes(directory, settings.genome(), state);
         if (damage != null) {
             throw new InvalidInputException(damage);
         }
