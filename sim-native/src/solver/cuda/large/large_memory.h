@@ -13,8 +13,8 @@ namespace natator::cuda {
 template <class Real>
 class LargeMemory {
 public:
-    /// `device_model` is the copy of `model`; both must outlive it. `keeps_forces`: with room for the impulses on solids. All copies
-    /// are asked of `stream`. Throws std::bad_alloc without memory for so many States.
+    /// `device_model` is the copy of `model`; both must outlive it. `keeps_forces`: with room for the impulses on solids. All
+    /// copies are asked of `stream`. Throws std::bad_alloc without memory for so many States.
     LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states, ContactRoom room, bool keeps_forces,
                 cudaStream_t stream);
 
