@@ -24,7 +24,6 @@ import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
-import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
 /** {@code natator export}: a swim in the formats of other programs. */
@@ -45,24 +44,13 @@ final class ExportCommand implements Callable<Integer> {
     @Mixin
     private SceneOptions sceneOptions;
 
-    @Parameters(paramLabel = "RUN|SCENE", description = "A run folder of evolve (its best gait), or a scene: a name as "
-            + "thesis/creature-1, or a file.")
-    private String source;
+    @Mixin
+    private SwimOptions swimOptions;
 
     @Section(Topic.OUTPUT)
     @Option(names = "--format", required = true, paramLabel = "FORMAT", description = "vtp, ply, usd, usdc, glb, csv or npz. "
             + "usdc needs Python with usd-core (pip install usd-core).")
     private ExportFormat format;
-
-    @Section(Topic.SCENE)
-    @Option(names = "--gait", paramLabel = "FILE",
-            description = "A JSON file with a gait, or a run's best.json. A scene without one is at rest.")
-    private Path gait;
-
-    @Section(Topic.SCENE)
-    @Option(names = "--generation", paramLabel = "N",
-            description = "Of a run: the best gait of the generations up to N instead of all.")
-    private Integer generation;
 
     @Section(Topic.OUTPUT)
     @Option(names = "--output-dir", paramLabel = "DIR",
@@ -113,8 +101,8 @@ final class ExportCommand implements Callable<Integer> {
         }
         EachOnce.check("--fields", fields, StreamField::text);
         Path simulator = simulatorOption.path();
-        SwimSource swimmer = SwimSource.of(source, generation, gait);
-        return swimmer.simulated(source, simulator, () -> export(swimmer, simulator));
+        SwimSource swimmer = swimOptions.swimmer();
+        return swimmer.simulated(swimOptions.source(), simulator, () -> export(swimmer, simulator));
     }
 
     private int export(SwimSource swimmer, Path simulator) throws InterruptedException {

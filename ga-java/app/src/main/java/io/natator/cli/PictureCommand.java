@@ -15,7 +15,6 @@ import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
-import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
 /** {@code natator picture}: a swim at one time as a PNG file. */
@@ -37,19 +36,8 @@ final class PictureCommand implements Callable<Integer> {
     @Mixin
     private SceneChanges changes;
 
-    @Parameters(paramLabel = "RUN|SCENE", description = "A run folder of evolve (its best gait), or a scene: a name as "
-            + "thesis/creature-1, or a file.")
-    private String source;
-
-    @Section(Topic.SCENE)
-    @Option(names = "--gait", paramLabel = "FILE",
-            description = "A JSON file with a gait, or a run's best.json. A scene without one is at rest.")
-    private Path gait;
-
-    @Section(Topic.SCENE)
-    @Option(names = "--generation", paramLabel = "N",
-            description = "Of a run: the best gait of the generations up to N instead of all.")
-    private Integer generation;
+    @Mixin
+    private SwimOptions swimOptions;
 
     @Section(Topic.SCENE)
     @Option(names = "--at", paramLabel = "SECONDS", description = "When, from 0 to the duration of the swim. Default: 1, or the "
@@ -80,14 +68,14 @@ final class PictureCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         PictureOptions options = options();
-        SwimSource swimmer = SwimSource.of(source, generation, gait);
+        SwimSource swimmer = swimOptions.swimmer();
         Path file = output != null ? output : Path.of(swimmer.name() + ".png");
         if (!file.toString().toLowerCase(Locale.ROOT).endsWith(".png")) {
             throw new InvalidInputException("--output is " + file + "; expected a name that ends in .png");
         }
         OutputFile png = OutputFile.of(file);
         Path simulator = simulatorOption.path();
-        DrawnSwim swim = swimmer.simulated(source, simulator,
+        DrawnSwim swim = swimmer.simulated(swimOptions.source(), simulator,
                 () -> DrawnSwim.of(swimmer, changes.overrides(), changes.scheme(), at, options, simulator));
         png.write(swim.png());
         spec.commandLine().getOut().printf(Locale.ROOT, "%s: %d x %d pixels, at %.2f s%n", file, swim.picture().getWidth(),
