@@ -43,7 +43,6 @@ final class RunPreview {
         ExecutionSettings limited = EvolutionRun.withTimeLimit(execution, settings);
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
         ProgressEstimate estimate = new ProgressEstimate(settings, System::nanoTime);
-        estimate.generationStarted(0, settings.population());
         out.println(ShowCommand.settings(settings));
         out.printf(Locale.ROOT, "  scene       %s, %s, %.2f s%n", Numbers.count(scene.particles(), "particle"),
                 Numbers.count(scene.actuators(), "actuator"), duration);

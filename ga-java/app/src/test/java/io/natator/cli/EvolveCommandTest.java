@@ -98,6 +98,15 @@ class EvolveCommandTest extends FakeSimulatorTest {
         assertThat(folder.resolve("run")).doesNotExist();
     }
 
+    /** The first generation swims from as many starts as the others, and has its race. */
+    @Test
+    void aPlanCountsTheStartsOfTheFirstGeneration() throws IOException {
+        assertThat(evolve("run", "--optimizer", "random", "--starts", "3")).as(err.toString()).isZero();
+
+        long lines = file("run", "evaluations.jsonl").lines().count();
+        assertThat(out.toString()).contains("\n  evaluations " + lines + "\n", " and " + lines + " evaluations\n");
+    }
+
     @Test
     void withoutOptionsItIsTheQuickPreset() {
         assertThat(natator("evolve", "--dry-run", "--output-dir", folder.resolve("run").toString())).isZero();
