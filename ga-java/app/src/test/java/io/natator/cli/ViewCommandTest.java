@@ -234,7 +234,7 @@ class ViewCommandTest {
         "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
         "--host no-such-host.invalid|2|natator view: --host is no-such-host.invalid, an unknown name; expected a name or "
             + "address of this machine",
-        "--host 192.0.2.1|2|natator view: --host is 192.0.2.1, 192.0.2.1; expected a name or address of this machine",
+        "--host 192.0.2.1|2|natator view: --host is 192.0.2.1; expected a name or address of this machine",
         "--overrides {\"solver\":{\"substep\":1}}|2|natator view: scene \"thesis/creature-1\": solver.substep: unknown key ",
         "--port TAKEN|1|natator view: cannot listen at port "})
     void whatIsWrongIsOneLine(String arguments, int status, String message) throws IOException {

@@ -104,8 +104,8 @@ public final class ViewServer implements AutoCloseable {
         try {
             InetAddress address = InetAddress.getByName(host);
             if (!address.isAnyLocalAddress() && NetworkInterface.getByInetAddress(address) == null) {
-                throw new InvalidInputException("--host is " + host + ", " + address.getHostAddress()
-                        + "; expected a name or address of this machine");
+                String place = host.equals(address.getHostAddress()) ? "" : ", which is " + address.getHostAddress();
+                throw new InvalidInputException("--host is " + host + place + "; expected a name or address of this machine");
             }
         } catch (UnknownHostException e) {
             throw new InvalidInputException("--host is " + host + ", an unknown name; expected a name or address of this "
