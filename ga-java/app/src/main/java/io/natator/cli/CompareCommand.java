@@ -107,7 +107,7 @@ final class CompareCommand implements Callable<Integer> {
     }
 
     private static void printCurves(List<StoredRun> runs, PrintWriter out) {
-        List<double[]> curves = runs.stream().map(StoredRun::bestFitness).toList();
+        List<double[]> curves = runs.stream().map(StoredRun::bestWorth).toList();
         int common = curves.stream().mapToInt(curve -> curve.length).min().orElse(0);
         out.print("evaluations");
         for (int i = 1; i <= runs.size(); i++) {
@@ -124,11 +124,11 @@ final class CompareCommand implements Callable<Integer> {
         }
     }
 
-    /** Runs that are not so long have no number there. */
+    /** Runs that are not so long, or have no gait as yet, have no number there. */
     private static void printRow(int place, List<double[]> curves, PrintWriter out) {
         out.printf("%11d", place);
         for (double[] curve : curves) {
-            out.printf("%12s", curve.length < place ? "" : RunReport.number(curve[place - 1]));
+            out.printf("%12s", curve.length < place || Double.isNaN(curve[place - 1]) ? "" : RunReport.number(curve[place - 1]));
         }
         out.println();
     }

@@ -77,10 +77,10 @@ class CompareCommandTest extends FakeSimulatorTest {
         List<String> lines = out.toString().lines().toList();
         assertThat(lines.get(0)).contains("cma-es");
         assertThat(lines.get(2)).isEqualTo("evaluations      best 1      best 2");
-        assertThat(lines.get(3)).matches(" {10}4 +\\d\\.\\d{4} +\\d\\.\\d{4}");
-        assertThat(lines.get(8)).matches(" {9}32 {12} +\\d\\.\\d{4}");
+        assertThat(lines.get(3)).matches(" {10}4 +-?\\d\\.\\d{4} +-?\\d\\.\\d{4}");
+        assertThat(lines.get(8)).matches(" {9}32 {12} +-?\\d\\.\\d{4}");
         JsonNode best = Json.parse(file("long", "best.json"), JsonNode.class);
-        assertThat(lines.get(8)).endsWith(String.format(" %.4f", Math.max(best.get("distance").asDouble(), 0)));
+        assertThat(lines.get(8)).endsWith(String.format(" %.4f", best.get("distance").asDouble()));
         assertThat(lines.get(9)).startsWith("1  does not swim: moves ");
         assertThat(lines.get(10)).contains("distance ", " ± ", "4 fresh starts", "body lengths/s", "in vacuum", "phi ");
         assertThat(lines.get(11)).startsWith("   half step ");
@@ -97,6 +97,19 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(natator("compare", "--starts", "0", folder.resolve("short").toString(), folder.resolve("long").toString()))
                 .isZero();
         assertThat(out.toString().lines()).containsExactlyElementsOf(lines.subList(0, 17));
+    }
+
+    /** A cost is an objective that is never above 0. */
+    @Test
+    void whatTheBestIsWorthMayBeNegative() throws IOException {
+        assertThat(evolve("one", "--optimizer", "random", "--objectives", "work", "--evaluations", "16")).as(err.toString()).isZero();
+        assertThat(evolve("two", "--optimizer", "cma-es", "--objectives", "work", "--evaluations", "16")).isZero();
+        out.getBuffer().setLength(0);
+
+        assertThat(natator("compare", "--starts", "0", folder.resolve("one").toString(), folder.resolve("two").toString())).isZero();
+        String last = file("one", "generations.csv").lines().reduce((a, b) -> b).orElseThrow();
+        assertThat(out.toString().lines().filter(line -> line.startsWith("         16")).findFirst()).get().asString()
+                .startsWith(String.format(Locale.ROOT, "         16%12.4f", Double.parseDouble(last.split(",")[1]))).contains("-0.");
     }
 
     @Test

@@ -10,7 +10,7 @@ import java.util.List;
  * @param evaluation number of the evaluation, from 0
  * @param simulated  time simulated until then, in seconds; null where the time of a whole run is not recorded
  * @param genes      of the gait, in the order of the encoding
- * @param fitness    its worth by all its runs so far; never negative
+ * @param worth      its worth by all its runs so far; negative for what goes backwards, or an objective that is a cost
  */
-public record Leader(int evaluation, Double simulated, List<Double> genes, double fitness) {
+public record Leader(int evaluation, Double simulated, List<Double> genes, double worth) {
 }

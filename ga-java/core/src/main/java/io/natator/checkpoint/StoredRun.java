@@ -274,10 +274,11 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         return JudgedGaits.ranked(settings, evaluations());
     }
 
-    /** Best fitness after each evaluation. */
-    public double[] bestFitness() {
+    /** What the best is worth after each evaluation; NaN before there is one. */
+    public double[] bestWorth() {
         double[] best = new double[evaluations().size()];
-        leaders().forEach(one -> Arrays.fill(best, one.evaluation(), best.length, one.fitness()));
+        Arrays.fill(best, Double.NaN);
+        leaders().forEach(one -> Arrays.fill(best, one.evaluation(), best.length, one.worth()));
         return best;
     }
 
@@ -295,7 +296,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
             }
             JudgedGait best = gaits.best();
             if (best != null && !best.equals(before)) {
-                leaders.add(new Leader(i, statistics == null ? null : simulated, best.genes(), Math.max(best.score(), 0)));
+                leaders.add(new Leader(i, statistics == null ? null : simulated, best.genes(), best.score()));
                 before = best;
             }
         }

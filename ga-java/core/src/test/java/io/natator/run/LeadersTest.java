@@ -63,8 +63,8 @@ class LeadersTest {
 
         Leader last = leaders.get(leaders.size() - 1);
         assertThat(last.genes()).isEqualTo(run.best().genes());
-        assertThat(last.fitness()).isCloseTo(run.best().selected(), within(1e-12));
-        assertThat(run.bestFitness()).hasSize(run.evaluations().size()).endsWith(last.fitness());
+        assertThat(last.worth()).isCloseTo(run.best().selected(), within(1e-12));
+        assertThat(run.bestWorth()).hasSize(run.evaluations().size()).endsWith(last.worth());
         assertThat(leaders).extracting(Leader::evaluation).isSorted().doesNotHaveDuplicates();
         for (Leader one : leaders) {
             double until = run.evaluations().subList(0, one.evaluation() + 1).stream()

@@ -36,7 +36,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
      * another start.
      *
      * @param evaluation its number, from 0
-     * @param fitness    what the best is worth from then on
+     * @param fitness    what the best is worth from then on, never negative
      * @param simulated  time simulated until then in all evaluations, in seconds; null in old studies
      * @param genes      of the best; null where it is the same as before, and in old studies
      */
@@ -51,7 +51,7 @@ record RunSummary(@JsonProperty(required = true) String optimizer,
         List<Improvement> improvements = new ArrayList<>();
         List<Double> before = null;
         for (Leader one : run.leaders()) {
-            improvements.add(new Improvement(one.evaluation(), one.fitness(), one.simulated(),
+            improvements.add(new Improvement(one.evaluation(), Math.max(one.worth(), 0), one.simulated(),
                     one.genes().equals(before) ? null : one.genes()));
             before = one.genes();
         }
