@@ -9,7 +9,9 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.MergePatch;
+import io.natator.config.Numbers;
 import io.natator.config.Scheme;
+import io.natator.encoding.Gait;
 import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;
 import io.natator.study.thesis.ThesisData;
@@ -139,11 +141,23 @@ final class ViewCommand implements Callable<Integer> {
         ObjectNode overrides =
                 InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()), sceneOptions.scheme());
         try {
-            SceneInfo.of(scene, overrides, program);
+            SceneInfo info = SceneInfo.of(scene, overrides, program);
+            if (given != null) {
+                checkGait(given.gait(), info);
+            }
+            boolean fits = swimmer.gait() != null && swimmer.gait().amplitude().size() == info.actuators();
+            return new InitialScene(scene, overrides, fits ? swimmer.gait() : null);
         } catch (RefusedSceneException e) {
             throw choice.refused(scene, e, program);
         }
-        return new InitialScene(scene, overrides, swimmer.gait());
+    }
+
+    /** Before the page opens, where it would only be told that the simulator refuses it. */
+    private void checkGait(Gait given, SceneInfo scene) {
+        if (given.amplitude().size() != scene.actuators()) {
+            throw new InvalidInputException("--gait " + gait + " is for " + Numbers.count(given.amplitude().size(), "actuator")
+                    + ", but scene " + scene.scene() + " has " + scene.actuators() + "; expected one value for each");
+        }
     }
 
     /** Whether a run's best gait swims in just the scene in which it was found. */
@@ -157,8 +171,11 @@ final class ViewCommand implements Callable<Integer> {
         Swimmer swimmer = given != null ? given : best != null ? best.swimmer() : new Swimmer(null, null);
         ObjectNode overrides = InitialScene.patch(
                 MergePatch.both(MergePatch.both(run.overrides(), swimmer.body()), sceneOptions.overrides()), scheme);
-        if (sceneOptions.overrides() != null) {
-            SceneInfo.of(run.scene(), overrides, program);
+        if (sceneOptions.overrides() != null || given != null) {
+            SceneInfo info = SceneInfo.of(run.scene(), overrides, program);
+            if (given != null) {
+                checkGait(given.gait(), info);
+            }
         }
         return new InitialScene(run.scene(), overrides, swimmer.gait());
     }

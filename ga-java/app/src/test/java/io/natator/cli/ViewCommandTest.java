@@ -150,6 +150,14 @@ class ViewCommandTest {
         assertThat(start.get("overrides").toString()).isEqualTo("{\"solver\":{\"substeps\":2},\"scheme\":\"flex\"}");
     }
 
+    /** What the thesis published is for its creature alone. */
+    @Test
+    void anotherCreatureRests() throws IOException, InterruptedException {
+        JsonNode start = start(start("--creature", "1", "--overrides", "{\"creature\":{\"name\":\"creature-2\"}}"));
+
+        assertThat(start.path("gait").isObject()).isFalse();
+    }
+
     @Test
     void aRunsSceneCanBeChangedToo() throws IOException, InterruptedException {
         Path run = folder.resolve("run");
@@ -231,6 +239,8 @@ class ViewCommandTest {
         "--scene no/such|2|natator view: --scene is no/such; expected a named scene ",
         "--scene no/such.json|2|natator view: --scene is no/such.json; expected a named scene or an existing file",
         "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
+        "--gait ../../sim-native/examples/gaits/fish-like.json|2|natator view: --gait ../../sim-native/examples/gaits/"
+            + "fish-like.json is for 8 actuators, but scene thesis/creature-1 has 2; expected one value for each",
         "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
         "--host no-such-host.invalid|2|natator view: --host is no-such-host.invalid, an unknown name; expected a name or "
             + "address of this machine",
