@@ -1,4 +1,4 @@
-"""What search_steps.py, wider_tank.py, without_end.py and population.py share: all print requests, and make a table of their results."""
+"""What search_steps.py, wider_tank.py, without_end.py, population.py and sinking.py share: all print requests, and make a table of their results."""
 import json
 import pathlib
 import statistics

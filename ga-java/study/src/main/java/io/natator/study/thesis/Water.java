@@ -14,7 +14,8 @@ import java.util.stream.DoubleStream;
 /**
  * What the study's creatures swim in: scenes of one kind, simulated by one scheme. The thesis' tank in scheme
  * {@code conserving} is none of them: its bodies are heavier than the water that they displace and lie on the floor within half a
- * second, which {@link ExperimentCatalogue#sinking} measures.
+ * second, which {@link ExperimentCatalogue#sinking} measures; nor does anything swim that evolves there
+ * ({@code results/thesis/sinking.py}).
  */
 public enum Water {
     /** The thesis' tank as the thesis has it. */

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""What do bodies do in the thesis' tank in scheme conserving, where they weigh 1.7 times the water that they displace?
+
+    for seed in 1 2 3 4 5; do for creature in 1 2 3 4; do
+        natator evolve --preset thesis --creature $creature --scheme conserving --overrides '{"solver":{"substeps":2}}' --starts 2 --seed $seed \\
+            --backend cuda --simulator batch --no-cache --output-dir results/thesis/sinking/creature-$creature-seed-$seed
+    done; done
+    python3 results/thesis/sinking.py > requests.jsonl
+    natator-sim serve < requests.jsonl > results.jsonl
+    python3 results/thesis/sinking.py results.jsonl         # both tables for commentary.md
+
+The best gait of each evolution, from starts of its own, until it touches a plane, as runs in the thesis' tank end: with the scene's four
+substeps, with eight, and with resting muscles. And the published gaits for the whole 4 s, on the floor, with four, eight and sixteen.
+"""
+import json
+import pathlib
+import statistics
+
+import recompute
+import swims
+
+HERE = pathlib.Path(__file__).resolve().parent
+STARTS = [1, 2, 3, 4]
+SUBSTEPS = [4, 8, 16]
+SECONDS = 4
+
+
+def winners():
+    """(creature, gait) of each evolution."""
+    for folder in sorted((HERE / "sinking").glob("creature-*-seed-*")):
+        yield int(folder.name.split("-")[1]), json.loads((folder / "best.json").read_text(encoding="utf-8"))["gait"]
+
+
+def request(creature, gait, substeps, ends):
+    return {"scene": f"thesis/creature-{creature}", "scheme": "conserving", "duration": SECONDS, "gait": gait,
+            "overrides": {"stopping": {"planeContact": ends, "noProgressAfter": 0}, "solver": {"substeps": substeps}}}
+
+
+def asked(published):
+    """((what, creature or gait, evolution), request) of each group of runs from all starts."""
+    for number, (creature, gait) in enumerate(winners()):
+        yield ("moving", creature, number), request(creature, gait, 4, True)
+        yield ("half step", creature, number), request(creature, gait, 8, True)
+        yield ("resting", creature, number), request(creature, {**gait, "amplitude": [0] * len(gait["amplitude"])}, 4, True)
+    for gait in published:
+        for substeps in SUBSTEPS:
+            yield (substeps, gait["name"], None), request(gait["creature"], gait["gait"], substeps, False)
+
+
+def spread(values, digits, unit=""):
+    least, most = (f"{value:.{digits}f}" for value in (min(values), max(values)))
+    return (least if least == most else f"{least} to {most}") + unit
+
+
+def falls(found, length):
+    print("| creature | lies on the floor after | way until then | at half the time step | resting |")
+    print("| ---: | ---: | ---: | ---: | ---: |")
+    for creature in sorted({name for what, name, _ in found if what == "moving"}):
+        def of(what, key):
+            return [[one[key] for one in runs] for (kind, name, _), runs in found.items() if (kind, name) == (what, creature)]
+        ends = sum(of("moving", "simulated"), [])
+        ways = [spread([statistics.mean(one) / length[f"creature-{creature}"] for one in of(what, "distance")], 3)
+                for what in ("moving", "half step", "resting")]
+        print(f"| {creature} | {spread(ends, 2, ' s')} | {' | '.join(ways)} |")
+
+
+def crawls(found, published):
+    print(f"\n| gait | published | {' | '.join(f'{substeps} substeps' for substeps in SUBSTEPS)} |")
+    print("| --- | ---: | ---: | ---: | ---: |")
+    for gait in published:
+        speeds = [swims.with_error([one["distance"] / SECONDS for one in found[substeps, gait["name"], None]], 2) for substeps in SUBSTEPS]
+        print(f"| {gait['creature']}, {gait['about']} | {gait.get('published', {}).get('speed', '–')} | {' | '.join(speeds)} |")
+
+
+def main():
+    study = recompute.Study()
+    groups = list(asked(study.published))
+    runs = [(name, {"id": number, "start": start, **one})
+            for number, (name, one, start) in enumerate((name, one, start) for name, one in groups for start in STARTS)]
+    results = swims.results(run for _, run in runs)
+    found = {}
+    for name, run in runs:
+        found.setdefault(name, []).append(results[run["id"]])
+    falls(found, study.length)
+    crawls(found, study.published)
+
+
+if __name__ == "__main__":
+    main()
