@@ -45,6 +45,7 @@ class ViewRunsTest extends ViewBrowserTest {
         page.keyboard().press("Home");
 
         assertThat(get("run-chosen")).containsText("Generation 0");
+        assertThat(page.textContent("#run-facts")).as("the random one is not counted").endsWith(", 3 generations");
         for (String fact : List.of("body lengths/s", "at half the time step", "4 fresh starts, all completed", "selection loss",
                 "cost of transport ", "Reynolds number 131, Strouhal number 0.313")) {
             assertThat(get("run-fresh")).containsText(fact);

@@ -233,8 +233,9 @@ export class FitnessChart extends Chart {
   /** `chosen` and `other` are generations that are marked, or null. */
   draw(generations, bests, chosen, other) {
     const values = generations.flatMap(one => [one.bestEver ?? one.best, one.mean]);
-    const x = axis(generations[0]?.generation ?? 0, generations.at(-1)?.generation ?? 1, 5);
+    const first = generations[0]?.generation ?? 0;
     const last = Math.max(generations.at(-1)?.generation ?? 1, 1);
+    const x = axis(first, last, Math.min(5, Math.max(last - first, 1)));  // marks at whole generations
     this.begin({...x, high: last}, axis(Math.min(0, ...values), Math.max(0.01, ...values), 3));
     for (const [generation, colour] of [[other, this.colours.other], [chosen, this.colours.strong]]) {
       if (generation !== null) {

@@ -87,7 +87,8 @@ export class RunBrowser {
     this.#front.show(front ?? null);
     showBodies(bodies ?? null);
     byId('gait-looked-at').hidden = !map && !front;
-    byId('run-facts').textContent = `${scene}, ${optimizer}, seed ${seed}, ${generations.length} generations`;
+    const last = generations.at(-1)?.generation ?? 0;  // the random one, 0, is not counted, as everywhere
+    byId('run-facts').textContent = `${scene}, ${optimizer}, seed ${seed}, ${last} generation${last === 1 ? '' : 's'}`;
     this.#choose(null);
   }
 
