@@ -9,6 +9,7 @@ import java.nio.file.Files;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -46,6 +47,26 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(file("study", "README.md")).isEqualTo(page);
         assertThat(file("study", "creature-1.jsonl")).hasLineCount(8);
         assertThat(folder.resolve("study/creature-1")).doesNotExist();
+    }
+
+    /** Finished runs of other settings are no part of the study. */
+    @ParameterizedTest
+    @CsvSource({"--evaluations, 12, evaluations was 24", "--duration, 3.0, duration was not set", "--population, 4, population was 6"})
+    void aFinishedStudyIsOfItsSettings(String option, String value, String change) {
+        List<String> study = new ArrayList<>(List.of("compare-optimizers", "--output-dir", folder.resolve("study").toString(),
+                "--creatures", "1", "--seeds", "1", "--optimizers", "random", "--simulator", "batch"));
+        List<String> size = List.of("--evaluations", "24", "--population", "6");
+        assertThat(natator(Stream.concat(study.stream(), size.stream()).toArray(String[]::new))).as(err.toString()).isZero();
+        err.getBuffer().setLength(0);
+
+        for (int i = 0; i < size.size(); i += 2) {
+            if (!size.get(i).equals(option)) {
+                study.addAll(size.subList(i, i + 2));
+            }
+        }
+        study.addAll(List.of(option, value));
+        assertThat(natator(study.toArray(String[]::new))).isEqualTo(2);
+        assertThat(err.toString()).contains("was begun with other settings: " + change + ", is now " + value).hasLineCount(1);
     }
 
     @Test

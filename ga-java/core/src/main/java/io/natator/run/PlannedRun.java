@@ -3,6 +3,7 @@ package io.natator.run;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.InvalidInputException;
 import io.natator.config.SettingsChange;
 import java.nio.file.Path;
 
@@ -17,7 +18,7 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
     /**
      * Opens its folder, or makes it. A run of fewer generations goes on to those of the settings.
      *
-     * @throws io.natator.config.InvalidInputException if there is a run of other settings in it
+     * @throws InvalidInputException if there is a run of other settings in it
      */
     public RunFolder open() {
         if (!StoredRun.exists(directory)) {
@@ -38,11 +39,31 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
         return folder;
     }
 
+    /**
+     * Looks whether the run in its folder, finished or not, is of the settings; its backend may be another one.
+     *
+     * @throws InvalidInputException if it is of others
+     */
+    public void check() {
+        if (StoredRun.exists(directory)) {
+            EvolutionSettings stored = StoredRun.settings(directory);
+            String refusal = refusal(stored, settings.withBackend(stored.backend()));
+            if (refusal != null) {
+                throw new InvalidInputException(refusal);
+            }
+        }
+    }
+
+    /** Why a run cannot go on by settings; null if it can. */
+    private String refusal(EvolutionSettings stored, EvolutionSettings wanted) {
+        EvolutionSettings extended = isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored;
+        return extended.equals(wanted) ? null : directory + " was begun with other settings: " + SettingsChange.between(extended, wanted)
+                + "; choose another --output-dir, or the options that it was begun with";
+    }
+
     private void check(RunFolder folder, EvolutionSettings wanted) {
         EvolutionSettings stored = folder.settings();
-        EvolutionSettings extended = isShorter(stored) ? stored.withGenerations(wanted.generations()) : stored;
-        folder.refuse(extended.equals(wanted) ? null : directory + " was begun with other settings: " + SettingsChange.between(extended, wanted)
-                + "; choose another --output-dir, or the options that it was begun with");
+        folder.refuse(refusal(stored, wanted));
         if (isShorter(stored)) {
             folder.checkMoreGenerations();
         }

@@ -67,6 +67,7 @@ public final class OptimizerStudy {
                 }
             }
         }
+        runs.stream().filter(run -> run.summary() == null).forEach(run -> run.plan().check());  // a finished one is not opened any more
         long unknown = runs.stream().filter(run -> run.summary() != null && !isRanked(run)
                 && !StoredRun.exists(run.directory())).count();
         if (unknown > 0) {
