@@ -63,6 +63,28 @@ class DocumentedFormatsTest {
         for (String key : (Iterable<String>) () -> schemaOf("gait").path("properties").fieldNames()) {
             assertThat(key.equals("$schema") ? List.of(key) : rows(page, key)).as(key).isNotEmpty();
         }
+        objects.add(schemaOf("gait"));
+        objects.forEach(object -> checkLists(page, scene, object));
+    }
+
+    /** Of a list of numbers the page says what each may be. */
+    private static void checkLists(String page, JsonNode schema, JsonNode object) {
+        object.path("properties").properties().forEach(key -> {
+            String reference = key.getValue().path("$ref").asText("#").substring(1);
+            JsonNode each = (reference.isEmpty() ? key.getValue() : schema.at(reference)).path("items");
+            if (each.has("minimum")) {
+                assertThat(rowsOf(page, key.getKey())).as(key.getKey())
+                        .anyMatch(row -> row.contains("each in [" + each.path("minimum") + ", " + each.path("maximum") + "]"));
+            }
+        });
+    }
+
+    private static List<String> rowsOf(String page, String key) {
+        try {
+            return rows(page, key);
+        } catch (IOException e) {
+            throw new IllegalStateException(e);
+        }
     }
 
     private static JsonNode schemaOf(String name) {
