@@ -4,9 +4,13 @@ import java.util.Collection;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Locale;
+import java.util.Map;
 
 /** Which of the known names somebody probably meant. */
 final class Closest {
+
+    /** What others call it. */
+    private static final Map<String, String> ALSO_CALLED = Map.of("gpu", "cuda", "gltf", "glb", "nsga-ii", "nsga2", "cmaes", "cma-es");
 
     private Closest() {
     }
@@ -14,6 +18,10 @@ final class Closest {
     /** {@code ; did you mean evolve?}, or nothing if no name is near: begins so, or is other in a third of its letters. */
     static String hint(String given, Collection<String> known) {
         String small = given.toLowerCase(Locale.ROOT);
+        String meant = ALSO_CALLED.get(small);
+        if (meant != null && known.contains(meant)) {
+            return "; did you mean " + meant + "?";
+        }
         return known.stream().filter(name -> isNear(small, name))
                 .min(Comparator.comparingInt(name -> distance(small, name)))
                 .map(name -> "; did you mean " + name + "?").orElse("");
