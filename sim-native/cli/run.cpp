@@ -111,8 +111,8 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
                                         : "")
              << "\n";
     }
-    text << "simulated  " << result.simulated << " s in " << result.frames << " frames, " << to_string(result.stopped)
-         << "\n";
+    text << "simulated  " << result.simulated << " s in " << result.frames
+         << (result.frames == 1 ? " frame, " : " frames, ") << to_string(result.stopped) << "\n";
     if (result.instability) {
         text << "unstable   particle " << result.instability->particle << " is not finite after stage "
              << result.instability->stage << " at " << result.instability->time << " s\n";

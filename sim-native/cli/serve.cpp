@@ -152,7 +152,8 @@ int serve(ServeOptions& options) {
         serve_batch(lines, options, tally);
     }
     if (options.summary)
-        std::cerr << "natator-sim: " << tally.requests << " requests, " << tally.evaluations << " evaluations\n";
+        std::cerr << "natator-sim: " << tally.requests << (tally.requests == 1 ? " request, " : " requests, ")
+                  << tally.evaluations << (tally.evaluations == 1 ? " evaluation\n" : " evaluations\n");
     return ok;
 }
 

@@ -271,6 +271,8 @@ TEST(RunTest, PrintsASummary) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("creature-1, 2 actuators"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("0.1 s in 6 frames, completed"), std::string::npos) << outcome.out;
+    const Outcome one = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.01"});
+    EXPECT_NE(one.out.find(" s in 1 frame, completed"), std::string::npos) << one.out;
     EXPECT_NE(outcome.out.find("body lengths/s"), std::string::npos) << outcome.out;
 }
 

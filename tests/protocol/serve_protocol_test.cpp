@@ -63,6 +63,7 @@ TEST(ServeProtocolTest, RequestsThatDifferInTheirIdsOnlyAreEvaluatedOnce) {
     const Outcome served = run_simulator(
         {"serve", "--summary"}, "{\"id\":1" + same + "\n{\"id\":2" + same + "\n" + other_order + "\n" + request(4));
     EXPECT_EQ(served.err, "natator-sim: 4 requests, 2 evaluations\n");
+    EXPECT_EQ(run_simulator({"serve", "--summary"}, request(1)).err, "natator-sim: 1 request, 1 evaluation\n");
     const auto by_id = answers(served);
     ASSERT_EQ(by_id.size(), 4u);
     json third = by_id.at(3), fourth = by_id.at(4);
