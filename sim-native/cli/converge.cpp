@@ -98,6 +98,8 @@ std::vector<LevelRuns> read_levels(json request, const ConvergeOptions& options)
     const std::string document = request_name(options.request);
     if (!request.is_object()) fields::refuse({document, ""}, request, "an object");
     if (request.contains("start")) throw InputError(document + ": start: must not be given, converge has starts of its own");
+    if (fields::has(request, "perturbation") && request["perturbation"].is_object() && !request["perturbation"].contains("seed"))
+        request["perturbation"]["seed"] = 1u;  // only its amplitude counts, converge has seeds of its own
     std::vector<LevelRuns> levels{read_level(Level::named("base"), request, options)};
     Perturbation perturbation = levels.front().job.request.perturbation;
     const Scene scene = levels.front().job.scene;

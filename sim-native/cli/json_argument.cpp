@@ -1,6 +1,7 @@
 #include "json_argument.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "io/strict_json.h"
 
@@ -8,9 +9,12 @@ namespace natator::cli {
 
 namespace {
 
+/// An object; or an array that is the name of no file, which readers refuse better than a file that is not there.
 bool is_text(const std::string& argument) {
     const auto first = argument.find_first_not_of(" \t\r\n");
-    return first != std::string::npos && argument[first] == '{';
+    if (first == std::string::npos) return false;
+    std::error_code failed;
+    return argument[first] == '{' || (argument[first] == '[' && !std::filesystem::exists(argument, failed));
 }
 
 bool is_standard_input(const std::string& argument) { return argument.empty() || argument == "-"; }

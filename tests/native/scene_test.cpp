@@ -172,6 +172,11 @@ TEST_F(SceneFiles, ALoopOfBasesIsRefused) {
     EXPECT_NE(message_of(path).find("without a loop"), std::string::npos) << message_of(path);
 }
 
+TEST_F(SceneFiles, ABaseThatCannotBeReadIsToldWithWhoNamesIt) {
+    const std::string path = write("own.json", R"({"base": "none.json"})");
+    EXPECT_NE(message_of(path).find("own.json\": base: file \"none.json\": cannot be read"), std::string::npos) << message_of(path);
+}
+
 TEST_F(SceneFiles, UnreadableAndDamagedFilesAreNamed) {
     EXPECT_NE(message_of((directory_ / "none.json").string()).find("cannot be read"), std::string::npos);
     EXPECT_NE(message_of(directory_.string() + "/../" + directory_.filename().string() + "/x.json").find("x.json"),

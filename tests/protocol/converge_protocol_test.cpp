@@ -122,6 +122,14 @@ TEST_F(ConvergeTest, PlainWritesTheTable) {
     EXPECT_TRUE(std::regex_search(outcome.out, columns)) << outcome.out;
 }
 
+TEST_F(ConvergeTest, APerturbationNeedsNoSeed) {
+    json perturbed = swim;
+    perturbed["perturbation"] = {{"amplitude", 2e-4}};
+    const Outcome outcome = run_simulator({"converge", "-", "--starts", "2", "--levels", "time/2"}, perturbed.dump());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(json::parse(outcome.out)["perturbation"], 2e-4);
+}
+
 TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
     const auto refused = [](const std::vector<std::string>& arguments, const std::string& input, const char* what) {
         const Outcome outcome = run_simulator(arguments, input);

@@ -55,6 +55,11 @@ class EvaluationTest(unittest.TestCase):
                 self.assertEqual(str(refused.exception), message)
             self.assertEqual(simulator.evaluate(TANK, GAIT, duration=0.05)["status"], "ok")
 
+    def test_which_of_many_requests_is_refused_is_told(self):
+        with natator.Simulator(1) as simulator:
+            with self.assertRaisesRegex(natator.InputError, r"^requests\[1\]: gait\.amplitude\[0\] = 5: must be"):
+                simulator.evaluate_all([make_request(TANK, GAIT, duration=0.05), make_request(TANK, natator.Gait(1, [5, 0], [0, 0]))])
+
     def test_what_is_no_request_is_refused_in_one_line(self):
         cyclic, deep = {}, {}
         cyclic["solver"] = cyclic

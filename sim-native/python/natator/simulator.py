@@ -50,7 +50,8 @@ class Simulator:
         answers.sort(key=lambda answer: answer["id"])
         for answer in answers:
             if answer["status"] == "error":
-                raise InputError(answer["error"])
+                which = f"requests[{answer['id']}]: " if len(requests) > 1 else ""
+                raise InputError(which + answer["error"])
         return answers
 
     def _answers(self, lines):

@@ -74,10 +74,9 @@ void patch_scene(json& scene, const json& patch) {
     }
 }
 
-/// A scene file merged onto the scene that its `base` names, and so on.
-json with_bases(const std::string& name, const std::filesystem::path& data, int level) {
+/// What a scene's file holds merged onto the scene that its `base` names, and so on.
+json with_bases(const std::string& name, json document, const std::filesystem::path& data, int level) {
     const Place place{"scene " + quoted(name), ""};
-    json document = read_data_file("scenes", name, data);
     if (!document.is_object()) fields::refuse(place, document, "an object");
     fields::drop_schema_key(document, place);
     if (json* const obstacles = array_in(document, "obstacles"))
@@ -92,7 +91,14 @@ json with_bases(const std::string& name, const std::filesystem::path& data, int 
     if (!base.is_string()) fields::refuse(place.key("base"), base, "the name of a scene");
     if (level == max_bases)
         fields::refuse(place.key("base"), base, "part of a chain of at most 8 scenes without a loop");
-    json merged = with_bases(beside(name, base.get<std::string>()), data, level + 1);
+    const std::string base_name = beside(name, base.get<std::string>());
+    json of_base;
+    try {
+        of_base = read_data_file("scenes", base_name, data);
+    } catch (const InputError& error) {
+        fields::refuse(place.key("base"), error.what());
+    }
+    json merged = with_bases(base_name, std::move(of_base), data, level + 1);
     patch_scene(merged, document);
     return merged;
 }
@@ -152,7 +158,7 @@ json scene_definition(const std::string& name, const json& overrides, const std:
     if (!overrides.is_object()) fields::refuse(place.key("overrides"), overrides, "an object");
     if (fields::has(overrides, "base"))
         fields::refuse(place.key("overrides").key("base"), overrides.at("base"), "left out: the scene is chosen before it is changed");
-    json document = with_bases(name, data, 0);
+    json document = with_bases(name, read_data_file("scenes", name, data), data, 0);
     patch_scene(document, overrides);
     resolve_creature(document, place.key("creature"), data);
     add_mesh_digest(document, place.key("creature"), data);
