@@ -23,8 +23,9 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         String speed = Numbers.fixed(net / controls.duration() / unit, 2) + " ± "
                 + Numbers.fixed(controls.water().speed().sd() / unit, 2) + " " + name + "/s more than a resting body";
         if (net / unit < Verdict.LEAST_DISTANCE) {
-            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: " + speed + ", less than "
-                    + Verdict.LEAST_DISTANCE + " " + name + " in " + Numbers.fixed(controls.duration(), 2) + " s");
+            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(net / unit, 3) + " ± "
+                    + Numbers.fixed(controls.water().distance().sd() / unit, 3) + " " + name + " further than a resting body in "
+                    + Numbers.fixed(controls.duration(), 2) + " s, less than " + Verdict.LEAST_DISTANCE);
         }
         if (drift(controls) - error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(drift(controls), 1)

@@ -206,22 +206,23 @@ public record Verdict(Kind kind, String text, String advice) {
     /** What lengths are told in. */
     private record Length(double unit, String name) {
 
+        /** With a digit more than the limit that it is set beside. */
         String distance(Swim swim) {
-            return with(swim.distance(), swim.fresh() == null ? null : swim.fresh().base().distance()) + " " + name;
+            return with(swim.distance(), swim.fresh() == null ? null : swim.fresh().base().distance(), 3) + " " + name;
         }
 
         /** Mean and standard deviation, and the mean at half the time step. */
         String speed(Swim swim) {
             if (swim.fresh() == null) {
-                return with(swim.speed(), null) + " " + name + "/s";
+                return with(swim.speed(), null, 2) + " " + name + "/s";
             }
             SwimSample half = swim.fresh().halfStep();
-            return with(swim.speed(), swim.fresh().base().speed()) + " " + name + "/s"
+            return with(swim.speed(), swim.fresh().base().speed(), 2) + " " + name + "/s"
                     + (half == null ? "" : ", " + Numbers.fixed(half.speed().mean() / unit, 2) + " at half the time step");
         }
 
-        private String with(double value, Spread spread) {
-            return Numbers.fixed(value / unit, 2) + (spread == null ? "" : " ± " + Numbers.fixed(spread.sd() / unit, 2));
+        private String with(double value, Spread spread, int digits) {
+            return Numbers.fixed(value / unit, digits) + (spread == null ? "" : " ± " + Numbers.fixed(spread.sd() / unit, digits));
         }
     }
 }

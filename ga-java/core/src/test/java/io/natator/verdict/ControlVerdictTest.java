@@ -33,8 +33,8 @@ class ControlVerdictTest {
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
         "0.74|0.01|0.0|0.70|0.70|0.74|0.9|SWIMS|swims: 0.15 ± 0.00 body lengths/s more than a resting body, not in vacuum, without "
             + "the acceleration clamp (95 %), at half the time step (95 % of its way), mirrored (100 %); 90 % under water",
-        "0.05|0.01|0.0|0.05|0.05|0.05|0.9|DOES_NOT_SWIM|does not swim: 0.01 ± 0.00 body lengths/s more than a resting body, less "
-            + "than 0.05 body lengths in 4.00 s",
+        "0.05|0.01|0.0|0.05|0.05|0.05|0.9|DOES_NOT_SWIM|does not swim: moves 0.048 ± 0.011 body lengths further than a resting body "
+            + "in 4.00 s, less than 0.05",
         "0.74|0.01|-0.4|0.70|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: moves 0.5 times as far in vacuum, the other way",
         "0.74|0.01|0.0|-0.01|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 0 % of its way "
             + "is left",

@@ -29,8 +29,8 @@ class VerdictTest {
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
         "conserving|0.75|completed|4|0.0000001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
         "conserving|0.75|completed|4|-0.001|4|SWIMS|swims: 0.15 body lengths/s, 0.00 in vacuum",
-        "conserving|0.06|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves 0.05 body lengths in 4.00 s, less than 0.05",
-        "conserving|-0.001|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves 0.00 body lengths in 4.00 s, less than 0.05",
+        "conserving|0.06|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves 0.048 body lengths in 4.00 s, less than 0.05",
+        "conserving|-0.001|completed|4|0|4|DOES_NOT_SWIM|does not swim: moves -0.001 body lengths in 4.00 s, less than 0.05",
         "conserving|-0.75|completed|4|0|4|DOES_NOT_SWIM|does not swim forwards: -0.15 body lengths/s, 0.00 in vacuum",
         "conserving|0.2|no-progress|3|0|3|DOES_NOT_SWIM|does not swim: comes to rest, no progress at 3.00 s",
         "conserving|2.5|touched-plane|2|0|2|SWIMS|swims: 1.00 body lengths/s, 0.00 in vacuum, until it touches a wall at 2.00 s",
@@ -63,7 +63,7 @@ class VerdictTest {
         "0.7 0.8 0.7 0.8|completed|1.1|SWIMS|swims: 0.15 ± 0.01 body lengths/s, 0.22 at half the time step, 0.00 in vacuum",
         "1.9 -0.4 -0.2 0.1|completed|0.4|UNPROVEN|may swim: 0.07 ± 0.21 body lengths/s, 0.08 at half the time step, 0.00 in "
             + "vacuum; the runs differ too much to tell",
-        "0.1 0.0 0.0 0.0|completed|0.1|DOES_NOT_SWIM|does not swim: moves 0.02 ± 0.04 body lengths in 4.00 s, less than 0.05",
+        "0.1 0.0 0.0 0.0|completed|0.1|DOES_NOT_SWIM|does not swim: moves 0.020 ± 0.040 body lengths in 4.00 s, less than 0.05",
         "2.5 2.5 2.5 2.5|touched-plane|2.5|SWIMS|swims: 0.50 ± 0.00 body lengths/s, 0.50 at half the time step, 0.00 in "
             + "vacuum, until it touches a wall"})
     void freshRunsJudge(String distances, String stopped, double half, Verdict.Kind kind, String text) {
