@@ -47,8 +47,10 @@ public record Measure(String name, String value, String expected, Outcome outcom
         double way = fresh == null ? best.result().distanceOrZero() : fresh.base().distance().mean();
         String least = "more than " + Verdict.LEAST_DISTANCE + " " + name;
         if (fresh == null) {
-            all.add(new Measure("way, one run", Numbers.fixed(way / unit, 2) + " " + name, least,
-                    outcome(Verdict.getsFar(way, 0, unit))));
+            boolean isKnown = Verdict.isMeasurable(best.vacuum(), best.bodyLength());
+            all.add(new Measure("way, one run", Numbers.fixed(way / unit, 2) + " " + name,
+                    isKnown ? least : "more than " + Verdict.LEAST_DISTANCE + " body lengths",
+                    isKnown ? outcome(Verdict.getsFar(way, 0, unit)) : Outcome.NOT_MEASURED));
         } else {
             SwimSample base = fresh.base();
             double error = base.distance().sd() / Math.sqrt(base.runs());

@@ -22,7 +22,7 @@ import java.util.Locale;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record Verdict(Kind kind, String text, String advice) {
 
-    /** What moves less than this in a whole run does not swim: body lengths, or scene units where the length is unknown. */
+    /** What moves less than this in a whole run does not swim: body lengths, or scene units in old folders. */
     static final double LEAST_DISTANCE = 0.05;
     /** Drift in vacuum up to this share of the speed in water is none. */
     static final double NO_DRIFT = 0.1;
@@ -85,7 +85,7 @@ public record Verdict(Kind kind, String text, String advice) {
         Length length = bodyLength != null && bodyLength > 0 ? new Length(bodyLength, "body lengths")
                 : new Length(1, "units");
         double way = water.distance() / length.unit();
-        if (Math.abs(way) < LEAST_DISTANCE) {
+        if (isMeasurable(vacuum, bodyLength) && Math.abs(way) < LEAST_DISTANCE) {
             return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: moves " + length.distance(water)
                     + " in " + seconds(water.simulated()) + ", less than " + LEAST_DISTANCE, LONGER);
         }
@@ -144,6 +144,14 @@ public record Verdict(Kind kind, String text, String advice) {
             return unmeasured + " of " + base.runs() + " runs were unstable or failed";
         }
         return fresh.halfStep() == null ? null : HalfStep.doubt(base.distance().mean(), fresh.halfStep().distance().mean());
+    }
+
+    /**
+     * Whether a way can be set beside {@link #LEAST_DISTANCE}. A run that goes on knows no length of its body yet; old folders have but the
+     * vacuum's result, and units stand for it.
+     */
+    static boolean isMeasurable(SimulationResult vacuum, Double bodyLength) {
+        return bodyLength != null || vacuum != null;
     }
 
     /**

@@ -62,6 +62,14 @@ class MeasureTest {
                 tuple("mirrored", "", NOT_MEASURED));
     }
 
+    @Test
+    void aRunThatGoesOnIsNotJudgedByUnits() {
+        BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, 0.001, 0.001, result(0.001), null, null);
+
+        assertThat(Measure.of(best, null)).extracting(Measure::name, Measure::value, Measure::expected, Measure::outcome).contains(
+                tuple("way, one run", "0.00 units", "more than 0.05 body lengths", NOT_MEASURED));
+    }
+
     /** What gets faster with the time step is no more converged than what gets slower. */
     @ParameterizedTest
     @CsvSource({"0.9, FAILS", "1.1, HOLDS", "2.9, HOLDS", "3.1, FAILS"})

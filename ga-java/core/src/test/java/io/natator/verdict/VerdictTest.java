@@ -111,6 +111,14 @@ class VerdictTest {
                 .text()).isEqualTo("swims: 0.19 units/s, 0.00 in vacuum");
     }
 
+    /** The limit is one of body lengths. */
+    @ParameterizedTest
+    @CsvSource({"0.001, 0.00", "0.75, 0.19"})
+    void aRunThatGoesOnIsNotJudgedByUnits(double way, String speed) {
+        assertThat(Verdict.of(result(way, "completed", 4, "conserving"), null, null)).extracting(Verdict::kind, Verdict::text)
+                .containsExactly(Verdict.Kind.UNPROVEN, "not judged: moves at " + speed + " units/s; not run in vacuum yet");
+    }
+
     @Test
     void withoutAResultThereIsNoVerdict() {
         SimulationResult water = result(0.75, "completed", 4, "conserving");
