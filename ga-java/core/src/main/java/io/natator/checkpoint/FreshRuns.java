@@ -2,6 +2,7 @@ package io.natator.checkpoint;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import io.natator.config.Judge;
+import java.util.List;
 import java.util.Objects;
 
 /**
@@ -14,7 +15,8 @@ import java.util.Objects;
  * @param selected      what the winner was worth when it was chosen
  * @param selectedRuns  by so many runs
  * @param again         what it is worth by the fresh runs of {@code base}
- * @param selectionLoss share of the selected worth that it does not have again; null where it had none
+ * @param selectionLoss share of the selected worth that it does not have again; null where it had none, or no more than the standard error of the
+ *                      fresh runs
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
@@ -26,10 +28,16 @@ public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, J
         Objects.requireNonNull(judge, "judge");
     }
 
-    /** With the loss that follows. */
+    /**
+     * With the loss that follows.
+     *
+     * @param worths what each of the fresh runs is worth
+     */
     public static FreshRuns of(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
-            int selectedRuns, double again) {
+            int selectedRuns, List<Double> worths) {
+        double again = judge.of(worths);
+        double error = Spread.of(worths).sd() / Math.sqrt(worths.size());
         return new FreshRuns(duration, base, halfStep, judge, selected, selectedRuns, again,
-                selected > 0 ? 1 - again / selected : null);
+                selected > error ? 1 - again / selected : null);
     }
 }

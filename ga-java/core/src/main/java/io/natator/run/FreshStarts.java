@@ -77,7 +77,7 @@ public final class FreshStarts {
         List<SimulationResult> half = runs(swimmer, again.halfStep());
         return FreshRuns.of(again.duration(), again.sample(base, swimmer, 1),
                 half == null ? null : again.sample(half, swimmer, 2), settings.judge(), winner.score(),
-                winner.runs(), settings.judge().of(base.stream().map(SimulationResult::score).toList()));
+                winner.runs(), base.stream().map(SimulationResult::score).toList());
     }
 
     /** From the fresh starts; null, and a word of it, if the simulator refuses them. What the run found is not lost by that. */

@@ -71,7 +71,7 @@ class VerdictTest {
         List<SimulationResult> runs = Arrays.stream(distances.split(" "))
                 .map(one -> result(Double.parseDouble(one), stopped, 1, "conserving")).toList();
         FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(runs, 4, gait, 4.0, LENGTH),
-                SwimSample.of(List.of(result(half, stopped, 1, "conserving")), 8, gait, 4.0, LENGTH), Judge.MEAN, 9, 1, 1);
+                SwimSample.of(List.of(result(half, stopped, 1, "conserving")), 8, gait, 4.0, LENGTH), Judge.MEAN, 9, 1, List.of(1.0));
         BestGait best = new BestGait("pool/creature-1", List.of(1.0), gait, null, 9, 9, result(9, "completed", 4, "conserving"),
                 LENGTH, result(0, "completed", 4, "conserving"), 9.0, 1, fresh);
 

@@ -34,7 +34,7 @@ class WinnerFactsTest {
     @Test
     void aReaderOfAWinnerIsToldAll() {
         FreshRuns fresh = FreshRuns.of(4.0, SwimSample.of(List.of(result(1.9), result(2.1)), 4, GAIT, 4.0, 1.25),
-                SwimSample.of(List.of(result(1.8), result(1.8)), 8, GAIT, 4.0, 1.25), Judge.MEAN, 2.5, 1, 2.0);
+                SwimSample.of(List.of(result(1.8), result(1.8)), 8, GAIT, 4.0, 1.25), Judge.MEAN, 2.5, 1, List.of(2.0));
 
         assertThat(WinnerFacts.of(run, best(fresh))).containsExactly(
                 Map.entry("verdict", "swims: 0.40 ± 0.03 body lengths/s, 0.36 at half the time step, 0.00 in vacuum"),
