@@ -325,11 +325,13 @@ class ExportCommandTest {
         assertThat(current.resolve("metadata.json")).exists();
         Files.delete(folder.resolve("arguments"));
 
-        ProcessBuilder again = exportTo(".", simulator);
-        again.command().add("--force");
-        assertThat(again.directory(current.toFile()).start().waitFor()).isEqualTo(2);
-        assertThat(Files.readString(folder.resolve("log"))).isEqualTo("natator export: output folder . is the current folder, or holds it; "
-                + "expected another, such as " + current.resolve("swim") + "\n");
+        for (List<String> options : List.of(List.of("--force"), List.<String>of())) {
+            ProcessBuilder again = exportTo(".", simulator);
+            again.command().addAll(options);
+            assertThat(again.directory(current.toFile()).start().waitFor()).isEqualTo(2);
+            assertThat(Files.readString(folder.resolve("log"))).isEqualTo("natator export: output folder . is the current folder, or holds it; "
+                    + "expected another, such as " + current.resolve("swim") + "\n");
+        }
         assertThat(folder.resolve("out.partial")).doesNotExist();
         assertThat(folder.resolve("arguments")).doesNotExist();
     }

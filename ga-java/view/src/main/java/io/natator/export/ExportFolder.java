@@ -111,13 +111,14 @@ final class ExportFolder implements Closeable {
         return Files.exists(folder) ? folder.toRealPath() : folder;
     }
 
+    /** By --force, which is named only where it helps. */
     private static void failUnlessReplaceable(Path folder, Path target, boolean replace) throws IOException {
-        if (!replace) {
-            throw new InvalidInputException("output folder " + folder + " is not empty; choose another by "
-                    + "--output-dir, or replace the export in it by --force");
+        if (Path.of("").toRealPath().startsWith(target)) {
+            throw new InvalidInputException("output folder " + folder + " is the current folder, or holds it; expected another, such as "
+                    + target.resolve("swim"));
         }
         if (!Files.isRegularFile(target.resolve(METADATA))) {
-            throw new InvalidInputException("output folder " + folder + " holds no export: it has no " + METADATA
+            throw new InvalidInputException("output folder " + folder + " is not empty and holds no export: it has no " + METADATA
                     + "; choose another by --output-dir");
         }
         Set<String> ofExport = new HashSet<>();
@@ -128,14 +129,14 @@ final class ExportFolder implements Closeable {
                         + ", which is no part of the export in it; move it away, or choose another folder by --output-dir");
             }
         }
+        if (!replace) {
+            throw new InvalidInputException("output folder " + folder + " is not empty; choose another by "
+                    + "--output-dir, or replace the export in it by --force");
+        }
     }
 
     /** What is there makes room for the export at its end: whether it can is tried before anything is computed. */
     private void failUnlessMovable(Path folder) throws IOException {
-        if (Path.of("").toRealPath().startsWith(target)) {
-            throw new InvalidInputException("output folder " + folder + " is the current folder, or holds it; expected another, such as "
-                    + target.resolve("swim"));
-        }
         if (RunFolder.isOccupied(replaced)) {
             throw new InvalidInputException(replaced + " is in the way; remove it");
         }

@@ -7,6 +7,7 @@ import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.List;
 import java.nio.file.attribute.PosixFilePermissions;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -142,8 +143,10 @@ class ExportFolderTest {
         Files.createDirectories(target);
         Files.writeString(target.resolve("thesis.tex"), "years of work");
 
-        assertThatThrownBy(() -> ExportFolder.begin(target, true)).isInstanceOf(InvalidInputException.class)
-                .hasMessageContaining("holds no export: it has no metadata.json");
+        for (boolean replace : List.of(true, false)) {
+            assertThatThrownBy(() -> ExportFolder.begin(target, replace)).isInstanceOf(InvalidInputException.class)
+                    .hasMessageContaining("holds no export: it has no metadata.json").hasMessageNotContaining("--force");
+        }
         assertThat(target.resolve("thesis.tex")).hasContent("years of work");
     }
 
