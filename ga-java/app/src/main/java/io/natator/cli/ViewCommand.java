@@ -8,17 +8,21 @@ import io.natator.checkpoint.StoredRun;
 import io.natator.cli.Section.Topic;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
+import io.natator.config.Json;
 import io.natator.config.MergePatch;
 import io.natator.config.Numbers;
 import io.natator.config.Scheme;
-import io.natator.encoding.Gait;
 import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;
+import io.natator.stream.StreamOptions;
+import io.natator.stream.StreamProcess;
 import io.natator.study.thesis.ThesisData;
 import io.natator.view.InitialScene;
 import io.natator.view.ViewServer;
 import io.natator.view.ViewSettings;
+import java.io.IOException;
 import java.io.PrintWriter;
+import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.Callable;
@@ -142,21 +146,28 @@ final class ViewCommand implements Callable<Integer> {
                 InitialScene.patch(MergePatch.both(swimmer.body(), sceneOptions.overrides()), sceneOptions.scheme());
         try {
             SceneInfo info = SceneInfo.of(scene, overrides, program);
-            if (given != null) {
-                checkGait(given.gait(), info);
-            }
             boolean fits = swimmer.gait() != null && swimmer.gait().amplitude().size() == info.actuators();
-            return new InitialScene(scene, overrides, fits ? swimmer.gait() : null);
+            InitialScene start = new InitialScene(scene, overrides, fits || given != null ? swimmer.gait() : null);
+            if (given != null) {
+                checkGait(start, info.actuators(), program);
+            }
+            return start;
         } catch (RefusedSceneException e) {
             throw choice.refused(scene, e, program);
         }
     }
 
     /** Before the page opens, where it would only be told that the simulator refuses it. */
-    private void checkGait(Gait given, SceneInfo scene) {
-        if (given.amplitude().size() != scene.actuators()) {
-            throw new InvalidInputException("--gait " + gait + " is for " + Numbers.count(given.amplitude().size(), "actuator")
-                    + ", but scene " + scene.scene() + " has " + scene.actuators() + "; expected one value for each");
+    private void checkGait(InitialScene start, int actuators, Path program) throws InterruptedException {
+        int given = start.gait().actuators();
+        if (given != actuators) {
+            throw new InvalidInputException("--gait " + gait + " is for " + Numbers.count(given, "actuator") + ", but scene " + start.scene()
+                    + " has " + actuators + "; expected one value for each");
+        }
+        try {
+            StreamProcess.check(program, StreamOptions.live(start.scene(), start.overrides(), Json.tree(start.gait()), true));
+        } catch (IOException e) {
+            throw new UncheckedIOException("scene " + start.scene() + " cannot be shown: " + e.getMessage(), e);
         }
     }
 
@@ -171,12 +182,13 @@ final class ViewCommand implements Callable<Integer> {
         Swimmer swimmer = given != null ? given : best != null ? best.swimmer() : new Swimmer(null, null);
         ObjectNode overrides = InitialScene.patch(
                 MergePatch.both(MergePatch.both(run.overrides(), swimmer.body()), sceneOptions.overrides()), scheme);
+        InitialScene start = new InitialScene(run.scene(), overrides, swimmer.gait());
         if (sceneOptions.overrides() != null || given != null) {
             SceneInfo info = SceneInfo.of(run.scene(), overrides, program);
             if (given != null) {
-                checkGait(given.gait(), info);
+                checkGait(start, info.actuators(), program);
             }
         }
-        return new InitialScene(run.scene(), overrides, swimmer.gait());
+        return start;
     }
 }

@@ -232,6 +232,18 @@ class ViewCommandTest {
                 + "address can watch, and start up to 4 simulations on this machine; nobody is asked who they are\n");
     }
 
+    @Test
+    void aGaitOutOfRangeIsRefusedAsByPicture() throws IOException {
+        Path gait = Files.writeString(folder.resolve("gait.json"), "{\"frequency\":1,\"amplitude\":[5,0.5],\"phase\":[0,0.5]}");
+        for (String command : List.of("view --no-browser --port 0 --scene", "picture --at 0")) {
+            StringWriter err = new StringWriter();
+            List<String> all = new ArrayList<>(List.of(command.split(" ")));
+            all.addAll(List.of("thesis/creature-1", "--gait", gait.toString(), "--simulator-path", SIMULATOR));
+            assertThat(Main.commandLine().setErr(new PrintWriter(err, true)).execute(all.toArray(String[]::new))).isEqualTo(2);
+            assertThat(err.toString()).isEqualTo("natator " + all.get(0) + ": natator-sim: gait.amplitude[0] = 5: must be a number in [0, 2]\n");
+        }
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "--port 70000|2|natator view: --port is 70000; expected a whole number from 0 to 65535",

@@ -64,6 +64,19 @@ public final class StreamProcess implements AutoCloseable {
         }
     }
 
+    /**
+     * Whether the program takes what it would be started with; it is ended before it simulates.
+     *
+     * @throws RefusedSceneException if it refuses that: one line says why
+     * @throws IOException           if it ends in any other way
+     * @throws InterruptedException  if this virtual machine is shutting down
+     */
+    public static void check(Path simulator, StreamOptions options) throws IOException, InterruptedException {
+        try (StreamProcess process = new StreamProcess(simulator, options)) {
+            process.next();
+        }
+    }
+
     /** Sends a command; see {@link #send(String)}. */
     public void send(JsonNode command) throws StreamException {
         send(command.toString());
