@@ -4,8 +4,13 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 import static org.assertj.core.api.Assertions.assertThat;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Route;
 import io.natator.config.Json;
 import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -97,6 +102,28 @@ class ViewRunsTest extends ViewBrowserTest {
         assertThat(get("gait-looked-at")).containsText("another is better");
         fits("front");
         page.setViewportSize(390, 844);
+        fits("front");
+    }
+
+    /** Those of distances in a run that went nowhere. */
+    @Test
+    void longLabelsOfSeveralObjectivesAreWhole() throws IOException {
+        useSmallWindow();
+        page.route("**/api/runs/1", route -> {
+            try {
+                ObjectNode changed = Json.parse(route.fetch().text(), ObjectNode.class);
+                JsonNode points = changed.at("/front/points");
+                for (int i = 0; i < points.size(); i++) {
+                    ((ArrayNode) points.get(i).get("values")).set(0, -0.0022 - 0.0012 * i / points.size());
+                }
+                route.fulfill(new Route.FulfillOptions().setContentType("application/json").setBody(changed.toString()));
+            } catch (IOException e) {
+                throw new UncheckedIOException(e);
+            }
+        });
+        open(many);
+        get("run-choice").selectOption("1");
+        assertThat(get("front").locator("text", new Locator.LocatorOptions().setHasText("-0.0020"))).hasCount(1);
         fits("front");
     }
 

@@ -9,7 +9,7 @@ const HEIGHT = 250;
 const LEFT = 46;
 const BOTTOM = 40;
 const TOP = 24;
-const RIGHT = 12;
+const RIGHT = 26;  // half of the longest label
 
 /** To the right the first objective, upwards one of the others. */
 export class ParetoPlot extends GaitPlot {
