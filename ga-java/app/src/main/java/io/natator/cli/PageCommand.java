@@ -91,8 +91,8 @@ final class PageCommand implements Callable<Integer> {
         if (best < 1 || best > 1 && gait != null) {
             throw new InvalidInputException("--best is " + best + "; expected a whole number from 1, and 1 with --gait");
         }
-        if (!(maxSize > 0) || Double.isInfinite(maxSize)) {
-            throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes above 0");
+        if (!(maxSize * MEGABYTE >= 1) || Double.isInfinite(maxSize)) {
+            throw new InvalidInputException("--max-size is " + maxSize + "; expected a number of megabytes from 0.000001");
         }
         ReplayHtml.check(output);
         if (!force && Files.exists(output)) {

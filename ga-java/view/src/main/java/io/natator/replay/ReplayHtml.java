@@ -3,6 +3,7 @@ package io.natator.replay;
 import io.natator.config.InvalidInputException;
 import io.natator.file.OutputFile;
 import io.natator.config.Json;
+import io.natator.config.Numbers;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
@@ -69,8 +70,14 @@ public final class ReplayHtml {
         }
         int last = EVERY[EVERY.length - 1];
         throw new InvalidInputException(String.format(Locale.ROOT, "the page has %.1f MB even with %.0f frames a second; "
-                + "expected at most %.1f MB: a larger --max-size, fewer swims, a shorter --duration, or --no-water",
-                html.length / MEGABYTE, framesPerSecond(last), maxBytes / MEGABYTE));
+                + "expected at most %s: a larger --max-size, fewer swims, a shorter --duration, or --no-water",
+                html.length / MEGABYTE, framesPerSecond(last), size(maxBytes)));
+    }
+
+    /** In a unit in which it is not 0. */
+    private static String size(long bytes) {
+        return bytes >= 100_000 ? String.format(Locale.ROOT, "%.1f MB", bytes / MEGABYTE)
+                : bytes >= 1000 ? String.format(Locale.ROOT, "%.1f kB", bytes / 1000.0) : Numbers.count(bytes, "byte");
     }
 
     private double framesPerSecond(int every) {

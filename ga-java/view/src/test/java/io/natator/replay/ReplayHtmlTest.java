@@ -29,6 +29,8 @@ import java.util.regex.Pattern;
 import java.util.zip.InflaterInputStream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 /** The file that replays swims: what is in it, how exact and how large it is. */
 class ReplayHtmlTest {
@@ -183,12 +185,13 @@ class ReplayHtmlTest {
         assertThat(folder).isDirectoryContaining(one -> one.equals(file)).isDirectoryNotContaining("glob:**.new");
     }
 
-    @Test
-    void whatCannotFitIsRefused() {
+    @ParameterizedTest
+    @CsvSource({"100000, 0.1 MB", "99900, 99.9 kB", "1000, 1.0 kB", "100, 100 bytes", "1, 1 byte"})
+    void whatCannotFitIsRefused(long bytes, String limit) {
         Path file = folder.resolve("swim.html");
 
-        assertThatThrownBy(() -> new ReplayHtml("page", List.of(swim("swim", 20, 5)), true).write(file, 1000))
-                .isInstanceOf(InvalidInputException.class).hasMessageContaining("expected at most 0.0 MB");
+        assertThatThrownBy(() -> new ReplayHtml("page", List.of(swim("swim", 20, 5)), true).write(file, bytes))
+                .isInstanceOf(InvalidInputException.class).hasMessageContaining("expected at most " + limit + ": a larger");
         assertThat(file).doesNotExist();
     }
 
