@@ -13,9 +13,7 @@ import io.natator.simulator.Evaluator;
 import io.natator.study.optimizer.RunComparison;
 import io.natator.verdict.FreshText;
 import io.natator.verdict.Verdict;
-import java.io.IOException;
 import java.io.PrintWriter;
-import java.io.UncheckedIOException;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
@@ -78,17 +76,8 @@ final class CompareCommand implements Callable<Integer> {
     }
 
     /** By whatever path, and an island beside the archipelago whose winner it is. */
-    private void checkEachOnce(List<StoredRun> runs) {
-        List<Path> places = runs.stream().map(one -> real(one.directory())).toList();
-        EachOnce.check("RUN", places, one -> runs.get(places.indexOf(one)).directory().toString());
-    }
-
-    private static Path real(Path directory) {
-        try {
-            return directory.toRealPath();
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
+    private static void checkEachOnce(List<StoredRun> runs) {
+        EachOnce.checkFolders("RUN", runs.stream().map(StoredRun::directory).toList());
     }
 
     private void runAgain(List<EvolutionSettings> settings, PrintWriter out) throws InterruptedException {

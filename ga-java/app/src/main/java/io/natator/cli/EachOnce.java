@@ -1,6 +1,8 @@
 package io.natator.cli;
 
 import io.natator.config.InvalidInputException;
+import java.io.IOException;
+import java.nio.file.Path;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
@@ -27,5 +29,19 @@ final class EachOnce {
         values.stream().filter(one -> !before.add(one)).findFirst().ifPresent(one -> {
             throw new InvalidInputException(option + " has " + text.apply(one) + " twice; expected each once");
         });
+    }
+
+    /** The same of folders, by whatever path; one that is not there is for others to refuse. */
+    static void checkFolders(String option, List<Path> folders) {
+        List<Path> places = folders.stream().map(EachOnce::real).toList();
+        check(option, places, one -> folders.get(places.indexOf(one)).toString());
+    }
+
+    private static Path real(Path folder) {
+        try {
+            return folder.toRealPath();
+        } catch (IOException e) {
+            return folder.toAbsolutePath().normalize();
+        }
     }
 }

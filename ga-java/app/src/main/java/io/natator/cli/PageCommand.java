@@ -100,9 +100,10 @@ final class PageCommand implements Callable<Integer> {
         }
         Path simulator = simulatorOption.path();
         List<Replay> swims = new ArrayList<>();
-        for (String source : sources) {
-            for (SwimSource swimmer : swimmers(source)) {
-                swims.add(swimmer.simulated(source, simulator, () -> recorded(swimmer, simulator)));
+        List<List<SwimSource>> swimmers = sources.stream().map(this::swimmers).toList();
+        for (int i = 0; i < sources.size(); i++) {
+            for (SwimSource swimmer : swimmers.get(i)) {
+                swims.add(swimmer.simulated(sources.get(i), simulator, () -> recorded(swimmer, simulator)));
             }
         }
         String heading = title != null ? title : swims.size() == 1 ? swims.get(0).title() : "Swimmers";
@@ -119,8 +120,11 @@ final class PageCommand implements Callable<Integer> {
     /** The best of a run, and with {@code --best} those after it. */
     private List<SwimSource> swimmers(String source) {
         SwimSource first = SwimSource.of(source, null, gait);
-        if (first.run() == null || best == 1) {
+        if (best == 1) {
             return List.of(first);
+        }
+        if (first.run() == null) {
+            throw new InvalidInputException("--best is " + best + "; expected 1 with " + source + ", which is no run folder");
         }
         StoredRun run = StoredRun.in(first.run());
         List<Swimmer> gaits = run.gaits().stream().map(JudgedGait::swimmer).distinct().limit(best).toList();

@@ -87,6 +87,9 @@ final class ViewCommand implements Callable<Integer> {
         }
         Path program = simulator.path();
         runs = Archipelago.runs(runs);
+        if (!runs.isEmpty()) {
+            EachOnce.checkFolders("--run", runs);
+        }
         String scene = runs.isEmpty() || choice.isGiven() ? choice.scene(spec) : null;
         Path shown = shownRun();
         ViewSettings settings = new ViewSettings(program, host, port, start(scene, shown, program),

@@ -103,10 +103,11 @@ class PageCommandTest {
     @Test
     void badInput() {
         assertThat(natator("page", "thesis/creature-1", "--best", "0")).isEqualTo(2);
+        assertThat(natator("page", "thesis/creature-1", "--best", "2")).isEqualTo(2);
         assertThat(natator("page", "thesis/creature-1", "--max-size", "0")).isEqualTo(2);
         assertThat(natator("page", "no/such", "--duration", "0.1")).isEqualTo(2);
         assertThat(natator("page", "thesis/creature-1", "--output", folder.toString())).isEqualTo(2);
         assertThat(err.toString()).contains("output file is " + folder + ", which is a folder; expected the name of a file")
-                .contains("--best is 0; expected").contains("--max-size is 0.0; expected").contains("no/such");
+                .contains("--best is 0; expected", "--best is 2; expected 1 with thesis/creature-1, which is no run folder\n").contains("--max-size is 0.0; expected").contains("no/such");
     }
 }

@@ -253,6 +253,7 @@ class ViewCommandTest {
         "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
         "--gait ../../sim-native/examples/gaits/fish-like.json|2|natator view: --gait ../../sim-native/examples/gaits/"
             + "fish-like.json is for 8 actuators, but scene thesis/creature-1 has 2; expected one value for each",
+        "--run no/such --run ./no/such|2|natator view: --run has no/such twice; expected each once",
         "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
         "--host no-such-host.invalid|2|natator view: --host is no-such-host.invalid, an unknown name; expected a name or "
             + "address of this machine",
