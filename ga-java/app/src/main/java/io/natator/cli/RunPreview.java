@@ -65,7 +65,10 @@ final class RunPreview {
     void printAnyway(Path folder, PrintWriter out) throws InterruptedException {
         try {
             print(folder, out);
-        } catch (InvalidInputException | EvolutionFailedException | IllegalStateException e) {
+        } catch (InvalidInputException e) {
+            out.println("  time        not known");  // refused there in the same words
+            out.flush();
+        } catch (EvolutionFailedException | IllegalStateException e) {
             out.println("  time        not known: " + e.getMessage());
             out.flush();
         }

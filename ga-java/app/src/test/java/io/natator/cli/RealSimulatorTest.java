@@ -153,13 +153,15 @@ class RealSimulatorTest {
     }
 
     /** In scheme flex muscles have no work that could be measured. */
-    @Test
-    void whatIsNotMeasuredIsNoObjective() {
+    @ParameterizedTest
+    @CsvSource({"--objectives, work, objective work: this simulator does not measure it in scheme flex",
+        "--optimizer, map-elites, optimizer map-elites: this simulator does not measure the muscles' work in scheme flex"})
+    void whatIsNotMeasuredIsNoObjective(String option, String value, String message) {
         assertThat(natator("evolve", "--preset", "thesis", "--population", "2", "--generations", "0", "--starts", "1",
-                "--duration", "0.02", "--objectives", "work", "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
+                "--duration", "0.02", option, value, "--output-dir", folder.resolve("run").toString())).isEqualTo(2);
 
-        assertThat(err.toString().lines().reduce((first, second) -> second)).hasValue(
-                "natator evolve: objective work: this simulator does not measure it in scheme flex");
+        assertThat(err.toString().lines().reduce((first, second) -> second).orElseThrow()).startsWith("natator evolve: " + message);
+        assertThat(out.toString()).as("not said in the plan as well").contains("  time        not known\n").doesNotContain("does not measure");
     }
 
     /** Each mode on the same backend; a generation's evaluations also arrive at a batch in another order. */
