@@ -35,8 +35,7 @@ final class ExecutionOptions {
     private String master;
 
     @Option(names = "--backend", paramLabel = "BACKEND",
-            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: cpu; of a run that is "
-                    + "resumed, its own.")
+            description = "cpu, cuda (a GPU), or auto (a GPU where there is one). Default: " + OwnDefaults.HERE + ".")
     private Backend backend;
 
     @Option(names = "--device", paramLabel = "N",

@@ -43,11 +43,32 @@ class HelpTest {
                     .isEqualTo(options.stream().anyMatch(option -> option.longestName().matches("--(gait|scheme|scene|variants|water)")));
         }
         assertThat(help).as("paths in one piece").doesNotContainPattern("~[/.]*\\n");
-        if (help.contains("--preset") && help.contains("--duration")) {
-            assertThat(help.replaceAll("\\s+", " ")).contains("Simulated time. Default: the preset's")
-                    .containsPattern("How to solve: [^.]*\\. Default: the run's, else the scene's");
-        }
         assertThat(help).doesNotContainPattern("\\([Tt]hesis \\d|eq\\. \\d");
+    }
+
+    /** Options that commands share say what is so in this one: nothing is resumed where nothing is. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "evolve|a GPU where there is one). Default: cpu; of a run that is resumed, its own.",
+        "evolve|Simulated time. Default: the preset's, else the scene's (4 for the thesis scenes).",
+        "evolve|How to solve: flex or conserving. Default: the scene's.",
+        "resume|a GPU where there is one). Default: the run's.", "check|a GPU where there is one). Default: the run's.",
+        "evaluate|a GPU where there is one). Default: cpu.", "compare-flex|a GPU where there is one). Default: cpu.",
+        "compare|a GPU where there is one). Default: that of the runs, cpu if they have several.",
+        "evaluate|Simulated time. Default: the scene's (4 for the thesis scenes).",
+        "evaluate|How to solve: flex or conserving. Default: the scene's.",
+        "page|Simulated time. Default: the run's, else the scene's (4 for the thesis scenes).",
+        "page|How to solve: flex or conserving. Default: the run's, else the scene's."})
+    void sharedOptionsHaveEachCommandsDefault(String command, String text) {
+        String help = Main.commandLine().getSubcommands().get(command).getUsageMessage();
+
+        assertThat(help.replaceAll("\\s+", " ")).contains(text);
+    }
+
+    @ParameterizedTest
+    @MethodSource("commands")
+    void noPlaceIsLeftForADefault(CommandLine command) {
+        assertThat(command.getUsageMessage()).doesNotContain("{own", "default}");
     }
 
     @Test
