@@ -22,7 +22,7 @@ class EvolveCommandTest extends FakeSimulatorTest {
                 .contains("  evaluations about 50\n", "  time        about ",
                         "best gait of pool/creature-1 after 3 generations",
                         "  distance    -0.04", " in 2.00 s; 4 fresh starts, all completed\n", "  half step   ", "  selected    ",
-                        " by one run, ", "  verdict     does not swim: moves -0.04",
+                        " by one run, ", "  verdict     does not swim: moves -0.038 ± 0.0",
                         "  try more --generations", "natator view --run " + folder.resolve("run"),
                         "natator page " + folder.resolve("run"),
                         "frequency", "amplitude", "phase", "distance", "speed",
