@@ -117,6 +117,8 @@ class EnvironmentTest(unittest.TestCase):
                              ({"work_cost": "a"}, "work_cost = 'a'"), ({"flow": -1}, "flow = -1"), ({"flow": True}, "flow = True"),
                              ({"flow": 2.5}, "flow = 2.5"), ({"flow": [1, 2]}, "flow = .1, 2.: must be pairs"),
                              ({"target": ((1, 1, 1), (0, 2, 2))}, "the first corner must be the lower one"),
+                             ({"flow": 50}, "flow = 50: must be at most the body's \\d+ slices"),
+                             ({"gait": natator.Gait(1, [0.5, 0.5], [0, 0.5])}, "gait: must be left out where actions are .drive."),
                              ({"render_mode": "human"}, "render_mode = 'human': must be None"),
                              ({"scene": "thesis/tank"}, "must have a creature with actuators")):
             with self.assertRaisesRegex(natator.InputError, reason):

@@ -28,6 +28,8 @@ class SwimmerEnv(gymnasium.Env):
                  target=None, reached=0.25, work_cost=0.0, render_mode=None, **options):
         if actions not in ("drive", "gait"):
             raise InputError(f'actions = {actions!r}: must be "drive" or "gait"')
+        if gait is not None and actions == "drive":
+            raise InputError('gait: must be left out where actions are "drive", which move the muscles by themselves')
         if render_mode is not None:
             raise InputError(f"render_mode = {render_mode!r}: must be None")
         self.render_mode = render_mode
@@ -246,6 +248,8 @@ def places_of(flow, slices):
     if not np.ndim(flow) == 0:
         return pairs("flow", flow)
     count = whole("flow", flow, 0)
+    if count > slices:
+        raise InputError(f"flow = {count}: must be at most the body's {slices} slices")
     along = np.linspace(0, slices - 1, count + 2)[1:-1] if count > 0 else []
     return [(int(round(at)), side) for at in along for side in SIDES[:2]]
 
