@@ -60,7 +60,8 @@ final class CompareCommand implements Callable<Integer> {
             throw new InvalidInputException("--starts is " + starts + "; expected 0, or a whole number from 2 to " + Limits.STARTS);
         }
         List<StoredRun> runs = folders.stream().map(Archipelago::stored).toList();
-        checkEachOnce(runs);
+        // By whatever path, and an island beside the archipelago whose winner it is.
+        EachOnce.checkFolders("RUN", runs.stream().map(StoredRun::directory).toList());
         PrintWriter out = spec.commandLine().getOut();
         for (int i = 0; i < runs.size(); i++) {
             out.printf("%d  %s: %s%n", i + 1, runs.get(i).directory(), ShowCommand.settings(runs.get(i).settings()));
@@ -73,11 +74,6 @@ final class CompareCommand implements Callable<Integer> {
             out.flush();
         }
         return ExitCode.OK;
-    }
-
-    /** By whatever path, and an island beside the archipelago whose winner it is. */
-    private static void checkEachOnce(List<StoredRun> runs) {
-        EachOnce.checkFolders("RUN", runs.stream().map(StoredRun::directory).toList());
     }
 
     private void runAgain(List<EvolutionSettings> settings, PrintWriter out) throws InterruptedException {

@@ -36,7 +36,7 @@ public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, J
     public static FreshRuns of(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
             int selectedRuns, List<Double> worths) {
         double again = judge.of(worths);
-        double error = Spread.of(worths).sd() / Math.sqrt(worths.size());
+        double error = Spread.of(worths).standardError(worths.size());
         return new FreshRuns(duration, base, halfStep, judge, selected, selectedRuns, again,
                 selected > error ? 1 - again / selected : null);
     }

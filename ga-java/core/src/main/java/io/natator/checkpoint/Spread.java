@@ -17,6 +17,11 @@ public record Spread(double mean, double sd) {
         return new Spread(mean, values.size() < 2 ? 0 : Math.sqrt(squares / (values.size() - 1)));
     }
 
+    /** Standard error of the mean of so many values. */
+    public double standardError(int count) {
+        return sd / Math.sqrt(count);
+    }
+
     /** Of values so many times as large. */
     public Spread times(double factor) {
         return new Spread(mean * factor, sd * Math.abs(factor));

@@ -20,8 +20,6 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         double unit = controls.bodyLength() != null && controls.bodyLength() > 0 ? controls.bodyLength() : 1;
         String name = unit == 1 ? "units" : "body lengths";
         double net = controls.net();
-        String speed = Numbers.fixed(net / controls.duration() / unit, 2) + " ± "
-                + Numbers.fixed(controls.water().speed().sd() / unit, 2) + " " + name + "/s more than a resting body";
         if (net / unit < Verdict.LEAST_DISTANCE) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(net / unit, 3) + " ± "
                     + Numbers.fixed(controls.water().distance().sd() / unit, 3) + " " + name + " further than a resting body in "
@@ -36,6 +34,8 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: the acceleration clamp moves it; without, "
                     + percent(left(clampOff, controls)) + " of its way is left");
         }
+        String speed = Numbers.fixed(net / controls.duration() / unit, 2) + " ± "
+                + Numbers.fixed(controls.water().speed().sd() / unit, 2) + " " + name + "/s more than a resting body";
         String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
         List<String> doubts = doubts(controls, net, unit);
         return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls))
@@ -97,7 +97,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
 
     /** So much a control's mean is known to, as a share of the way in water. */
     private static double error(SwimSample sample, Controls controls) {
-        return Verdict.SURE * sample.distance().sd() / Math.sqrt(sample.runs()) / controls.net();
+        return Verdict.SURE * sample.distance().standardError(sample.runs()) / controls.net();
     }
 
     /** Share of its way in water, less the dead body's drift in both. */

@@ -53,7 +53,7 @@ public record Measure(String name, String value, String expected, Outcome outcom
                     isKnown ? outcome(Verdict.getsFar(way, 0, unit)) : Outcome.NOT_MEASURED));
         } else {
             SwimSample base = fresh.base();
-            double error = base.distance().sd() / Math.sqrt(base.runs());
+            double error = base.distance().standardError(base.runs());
             all.add(new Measure("way, " + base.runs() + " fresh starts", spread(base.distance(), unit) + " " + name,
                     least + ", by two standard errors", outcome(Verdict.getsFar(way, error, unit))));
         }

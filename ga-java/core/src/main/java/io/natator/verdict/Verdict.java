@@ -136,7 +136,7 @@ public record Verdict(Kind kind, String text, String advice) {
     /** Why fresh runs do not show that it swims; null if they do. */
     private static String doubt(FreshRuns fresh, Length length) {
         SwimSample base = fresh.base();
-        if (!getsFar(base.distance().mean(), base.distance().sd() / Math.sqrt(base.runs()), length.unit())) {
+        if (!getsFar(base.distance().mean(), base.distance().standardError(base.runs()), length.unit())) {
             return "the runs differ too much to tell";
         }
         int unmeasured = base.stopped().getOrDefault("unstable", 0) + base.stopped().getOrDefault("failed", 0);

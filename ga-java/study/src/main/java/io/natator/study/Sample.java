@@ -19,6 +19,11 @@ public record Sample(int count, double mean, double standardDeviation) {
         return new Sample(count, mean, count < 2 ? Double.NaN : Math.sqrt(squares / (count - 1)));
     }
 
+    /** Of the mean; 0 of a single value, which says nothing of its spread. */
+    public double standardError() {
+        return hasSpread() ? standardDeviation / Math.sqrt(count) : 0;
+    }
+
     /** Whether there are enough values to say how much they scatter. */
     public boolean hasSpread() {
         return count >= 2;

@@ -41,7 +41,7 @@ final class ActivationClaims {
         judge(claims, "potentiation (p = 4) swims far faster than the sine (p = 1)", water, creature -> {
             Sample sine = speed(creature, 1, 0, water, false);
             Sample powered = speed(creature, GREATEST_POWER, 0, water, false);
-            return new Test(sine, powered, powered.mean() > FAR * Math.max(sine.mean(), 0) && powered.mean() > SURE * error(powered));
+            return new Test(sine, powered, powered.mean() > FAR * Math.max(sine.mean(), 0) && powered.mean() > SURE * powered.standardError());
         });
     }
 
@@ -50,8 +50,8 @@ final class ActivationClaims {
             Sample ahead = speed(creature, GREATEST_POWER, 0, water, vacuum);
             Sample back = speed(creature, GREATEST_POWER, 1, water, vacuum);
             return vacuum && Math.max(Math.abs(ahead.mean()), Math.abs(back.mean())) < STILL ? null
-                    : new Test(ahead, back, ahead.mean() * back.mean() < 0 && Math.abs(back.mean()) > SURE * error(back)
-                    && Math.abs(ahead.mean()) > SURE * error(ahead));
+                    : new Test(ahead, back, ahead.mean() * back.mean() < 0 && Math.abs(back.mean()) > SURE * back.standardError()
+                    && Math.abs(ahead.mean()) > SURE * ahead.standardError());
         });
     }
 
@@ -87,10 +87,6 @@ final class ActivationClaims {
                 outcomes.isEmpty() ? Claim.Outcome.VOID : Claim.Outcome.of(outcomes)));
     }
 
-    private static double error(Sample sample) {
-        return sample.hasSpread() ? sample.standardDeviation() / Math.sqrt(sample.count()) : 0;
-    }
-
     /** Whether the body of two clusters gets any further than the dead body drifts. */
     private void twoClusters(List<Claim> claims, Water water) {
         List<Gait> gaits = ExperimentCatalogue.gaitsOfTwoClusters();
@@ -101,7 +97,7 @@ final class ActivationClaims {
         }
         Sample best = swims.stream().max(Comparator.comparingDouble(Sample::mean)).orElseThrow();
         double net = best.mean() - resting.mean();
-        boolean moves = net > SURE * Math.hypot(error(best), error(resting)) && net > STILL;
+        boolean moves = net > SURE * Math.hypot(best.standardError(), resting.standardError()) && net > STILL;
         claims.add(new Claim("a body of two clusters does not swim", water, "at most " + TableFormat.number(net)
                 + " more than at rest, by the best of " + swims.size() + " gaits", Claim.Outcome.of(!moves)));
     }

@@ -54,7 +54,7 @@ final class FlexSection {
 
     private static List<String> row(ThesisData.PublishedGait gait, String setting, double published, Sample theirs, Sample ours) {
         double difference = ours.mean() - theirs.mean();
-        double errors = Math.abs(difference) / Math.hypot(standardError(ours), standardError(theirs));
+        double errors = Math.abs(difference) / Math.hypot(ours.standardError(), theirs.standardError());
         boolean isSingle = !theirs.hasSpread();
         String told = theirs.count() == 0 ? TableFormat.NOTHING : isSingle ? String.format(Locale.ROOT, "%+.4f", difference)
                 : String.format(Locale.ROOT, "%.1f", errors);
@@ -68,11 +68,6 @@ final class FlexSection {
     private static Sample sample(ThesisData.FlexSpeed measured) {
         return measured.deviation() == null ? new Sample(1, measured.mean(), Double.NaN)
                 : new Sample(FLEX_RUNS, measured.mean(), measured.deviation());
-    }
-
-    /** Of the mean; 0 where there is a single run, which says nothing of its spread. */
-    private static double standardError(Sample sample) {
-        return sample.hasSpread() ? sample.standardDeviation() / Math.sqrt(sample.count()) : 0;
     }
 
     private List<List<String>> decisive() {

@@ -20,7 +20,7 @@ record Trend(Sample usual, List<Sample> changed) {
 
     /** Whether there is a speed to be changed: forwards, and beyond chance. */
     boolean swims() {
-        return usual.mean() > SURE * error(usual) && usual.mean() > 0;
+        return usual.mean() > SURE * usual.standardError() && usual.mean() > 0;
     }
 
     /** Speed falls at the farthest value, and rises at none. */
@@ -33,7 +33,7 @@ record Trend(Sample usual, List<Sample> changed) {
     /** No value changes the speed by a tenth of it beyond chance; open where chance alone is larger. */
     Claim.Outcome makesNoDifference() {
         boolean changes = changed.stream().anyMatch(one -> differs(one, -1) || differs(one, 1));
-        boolean tells = changed.stream().allMatch(one -> SURE * Math.hypot(error(one), error(usual)) <= SHARE * usual.mean());
+        boolean tells = changed.stream().allMatch(one -> SURE * Math.hypot(one.standardError(), usual.standardError()) <= SHARE * usual.mean());
         return changes ? Claim.Outcome.FAILS : tells ? Claim.Outcome.HOLDS : Claim.Outcome.OPEN;
     }
 
@@ -50,15 +50,11 @@ record Trend(Sample usual, List<Sample> changed) {
     /** Beyond chance and by a tenth, upwards or downwards. */
     private boolean differs(Sample one, int direction) {
         double difference = direction * (one.mean() - usual.mean());
-        return difference > SURE * Math.hypot(error(one), error(usual)) && difference > SHARE * usual.mean();
+        return difference > SURE * Math.hypot(one.standardError(), usual.standardError()) && difference > SHARE * usual.mean();
     }
 
     private Sample last() {
         return changed.get(changed.size() - 1);
-    }
-
-    private static double error(Sample sample) {
-        return sample.hasSpread() ? sample.standardDeviation() / Math.sqrt(sample.count()) : 0;
     }
 
     /** Speed at all values as a share of the usual, the farthest last: {@code 0.104: 102, 83, 41 %}. */

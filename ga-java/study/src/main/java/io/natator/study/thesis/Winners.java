@@ -65,6 +65,6 @@ final class Winners {
     private double sureWay(Experiment experiment) {
         List<SimulationResult> results = measurements.results(experiment);
         Sample ways = Sample.of(results.stream().map(SimulationResult::distanceOrZero).toList());
-        return ways.mean() - (ways.hasSpread() ? ways.standardDeviation() / Math.sqrt(ways.count()) : 0);
+        return ways.mean() - ways.standardError();
     }
 }
