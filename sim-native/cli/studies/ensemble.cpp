@@ -32,11 +32,7 @@ void add_ensemble(CLI::App& app, int& status) {
     command->callback([options, &status] {
         const StudyOptions& common = options->common;
         EnsembleStudy study = options->study;
-        for (const Scheme scheme : common.chosen_schemes())
-            for (const Precision precision : common.chosen_precisions())
-                for (const int substeps : options->grid.substeps)
-                    for (const int iterations : options->grid.iterations)
-                        study.settings.push_back({scheme, precision, substeps, iterations});
+        study.settings = settings_of(common, options->grid);
         if (common.quick) {
             study.duration = 0.1;
             study.runs = 2;

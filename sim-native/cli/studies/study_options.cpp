@@ -10,6 +10,18 @@ namespace natator::cli {
 
 using namespace natator::bench;
 
+namespace {
+
+std::vector<Setting> settings_at(const StudyOptions& common, const std::vector<Steps>& steps) {
+    std::vector<Setting> settings;
+    for (const Scheme scheme : common.chosen_schemes())
+        for (const Precision precision : common.chosen_precisions())
+            for (const Steps& one : steps) settings.push_back({scheme, precision, one.substeps, one.iterations});
+    return settings;
+}
+
+}  // namespace
+
 std::vector<Scheme> StudyOptions::chosen_schemes() const {
     std::vector<Scheme> result;
     for (const std::string& name : schemes)
@@ -50,15 +62,17 @@ void add_grid(CLI::App* command, Grid& grid) {
         ->capture_default_str();
 }
 
+std::vector<Setting> settings_of(const StudyOptions& common, const Grid& grid) {
+    std::vector<Steps> steps;
+    for (const int substeps : grid.substeps)
+        for (const int iterations : grid.iterations) steps.push_back({substeps, iterations});
+    return settings_at(common, steps);
+}
+
 std::vector<Setting> settings_of(const StudyOptions& common, const std::vector<std::string>& texts) {
-    std::vector<Setting> settings;
-    for (const Scheme scheme : common.chosen_schemes())
-        for (const Precision precision : common.chosen_precisions())
-            for (const std::string& text : texts) {
-                const Steps steps = steps_of(text);
-                settings.push_back({scheme, precision, steps.substeps, steps.iterations});
-            }
-    return settings;
+    std::vector<Steps> steps;
+    for (const std::string& text : texts) steps.push_back(steps_of(text));
+    return settings_at(common, steps);
 }
 
 void report(const std::string& line) {

@@ -32,7 +32,8 @@ struct Grid {
 };
 /// Adds --substeps and --iterations.
 void add_grid(CLI::App* command, Grid& grid);
-/// The settings of substeps and iterations, written "8x4", for each scheme and precision asked for.
+/// The settings of substeps and iterations, a grid of them or written "8x4", for each scheme and precision asked for.
+std::vector<bench::Setting> settings_of(const StudyOptions& common, const Grid& grid);
 std::vector<bench::Setting> settings_of(const StudyOptions& common, const std::vector<std::string>& texts);
 
 /// Says on standard error how far a study is, or what came of it.

@@ -74,6 +74,15 @@ void patch_scene(json& scene, const json& patch) {
     }
 }
 
+/// The data file that a key of a document names. What is wrong with it is told with that key.
+json read_named(const std::string& kind, const std::string& name, const Place& key, const std::filesystem::path& data) {
+    try {
+        return read_data_file(kind, name, data);
+    } catch (const InputError& error) {
+        fields::refuse(key, error.what());
+    }
+}
+
 /// What a scene's file holds merged onto the scene that its `base` names, and so on.
 json with_bases(const std::string& name, json document, const std::filesystem::path& data, int level) {
     const Place place{"scene " + quoted(name), ""};
@@ -92,13 +101,7 @@ json with_bases(const std::string& name, json document, const std::filesystem::p
     if (level == max_bases)
         fields::refuse(place.key("base"), base, "part of a chain of at most 8 scenes without a loop");
     const std::string base_name = beside(name, base.get<std::string>());
-    json of_base;
-    try {
-        of_base = read_data_file("scenes", base_name, data);
-    } catch (const InputError& error) {
-        fields::refuse(place.key("base"), error.what());
-    }
-    json merged = with_bases(base_name, std::move(of_base), data, level + 1);
+    json merged = with_bases(base_name, read_named("scenes", base_name, place.key("base"), data), data, level + 1);
     patch_scene(merged, document);
     return merged;
 }
@@ -121,12 +124,7 @@ void resolve_creature(json& holder, const Place& place, const std::filesystem::p
     if (!creature.is_object() || !is_of_file(creature)) return;
     const json name = fields::required(creature, place, "name");
     if (!name.is_string()) fields::refuse(place.key("name"), name, "the name of a creature");
-    json merged;
-    try {
-        merged = read_data_file("creatures", name.get<std::string>(), data);
-    } catch (const InputError& error) {
-        fields::refuse(place.key("name"), error.what());
-    }
+    json merged = read_named("creatures", name.get<std::string>(), place.key("name"), data);
     if (!merged.is_object()) fields::refuse(place.key("name"), merged, "the name of a file that holds an object");
     fields::drop_schema_key(merged, place);
     if (merged.contains("mesh")) place_mesh(merged.at("mesh"), name.get<std::string>(), data);
