@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Are 60 chromosomes enough? Creature 2 in open water: what 150, as the thesis has, find beside what 60 do.
+"""Are 60 chromosomes enough? What 150, as the thesis has, find in open water beside what 60 do.
 
     natator reproduce --creature 2 --water open-water --population 150 --seeds 2 --generations 100 --phase evolve --compact \\
-        --output-dir results/thesis/population
+        --backend cuda --output-dir results/thesis/population
+    natator reproduce --creature 1,3,4 --water open-water --population 150 --seeds 1 --generations 100 --phase evolve --compact \\
+        --backend cuda --output-dir results/thesis/population
     python3 results/thesis/population.py > requests.jsonl
     natator-sim serve < requests.jsonl > results.jsonl
     python3 results/thesis/population.py results.jsonl      # the table for commentary.md
@@ -18,23 +20,23 @@ import recompute
 import swims
 
 HERE = pathlib.Path(__file__).resolve().parent
-SEEDS = "runs/creature-2/open-water/seed-*"
 STARTS = [1, 2, 3, 4]
 
 
 def evolutions():
-    """(chromosomes, seed, folder) of each."""
-    for study in (HERE, HERE / "population"):
-        for folder in sorted(study.glob(SEEDS)):
-            config = json.loads((folder / "config.json").read_text(encoding="utf-8"))
-            yield config["population"], config["seed"], folder
+    """(creature, chromosomes, folder) of each."""
+    for creature in (1, 2, 3, 4):
+        for study in (HERE, HERE / "population"):
+            for folder in sorted((study / f"runs/creature-{creature}/open-water").glob("seed-*")):
+                config = json.loads((folder / "config.json").read_text(encoding="utf-8"))
+                yield creature, config["population"], folder
 
 
 def requests():
-    for number, (_, _, folder) in enumerate(evolutions()):
+    for number, (creature, _, folder) in enumerate(evolutions()):
         gait = json.loads((folder / "best.json").read_text(encoding="utf-8"))["gait"]
         for start in STARTS:
-            yield {"id": number * len(STARTS) + start, "scene": "open-water/creature-2", "duration": 4, "gait": gait, "start": start}
+            yield {"id": number * len(STARTS) + start, "scene": f"open-water/creature-{creature}", "duration": 4, "gait": gait, "start": start}
 
 
 def searched(folder):
@@ -46,14 +48,19 @@ def searched(folder):
 
 def main():
     results = swims.results(requests())
-    print("| chromosomes | seed | evaluations | way in the search | speed in the scene | a run ends after |")
-    print("| ---: | ---: | ---: | ---: | ---: | ---: |")
-    for number, (chromosomes, seed, folder) in enumerate(evolutions()):
+    groups = {}
+    for number, (creature, chromosomes, folder) in enumerate(evolutions()):
         found = [results[number * len(STARTS) + start] for start in STARTS]
         speeds = [recompute.speed(one, "open-water") for one in found]
-        ends = [one["simulated"] for one in found]
-        evaluations, way = searched(folder)
-        print(f"| {chromosomes} | {seed} | {evaluations} | {way:.3f} | {swims.with_error(speeds, 3)} | {statistics.mean(ends):.1f} s |")
+        error = statistics.stdev(speeds) / len(speeds) ** 0.5
+        groups.setdefault((creature, chromosomes), []).append(
+            (*searched(folder), statistics.mean(speeds), error, statistics.mean(one["simulated"] for one in found)))
+    print("| creature | chromosomes | evolutions | evaluations of one | way in the search | speed in the scene | a run ends after |")
+    print("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+    for (creature, chromosomes), group in groups.items():
+        evaluations, ways, speeds, errors, ends = zip(*group)
+        print(f"| {creature} | {chromosomes} | {len(group)} | {swims.spread(evaluations, 0)} | {swims.spread(ways, 3)} "
+              f"| {swims.spread(speeds, 3)}, each ± {max(errors):.3f} | {swims.spread(ends, 1, ' s')} |")
 
 
 if __name__ == "__main__":

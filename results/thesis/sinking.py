@@ -7,14 +7,19 @@
     done; done
     python3 results/thesis/sinking.py > requests.jsonl
     natator-sim serve < requests.jsonl > results.jsonl
-    python3 results/thesis/sinking.py results.jsonl         # both tables for commentary.md
+    python3 results/thesis/sinking.py --spacing | while read -r request; do
+        natator-sim converge --starts 2 --levels spacing/2 <<< "$request"
+    done > spacing.jsonl
+    python3 results/thesis/sinking.py results.jsonl spacing.jsonl       # both tables for commentary.md
 
 The best gait of each evolution, from starts of its own, until it touches a plane, as runs in the thesis' tank end: with the scene's four
-substeps, with eight, and with resting muscles. And the published gaits for the whole 4 s, on the floor, with four, eight and sixteen.
+substeps, with eight, at half the spacing, and with resting muscles. And the published gaits for the whole 4 s, on the floor, with four,
+eight and sixteen.
 """
 import json
 import pathlib
 import statistics
+import sys
 
 import recompute
 import swims
@@ -26,9 +31,10 @@ SECONDS = 4
 
 
 def winners():
-    """(creature, gait) of each evolution."""
+    """(number, creature, gait) of each evolution, the number its creature's and its seed's."""
     for folder in sorted((HERE / "sinking").glob("creature-*-seed-*")):
-        yield int(folder.name.split("-")[1]), json.loads((folder / "best.json").read_text(encoding="utf-8"))["gait"]
+        creature, seed = (int(part) for part in folder.name.split("-")[1::2])
+        yield 10 * creature + seed, creature, json.loads((folder / "best.json").read_text(encoding="utf-8"))["gait"]
 
 
 def request(creature, gait, substeps, ends):
@@ -38,7 +44,7 @@ def request(creature, gait, substeps, ends):
 
 def asked(published):
     """((what, creature or gait, evolution), request) of each group of runs from all starts."""
-    for number, (creature, gait) in enumerate(winners()):
+    for number, creature, gait in winners():
         yield ("moving", creature, number), request(creature, gait, 4, True)
         yield ("half step", creature, number), request(creature, gait, 8, True)
         yield ("resting", creature, number), request(creature, {**gait, "amplitude": [0] * len(gait["amplitude"])}, 4, True)
@@ -47,21 +53,27 @@ def asked(published):
             yield (substeps, gait["name"], None), request(gait["creature"], gait["gait"], substeps, False)
 
 
-def spread(values, digits, unit=""):
-    least, most = (f"{value:.{digits}f}" for value in (min(values), max(values)))
-    return (least if least == most else f"{least} to {most}") + unit
+def spacing(file):
+    """Mean way at half the spacing, by evolution."""
+    with open(file, encoding="utf-8") as lines:
+        answers = [json.loads(line) for line in lines]
+    return {answer["id"]: level["distance"]["mean"] for answer in answers for level in answer["levels"] if level["level"] == "spacing/2"}
 
 
-def falls(found, length):
-    print("| creature | lies on the floor after | way until then | at half the time step | resting |")
-    print("| ---: | ---: | ---: | ---: | ---: |")
+def falls(found, finer, length):
+    print("| creature | lies on the floor after | way until then | at half the time step | at half the spacing | resting |")
+    print("| ---: | ---: | ---: | ---: | ---: | ---: |")
     for creature in sorted({name for what, name, _ in found if what == "moving"}):
-        def of(what, key):
+        def each(what, key):
             return [[one[key] for one in runs] for (kind, name, _), runs in found.items() if (kind, name) == (what, creature)]
-        ends = sum(of("moving", "simulated"), [])
-        ways = [spread([statistics.mean(one) / length[f"creature-{creature}"] for one in of(what, "distance")], 3)
-                for what in ("moving", "half step", "resting")]
-        print(f"| {creature} | {spread(ends, 2, ' s')} | {' | '.join(ways)} |")
+
+        def means(what):
+            return [statistics.mean(ways) for ways in each(what, "distance")]
+        ends = sum(each("moving", "simulated"), [])
+        half_spacing = [finer[number] for what, name, number in found if (what, name) == ("moving", creature)]
+        ways = [swims.spread([way / length[f"creature-{creature}"] for way in kind], 3)
+                for kind in (means("moving"), means("half step"), half_spacing, means("resting"))]
+        print(f"| {creature} | {swims.spread(ends, 2, ' s')} | {' | '.join(ways)} |")
 
 
 def crawls(found, published):
@@ -73,6 +85,10 @@ def crawls(found, published):
 
 
 def main():
+    if sys.argv[1:] == ["--spacing"]:
+        for number, creature, gait in winners():
+            print(json.dumps({"id": number, **request(creature, gait, 4, True)}))
+        return
     study = recompute.Study()
     groups = list(asked(study.published))
     runs = [(name, {"id": number, "start": start, **one})
@@ -81,7 +97,7 @@ def main():
     found = {}
     for name, run in runs:
         found.setdefault(name, []).append(results[run["id"]])
-    falls(found, study.length)
+    falls(found, spacing(sys.argv[2]), study.length)
     crawls(found, study.published)
 
 

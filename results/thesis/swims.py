@@ -17,6 +17,12 @@ def with_error(values, digits):
     return f"{statistics.mean(values):.{digits}f} ± {statistics.stdev(values) / len(values)**0.5:.{digits}f}"
 
 
+def spread(values, digits, unit=""):
+    """Least to largest."""
+    least, most = (f"{value:.{digits}f}" for value in (min(values), max(values)))
+    return (least if least == most else f"{least} to {most}") + unit
+
+
 def results(requests):
     """Of the file that the command line names, by id. Without one, prints the requests and ends the program."""
     requests = list(requests)
