@@ -189,6 +189,21 @@ stream)
     first stream
     sleep 3600
     ;;
+converge)
+    # Half the spacing takes a tenth of the speed. A file "unstable" makes that level's runs so, "refused" the request.
+    if [[ -e $here/refused ]]; then
+        echo "natator-sim: request: gait.frequency is 70; expected a number up to 60" >&2
+        exit 2
+    fi
+    echo "natator-sim: converge: base: run 1 of 2, distance 0.5" >&2
+    echo "level      substeps" >&2
+    finer='"runs":2,"unstable":0,"distance":{"mean":0.45,"error":0.01},"speed":{"mean":0.225,"error":0.005},"change":{"mean":-0.1,"error":0.02}'
+    estimate=',"estimate":{"speed":0.2,"error":0.03,"statistical":0.01,"discretisation":0.02}'
+    [[ -e $here/unstable ]] && finer='"runs":0,"unstable":2' estimate=
+    printf '{"id":0,"scheme":"conserving","bodyLength":1.25,"levels":[{"level":"base","substeps":4,"runs":2,"unstable":0,'
+    printf '"distance":{"mean":0.5,"error":0.01},"speed":{"mean":0.25,"error":0.005}},{"level":"spacing/2",%s}]%s}\n' "$finer" "$estimate"
+    [[ ! -e $here/unstable ]] || exit 3
+    ;;
 evaluate)
     IFS= read -r request
     answer "$request"

@@ -13,7 +13,7 @@ import picocli.CommandLine.Spec;
 /** The {@code natator} program. Results go to standard output, logs and progress to standard error. */
 @Command(name = "natator", description = "Evolves and evaluates gaits of swimming soft bodies.",
         subcommands = {EvolveCommand.class, ResumeCommand.class, EvaluateCommand.class, ShowCommand.class,
-            CheckCommand.class,
+            CheckCommand.class, ConvergeCommand.class,
             CompareCommand.class, CompareOptimizersCommand.class, CompareFlexCommand.class,
             ReportCommand.class, ViewCommand.class, PageCommand.class, PictureCommand.class, ExportCommand.class,
             NewCommand.class, ReproduceCommand.class, PlotCommand.class, ClusterEfficiencyCommand.class},

@@ -2,6 +2,7 @@ package io.natator.cli;
 
 import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.EvaluationStatistics;
 import io.natator.checkpoint.StoredRun;
 import io.natator.checkpoint.VacuumRecord;
@@ -17,6 +18,7 @@ import io.natator.evolution.Recorded;
 import io.natator.file.ShellWord;
 import io.natator.simulator.SimulationResult;
 import io.natator.verdict.ControlVerdict;
+import io.natator.verdict.ConvergenceText;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
@@ -56,12 +58,16 @@ final class ShowCommand implements Callable<Integer> {
             OneLineErrors.warn(spec.commandLine(), run.damage());
         }
         Controls controls = run.best() == null ? null : Controls.of(run.directory(), run.best().swimmer());
+        Convergence convergence = run.best() == null ? null : Convergence.of(run.directory(), run.best().swimmer());
         out.println(settings(run.settings()));
         out.println(progress(run));
         if (run.state() != null) {
             new RunReport(out).print(run.settings(), run.state(), run.best(), run.directory());
             if (controls != null) {
                 out.println("  checked     " + ControlVerdict.of(controls).text());
+            }
+            if (convergence != null) {
+                out.println("  converged   " + ConvergenceText.of(convergence));
             }
             printFront(run, out);
             if (run.elites() != null) {

@@ -129,6 +129,28 @@ class RealSimulatorTest {
         assertThat(out.toString()).contains("  checked     ");
     }
 
+    /** A body that evolved, too, and what is run already is not run again. */
+    @Test
+    void aWinnersSpeedIsFollowedToFinerSteps() throws IOException {
+        Path run = folder.resolve("run");
+        assertThat(natator("evolve", "--scene", "pool/eel", "--evolve", "both", "--population", "3", "--generations", "0", "--duration", "0.1",
+                "--output-dir", run.toString())).as(err.toString()).isZero();
+        out.getBuffer().setLength(0);
+        err.getBuffer().setLength(0);
+
+        assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("level ", "\nbase ", "\ntime/2 ", "\nconverged: ");
+        assertThat(err.toString().lines()).as("runs").hasSize(4).allMatch(line -> line.matches("(base|time/2): run [12] of 2, .*"));
+        assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4).contains("\"profile\"");
+
+        String found = out.toString();
+        out.getBuffer().setLength(0);
+        err.getBuffer().setLength(0);
+        assertThat(natator("converge", "--starts", "2", "--levels", "time/2", run.toString())).isZero();
+        assertThat(out.toString()).isEqualTo(found);
+        assertThat(run.resolve("converge.jsonl")).content().hasLineCount(4);
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "--duration 0.1 --optimizer nsga2 --objectives forward,work|front-1.png|of several objectives, the gaits that no other is better than",

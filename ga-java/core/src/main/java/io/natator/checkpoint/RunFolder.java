@@ -38,6 +38,8 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     static final String SAVINGS = "savings.json";
     static final String VACUUM = "vacuum.jsonl";
     static final String CONTROLS = "check.json";
+    static final String CONVERGENCE = "converge.json";
+    static final String CONVERGENCE_RUNS = "converge.jsonl";
     static final String ENVIRONMENT = "environment.json";
     static final String EVALUATIONS = "evaluations.jsonl";
     static final String MIGRANTS = "migrants.jsonl";
@@ -46,7 +48,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
     private static final String PLOTS = "plots";
     /** All that a run writes; the settings, by which a folder is known as that of a run, are last. */
     private static final List<String> FILES = List.of(PLOTS + "/fitness.png", PLOTS, CHECKPOINT, BEST, SAVINGS, VACUUM,
-            CONTROLS, ENVIRONMENT, EVALUATIONS, MIGRANTS, GENERATIONS, TIMINGS, CompactRun.WHOLE, CONFIG, ".");
+            CONTROLS, CONVERGENCE, CONVERGENCE_RUNS, ENVIRONMENT, EVALUATIONS, MIGRANTS, GENERATIONS, TIMINGS, CompactRun.WHOLE, CONFIG, ".");
 
     private final Path directory;
     private EvolutionSettings settings;

@@ -2,23 +2,40 @@ package io.natator.simulator;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.Json;
+import java.nio.file.Path;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
+import java.util.function.Consumer;
 
 /** Asks {@code natator-sim converge} how far a swim depends on the sizes of its steps. */
 public final class ConvergeProgram {
 
     /** Half the spacing takes eight times as many particles. */
     private static final int TIMES_AS_LONG = 16;
+    /** It has an answer, without the runs that became unstable. */
+    private static final int UNSTABLE = 3;
+    private static final String PROGRESS = "natator-sim: converge: ";
 
     private final ExecutionSettings execution;
+
+    /** Who is told of the program's work while it lasts. */
+    public interface Listener {
+
+        /** A run has ended; which, and how far it came. */
+        void ran(String run);
+
+        /** A line of the table for people, which comes at the end. */
+        void table(String line);
+    }
 
     /**
      * Of an execution.
      *
-     * @param execution with a time limit for one evaluation
+     * @param execution with a time limit for one evaluation; each run has as many threads as it has workers
      */
     public ConvergeProgram(ExecutionSettings execution) {
         this.execution = execution;
@@ -29,19 +46,45 @@ public final class ConvergeProgram {
      *
      * @param starts how many, at least 2
      * @param levels for example {@code spacing/2}
-     * @return what the program says, see sim-native/docs/simulator.md
+     * @return what the program says, see sim-native/protocol/converge.md
      * @throws RefusedSceneException    if the program refuses that
      * @throws RequestRejectedException if it fails
      * @throws InterruptedException     if the calling thread is interrupted
      */
     public JsonNode of(SimulationRequest request, int starts, List<String> levels) throws InterruptedException {
-        List<String> arguments = List.of("converge", Json.line(request), "--starts", "" + starts, "--levels", String.join(",", levels),
-                "--backend", execution.backend().argument());
+        return call(request, starts, levels, List.of(), line -> { });
+    }
+
+    /**
+     * The same, telling of it while it lasts and keeping each run.
+     *
+     * @param runs     gets a line for each run; those that it has already are not done again
+     * @param listener called in another thread
+     */
+    public JsonNode of(SimulationRequest request, int starts, List<String> levels, Path runs, Listener listener)
+            throws InterruptedException {
+        Consumer<String> lines = line -> {
+            if (line.startsWith(PROGRESS)) {
+                listener.ran(line.substring(PROGRESS.length()));
+            } else if (!line.startsWith(NativeProgram.Output.NAME)) {
+                listener.table(line);
+            }
+        };
+        return call(request, starts, levels, List.of("--output", runs.toString()), lines);
+    }
+
+    private JsonNode call(SimulationRequest request, int starts, List<String> levels, List<String> more, Consumer<String> lines)
+            throws InterruptedException {
+        List<String> arguments = new ArrayList<>(List.of("converge", Json.line(request), "--starts", "" + starts,
+                "--levels", String.join(",", levels), "--backend", execution.backend().argument()));
+        arguments.addAll(execution.backend() == Backend.CPU ? List.of("--threads", "" + execution.workers())
+                : List.of("--device", "" + execution.device()));
+        arguments.addAll(more);
         Duration limit = execution.timeout().multipliedBy((long) TIMES_AS_LONG * starts * (1 + levels.size()));
         String subject = "scene " + request.scene() + " at other levels";
         try (NativeProgram program = new NativeProgram(execution.simulator(), limit)) {
-            NativeProgram.Output output = program.call(arguments, "");
-            if (output.exitStatus() != 0) {
+            NativeProgram.Output output = program.call(arguments, "", lines);
+            if (output.exitStatus() != 0 && output.exitStatus() != UNSTABLE) {
                 throw output.failure(subject);
             }
             return Json.parse(output.text(), JsonNode.class);

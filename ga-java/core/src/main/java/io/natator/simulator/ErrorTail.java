@@ -8,6 +8,7 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
+import java.util.function.Consumer;
 
 /** The end of what a program writes to standard error. Running it reads to the end of that, for a thread of its own. */
 public final class ErrorTail implements Runnable {
@@ -51,14 +52,36 @@ public final class ErrorTail implements Runnable {
      * @throws IOException if the stream cannot be read
      */
     static String read(InputStream stderr) throws IOException {
+        return read(stderr, line -> { });
+    }
+
+    /**
+     * The same, telling each line as it comes; of what has no end of line for kilobytes, pieces.
+     *
+     * @throws IOException if the stream cannot be read
+     */
+    static String read(InputStream stderr, Consumer<String> lines) throws IOException {
         try (stderr) {
             ByteArrayOutputStream kept = new ByteArrayOutputStream();
+            ByteArrayOutputStream line = new ByteArrayOutputStream();
             byte[] buffer = new byte[KEPT_BYTES];
             for (int count = stderr.read(buffer); count >= 0; count = stderr.read(buffer)) {
                 if (kept.size() + count > 2 * KEPT_BYTES) {
                     kept.reset();
                 }
                 kept.write(buffer, 0, count);
+                for (int i = 0; i < count; i++) {
+                    if (buffer[i] != '\n') {
+                        line.write(buffer[i]);
+                    }
+                    if (buffer[i] == '\n' || line.size() == KEPT_BYTES) {
+                        lines.accept(line.toString(StandardCharsets.UTF_8));
+                        line.reset();
+                    }
+                }
+            }
+            if (line.size() > 0) {
+                lines.accept(line.toString(StandardCharsets.UTF_8));
             }
             return kept.toString(StandardCharsets.UTF_8).strip().replaceAll("\\s*\\R\\s*", " | ");
         }

@@ -14,6 +14,7 @@ import java.util.concurrent.Executors;
 import java.util.concurrent.Future;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
+import java.util.function.Consumer;
 
 /**
  * Runs the native program once per call: text in, text out, within a time limit and an output limit. Nothing that the
@@ -39,7 +40,7 @@ final class NativeProgram implements AutoCloseable {
     /** What a finished program left: exit status, standard output, and the end of standard error as one line. */
     record Output(int exitStatus, String text, String errorText) {
 
-        private static final String NAME = "natator-sim: ";
+        static final String NAME = "natator-sim: ";
         private static final int BAD_INPUT = 2;
 
         /**
@@ -78,13 +79,22 @@ final class NativeProgram implements AutoCloseable {
      *                                  is then killed
      */
     Output call(List<String> arguments, String input) throws SimulatorFailure, InterruptedException {
+        return call(arguments, input, line -> { });
+    }
+
+    /**
+     * The same, telling each line of standard error as it comes.
+     *
+     * @param errorLines called in a thread of its own
+     */
+    Output call(List<String> arguments, String input, Consumer<String> errorLines) throws SimulatorFailure, InterruptedException {
         List<String> command = new ArrayList<>();
         command.add(program.toString());
         command.addAll(arguments);
         try {
             Process process = processes.start(command);
             try {
-                return converse(process, input);
+                return converse(process, input, errorLines);
             } finally {
                 processes.end(process);
             }
@@ -93,10 +103,10 @@ final class NativeProgram implements AutoCloseable {
         }
     }
 
-    private Output converse(Process process, String input) throws SimulatorFailure, InterruptedException {
+    private Output converse(Process process, String input, Consumer<String> errorLines) throws SimulatorFailure, InterruptedException {
         pipes.submit(() -> write(process, input));
         Future<byte[]> output = pipes.submit(() -> readLimited(process));
-        Future<String> errors = pipes.submit(() -> ErrorTail.read(process.getErrorStream()));
+        Future<String> errors = pipes.submit(() -> ErrorTail.read(process.getErrorStream(), errorLines));
         if (!process.waitFor(timeout.toMillis(), TimeUnit.MILLISECONDS)) {
             throw new SimulatorFailure("no answer within " + timeout.toMillis() / 1000.0 + " s");
         }

@@ -2,6 +2,7 @@ package io.natator.verdict;
 
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Controls;
+import io.natator.checkpoint.Convergence;
 import io.natator.checkpoint.SwimSample;
 import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
@@ -27,7 +28,7 @@ public final class WinnerFacts {
     /**
      * By what each is about, the verdict first; what is not known is left out.
      *
-     * @param run folder of it, for what {@code natator check} found
+     * @param run folder of it, for what {@code natator check} and {@code natator converge} found
      */
     public static Map<String, String> of(Path run, BestGait best) {
         Map<String, String> facts = new LinkedHashMap<>();
@@ -35,6 +36,10 @@ public final class WinnerFacts {
         Controls controls = Controls.of(run, best.swimmer());
         if (controls != null) {
             facts.put("controls", ControlVerdict.of(controls).text());
+        }
+        Convergence convergence = Convergence.of(run, best.swimmer());
+        if (convergence != null) {
+            facts.put("converged", ConvergenceText.of(convergence));
         }
         Map<String, String> fresh = FreshText.of(best);
         for (String about : List.of("speed", "distance", "half step", "selected")) {

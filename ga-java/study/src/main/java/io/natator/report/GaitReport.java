@@ -120,6 +120,9 @@ public final class GaitReport {
         }
         sentences.add(controls == null ? "Its controls were not run; `natator check " + run.directory() + "` runs them."
                 : "By its controls it " + ControlVerdict.of(controls).text() + ".");
+        if (facts.containsKey("converged")) {
+            sentences.add("At finer steps: " + facts.get("converged") + ".");
+        }
         if (facts.containsKey("cost")) {
             String cost = facts.get("cost");
             sentences.add(cost.substring(0, 1).toUpperCase(Locale.ROOT) + cost.substring(1) + ".");

@@ -1,0 +1,73 @@
+package io.natator.cli;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+/** {@code natator converge} with a simulator that computes nothing. */
+class ConvergeCommandTest extends FakeSimulatorTest {
+
+    private static final String TEXT = "0.160 ± 0.024 body lengths/s at time step and spacing 0, from -10.0 ± 2.0 % at half the spacing";
+    private Path run;
+
+    @BeforeEach
+    void evolved() {
+        assertThat(evolve("run")).as(err.toString()).isZero();
+        run = folder.resolve("run");
+        forget();
+    }
+
+    @Test
+    void tellsAndKeepsWhatTheSpeedGoesTo() throws IOException {
+        assertThat(natator("converge", run.toString())).as(err.toString()).isZero();
+        assertThat(out.toString()).isEqualTo("level      substeps\nconverged: " + TEXT + "\n");
+        assertThat(err.toString()).isEqualTo("base: run 1 of 2, distance 0.5\n");
+        assertThat(file("run", "converge.json")).contains("\"gait\"", "\"discretisation\" : 0.02");
+
+        forget();
+        assertThat(natator("show", run.toString())).isZero();
+        assertThat(out.toString()).contains("  converged   " + TEXT + "\n");
+    }
+
+    @Test
+    void unstableLevelsAreTold() throws IOException {
+        Files.createFile(folder.resolve("unstable"));
+
+        assertThat(natator("converge", run.toString())).as(err.toString()).isZero();
+
+        assertThat(out.toString()).endsWith("converged: no speed at half the spacing (2 runs unstable)\n");
+    }
+
+    @Test
+    void whatTheSimulatorRefusesIsToldInOneLine() throws IOException {
+        Files.createFile(folder.resolve("refused"));
+
+        assertThat(natator("converge", run.toString())).isEqualTo(2);
+
+        assertThat(err.toString()).contains("gait.frequency is 70; expected a number up to 60").hasLineCount(1);
+        assertThat(run.resolve("converge.json")).doesNotExist();
+    }
+
+    @Test
+    void oneStartIsTooFew() {
+        assertThat(natator("converge", "--starts", "1", run.toString())).isEqualTo(2);
+        assertThat(err.toString()).contains("--starts is 1; expected a whole number from 2 to 1000").hasLineCount(1);
+    }
+
+    /** A winner that has changed since has none. */
+    @Test
+    void whatIsOfAnotherGaitIsNotShown() throws IOException {
+        assertThat(natator("converge", run.toString())).as(err.toString()).isZero();
+        String found = file("run", "converge.json");
+        Files.writeString(run.resolve("converge.json"), found.replaceFirst("\"frequency\" : [0-9.]+", "\"frequency\" : 0.123"));
+        forget();
+
+        assertThat(natator("show", run.toString())).isZero();
+
+        assertThat(out.toString()).doesNotContain("converged");
+    }
+}

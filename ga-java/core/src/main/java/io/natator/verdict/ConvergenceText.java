@@ -1,0 +1,36 @@
+package io.natator.verdict;
+
+import io.natator.checkpoint.Convergence;
+import io.natator.config.Numbers;
+import java.util.Map;
+import java.util.stream.Collectors;
+
+/** How far a winner's speed depends on time step and spacing, in words; after each ± stands a standard error. */
+public final class ConvergenceText {
+
+    private static final Map<String, String> LEVELS = Map.of("time/2", "half the time step", "time/4", "a quarter of the time step",
+            "spacing/2", "half the spacing", "both/2", "half of both");
+
+    private ConvergenceText() {
+    }
+
+    /** On one line: what the speed goes to, and by how much each finer level changes it. */
+    public static String of(Convergence convergence) {
+        String changes = convergence.levels().stream().skip(1).map(ConvergenceText::change).collect(Collectors.joining(", "));
+        return convergence.estimate() == null ? changes : speed(convergence) + ", from " + changes;
+    }
+
+    private static String speed(Convergence convergence) {
+        boolean isMeasured = convergence.bodyLength() != null && convergence.bodyLength() > 0;
+        double unit = isMeasured ? convergence.bodyLength() : 1;
+        return Numbers.fixed(convergence.estimate().speed() / unit, 3) + " ± " + Numbers.fixed(convergence.estimate().error() / unit, 3)
+                + (isMeasured ? " body lengths/s" : " units/s") + " at time step and spacing 0";
+    }
+
+    private static String change(Convergence.Level level) {
+        String where = " at " + LEVELS.getOrDefault(level.level(), level.level());
+        String unstable = level.unstable() == 0 ? "" : " (" + Numbers.count(level.unstable(), "run") + " unstable)";
+        return (level.change() == null ? "no speed" : Numbers.fixed(100 * level.change().mean(), 1) + " ± "
+                + Numbers.fixed(100 * level.change().error(), 1) + " %") + where + unstable;
+    }
+}
