@@ -35,12 +35,13 @@ final class EvolvePhase {
      * @return whether all are finished
      */
     boolean run(QueueOptions queue, boolean compact, PrintWriter err) throws InterruptedException {
-        queue.atOnce(execution);  // refused before anything is made small
+        queue.atOnce(execution);  // refused, as changed scenes are, before anything is made small
+        RunQueue runs = new RunQueue(plan.runs().stream().map(EvolvedRun::plan).toList(), execution.simulator());
         long recorded = plan.runs().stream().filter(run -> !run.plan().isFinished())
                 .mapToLong(run -> run.plan().recorded()).sum();
         try {
-            return queue.carryOut(new RunQueue(plan.runs().stream().map(EvolvedRun::plan).toList())::run, execution,
-                    plan.runs().size(), plan.finished().size(), recorded + left(plan.runs()), recorded, err);
+            return queue.carryOut(runs::run, execution, plan.runs().size(), plan.finished().size(),
+                    recorded + left(plan.runs()), recorded, err);
         } finally {
             plan.finished().forEach(run -> Finalists.keep(run.plan().directory()));
             if (compact) {

@@ -9,11 +9,14 @@ import io.natator.simulator.ProgramInfo;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.LocalDate;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -83,6 +86,33 @@ class ReproduceTest {
         assertThat(reproduce(Stream.concat(options.stream(), Stream.of("--generations", "4")).toArray(String[]::new))).isEqualTo(2);
         assertThat(err.toString()).endsWith("natator reproduce: " + config + " was edited after the run was begun: duration was 0.05, is now 0.1; "
                 + "expected the settings that it was begun with, or a new run\n");
+    }
+
+    @Test
+    void anEvolutionWhoseSceneWasChangedIsRefusedAndLeftAsItIs() throws IOException {
+        List<String> options = List.of("--creature", "1", "--water", "flex", "--phase", "evolve", "--compact");
+        assertThat(reproduce(Stream.concat(options.stream(), Stream.of("--generations", "0")).toArray(String[]::new))).as(err.toString()).isZero();
+        Path run = folder.resolve("runs/creature-1/flex/seed-1");
+        Path environment = run.resolve("environment.json");
+        Files.writeString(environment, Files.readString(environment).replaceFirst("(\"sceneSha256\" : \")\\w+", "$10"));
+        Map<String, String> before = files(run);
+        err.getBuffer().setLength(0);
+
+        assertThat(reproduce(Stream.concat(options.stream(), Stream.of("--generations", "1")).toArray(String[]::new))).isEqualTo(2);
+
+        assertThat(err.toString()).endsWith("natator reproduce: scene thesis/creature-1 was changed after " + run + " was begun; "
+                + "expected the scene that it was begun with, or a new run\n");
+        assertThat(files(run)).isEqualTo(before);
+    }
+
+    private static Map<String, String> files(Path directory) throws IOException {
+        Map<String, String> content = new TreeMap<>();
+        try (Stream<Path> all = Files.walk(directory)) {
+            for (Path file : all.filter(Files::isRegularFile).toList()) {
+                content.put(file.toString(), Files.readString(file, StandardCharsets.ISO_8859_1));
+            }
+        }
+        return content;
     }
 
     @Test

@@ -1,6 +1,7 @@
 package io.natator.run;
 
 import io.natator.checkpoint.RunFolder;
+import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
@@ -51,6 +52,17 @@ public record PlannedRun(EvolutionSettings settings, Path directory) {
             if (refusal != null) {
                 throw new InvalidInputException(refusal);
             }
+        }
+    }
+
+    /**
+     * Looks whether the run in its folder, where it is to go on, has the scene that it was begun with.
+     *
+     * @throws InvalidInputException if that was changed
+     */
+    void checkScene(Path simulator) throws InterruptedException {
+        if (StoredRun.exists(directory) && !isFinished()) {
+            SceneDigest.check(directory, settings, SceneDigest.of(settings, simulator));
         }
     }
 

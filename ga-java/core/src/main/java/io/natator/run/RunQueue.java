@@ -17,9 +17,18 @@ public final class RunQueue {
 
     private final List<PlannedRun> runs;
 
-    /** A queue in which the runs are begun in this order. */
-    public RunQueue(List<PlannedRun> runs) {
+    /**
+     * A queue in which the runs are begun in this order. Writes nothing.
+     *
+     * @param simulator the native program, which knows the scenes
+     * @throws io.natator.config.InvalidInputException if a scene was changed since a run in it was begun that is to go on
+     * @throws InterruptedException                    if the calling thread is interrupted
+     */
+    public RunQueue(List<PlannedRun> runs, Path simulator) throws InterruptedException {
         this.runs = List.copyOf(runs);
+        for (PlannedRun run : this.runs) {
+            run.checkScene(simulator);
+        }
     }
 
     /** Follows the runs; called from several threads. */

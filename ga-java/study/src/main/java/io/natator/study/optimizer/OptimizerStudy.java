@@ -120,8 +120,8 @@ public final class OptimizerStudy {
      */
     public boolean run(ExecutionSettings execution, Evaluator evaluator, int atOnce, RunQueue.Watcher watcher)
             throws InterruptedException {
-        boolean all = new RunQueue(runs.stream().filter(run -> run.summary() == null).map(OptimizerRun::plan).toList())
-                .run(execution, evaluator, atOnce, watcher);
+        boolean all = new RunQueue(runs.stream().filter(run -> run.summary() == null).map(OptimizerRun::plan).toList(),
+                execution.simulator()).run(execution, evaluator, atOnce, watcher);
         return all && runAgain(execution, evaluator, atOnce, watcher);
     }
 
