@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -17,6 +18,14 @@ constexpr const char* empty_value = "the value is empty; must be left out or hav
 /// The parser takes the name of an option for the value of the one before it.
 std::string fault_of_presence(const std::string& value) {
     return value.empty() ? empty_value : value.starts_with("--") ? "= " + value + ": must be a value, not an option" : "";
+}
+
+/// The parser takes 0x10 for 16, as a whole number 010 for 8.
+std::string fault_of_base(const std::string& value, bool whole) {
+    const std::string digits = value.substr(std::min(value.find_first_not_of(" \t\n\v\f\r+-"), value.size()));
+    if (digits.starts_with("0x") || digits.starts_with("0X")) return "= " + value + ": must be a decimal number";
+    const bool octal = whole && digits.size() > 1 && digits.starts_with('0');
+    return octal ? "= " + value + ": must be a decimal number without a 0 before it" : "";
 }
 
 /// The check with the words of this program instead of its own. What is empty has another check.
@@ -49,6 +58,16 @@ void refuse_missing_values(CLI::App& app) {
     for (CLI::Option* option : app.get_options([](const CLI::Option* one) { return one->get_items_expected_max() > 0; }))
         option->check(fault_of_presence);
     for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_missing_values(*command);
+}
+
+void refuse_other_bases(CLI::App& app) {
+    for (CLI::Option* option : app.get_options()) {
+        const std::string type = option->get_type_name();
+        const bool whole = type.starts_with("INT") || type.starts_with("UINT");
+        if (whole || type.starts_with("FLOAT"))
+            option->check([whole](const std::string& value) { return fault_of_base(value, whole); });
+    }
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_other_bases(*command);
 }
 
 void refuse_empty_values(int argc, const char* const* argv) {

@@ -13,6 +13,9 @@ std::string any_of(const std::vector<std::string>& words);
 /// the next option.
 void refuse_missing_values(CLI::App& app);
 
+/// Makes numbers in hexadecimal or octal digits refused, of any option of any command.
+void refuse_other_bases(CLI::App& app);
+
 /// Refuses `--option=`, for which the next argument would be taken.
 void refuse_empty_values(int argc, const char* const* argv);
 

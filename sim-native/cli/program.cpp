@@ -107,6 +107,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
     const std::string program = app.get_name();
     app.require_subcommand(1);
     refuse_missing_values(app);
+    refuse_other_bases(app);
     return complaining(program, [&] {
         try {
             refuse_empty_values(argc, argv);

@@ -12,6 +12,7 @@ import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.MergePatch;
+import io.natator.config.Numbers;
 import io.natator.encoding.DenseEncoding;
 import io.natator.encoding.Gait;
 import io.natator.simulator.Evaluator;
@@ -133,7 +134,7 @@ final class EvaluateCommand implements Callable<Integer> {
         List<Double> genes = new ArrayList<>();
         for (String gene : gait) {
             try {
-                genes.add(Double.parseDouble(gene));
+                genes.add(Numbers.parse(gene));
             } catch (NumberFormatException e) {
                 throw new InvalidInputException("--gait: gene " + (genes.size() + 1) + " is '" + gene
                         + "'; expected a number", e);

@@ -73,6 +73,7 @@ public final class Main implements Callable<Integer> {
                 .setParameterExceptionHandler(OneLineErrors::badUsage)
                 .setExecutionExceptionHandler(OneLineErrors::failure);
         EnumNames.install(command);
+        NumberValues.install(command);
         OwnDefaults.install(command);
         SectionedHelp.install(command);
         EmptyValues.refuse(command);

@@ -1,6 +1,8 @@
 package io.natator.cli;
 
+import io.natator.config.Numbers;
 import java.util.List;
+import picocli.CommandLine;
 import picocli.CommandLine.Model.ArgSpec;
 import picocli.CommandLine.ParameterException;
 
@@ -11,6 +13,11 @@ final class NumberValues {
     private static final List<Class<?>> ANY = List.of(double.class, Double.class);
 
     private NumberValues() {
+    }
+
+    /** Makes a command, and those below it, read numbers by this program's rules, not by Java's. */
+    static void install(CommandLine command) {
+        command.registerConverter(double.class, Numbers::parse).registerConverter(Double.class, Numbers::parse);
     }
 
     /** Whether the error is that a value is no such number as its argument is. */

@@ -70,7 +70,7 @@ class EvaluateCommandTest extends FakeSimulatorTest {
         "thesis/creature-1|1.5 0.1 zero 0.3|gene 3 is 'zero'; expected a number",
         "thesis/creature-1|best.json --duraton 2|Unknown option: '--duraton'",
         "thesis/creature-1|2.5 0.1 0.2 0.3|gene 1 (frequency) is 2.5; expected a number from 0.5 to 2.0",
-        "thesis/creature-1|NaN 0.1 0.2 0.3|gene 1 (frequency) is NaN",
+        "thesis/creature-1|NaN 0.1 0.2 0.3|gene 1 is 'NaN'; expected a number",
         "thesis/tank|1.5 0.1 0.2 0.3|--scene is thesis/tank, where nothing can move by itself: it has no actuators",
         "thesis/creature-1|no-such.json|no-such.json does not exist",
         "fault/rejected|1.5 0.1 0.2 0.3|simulator: gait.frequency is 70"})

@@ -3,11 +3,27 @@ package io.natator.config;
 import java.math.BigDecimal;
 import java.math.MathContext;
 import java.util.Locale;
+import java.util.regex.Pattern;
 
-/** Numbers for people. */
+/** Numbers for people, and from them. */
 public final class Numbers {
 
+    private static final Pattern DECIMAL = Pattern.compile("[+-]?(\\d+\\.?\\d*|\\.\\d+)([eE][+-]?\\d+)?");
+
     private Numbers() {
+    }
+
+    /**
+     * A number in decimal digits, with or without an exponent; not all that Java takes for one, such as {@code 0x1p3},
+     * {@code 1f} and {@code NaN}.
+     *
+     * @throws NumberFormatException if it is none
+     */
+    public static double parse(String text) {
+        if (!DECIMAL.matcher(text).matches()) {
+            throw new NumberFormatException(text);
+        }
+        return Double.parseDouble(text);
     }
 
     /** With so many decimals; what rounds to nothing has no sign. */

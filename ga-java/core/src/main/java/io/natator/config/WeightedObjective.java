@@ -44,7 +44,7 @@ public record WeightedObjective(Objective objective, Double weight) {
 
     private static double weight(String[] sides, String part) {
         try {
-            double weight = Double.parseDouble(sides.length == 2 ? sides[1] : "");
+            double weight = Numbers.parse(sides.length == 2 ? sides[1] : "");
             if (Double.isFinite(weight) && weight > 0) {
                 return weight;
             }

@@ -1,9 +1,11 @@
 package io.natator.config;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 class NumbersTest {
 
@@ -12,6 +14,18 @@ class NumbersTest {
         "NaN,2,NaN", "-10.001,2,-10.00"})
     void whatRoundsToNothingHasNoSign(double value, int decimals, String text) {
         assertThat(Numbers.fixed(value, decimals)).isEqualTo(text);
+    }
+
+    @ParameterizedTest
+    @CsvSource({"2,2", "+2.,2", "-.5,-0.5", "1.5e-3,0.0015", "007,7"})
+    void whatIsDecimalIsRead(String text, double value) {
+        assertThat(Numbers.parse(text)).isEqualTo(value);
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"0x2", "0x1p3", "1f", "1d", "1D", "NaN", "Infinity", "-inf", "", ".", "e3", "1 000", "1e", "٣"})
+    void whatJavaAloneTakesForANumberIsNone(String text) {
+        assertThatThrownBy(() -> Numbers.parse(text)).isInstanceOf(NumberFormatException.class);
     }
 
     @ParameterizedTest
