@@ -42,22 +42,19 @@ void add_speed(CLI::App& app, int& status) {
         const StudyOptions& common = options->common;
         const std::vector<SpeedScene> scenes = speed_scenes_at(options->scenes, options->settings);
         refuse_gpu_options_for_cpu(options->backend);
-        if (on_gpu(options->backend, {})) {
-            const GpuSpeedStudy study{scenes,            common.chosen_schemes(),   common.chosen_precisions(),
-                                      options->batches, options->backend.device,   options->repeats,
-                                      common.quick,     options->backend.whole_gpu};
-            ResultTable table(common.output, gpu_speed_columns(), gpu_speed_key_columns);
-            ResultTable profile = table_beside(common, "profile", gpu_speed_profile_columns(), gpu_speed_key_columns + 1);
-            run_gpu_speed_study(study, table, profile, report);
-            if (common.output.empty()) print(table.text() + profile.text());
-            status = ok;
-            return;
-        }
-        const SpeedStudy study{scenes,           common.chosen_schemes(), common.chosen_precisions(),
-                               options->threads, options->repeats,        common.quick};
-        ResultTable table(common.output, speed_columns(), speed_key_columns);
-        ResultTable profile = table_beside(common, "profile", speed_profile_columns(), speed_key_columns);
-        run_speed_study(study, table, profile, report);
+        const bool gpu = on_gpu(options->backend, {});
+        ResultTable table = gpu ? ResultTable(common.output, gpu_speed_columns(), gpu_speed_key_columns)
+                                : ResultTable(common.output, speed_columns(), speed_key_columns);
+        ResultTable profile = gpu ? table_beside(common, "profile", gpu_speed_profile_columns(), gpu_speed_key_columns + 1)
+                                  : table_beside(common, "profile", speed_profile_columns(), speed_key_columns);
+        if (gpu)
+            run_gpu_speed_study({scenes, common.chosen_schemes(), common.chosen_precisions(), options->batches,
+                                 options->backend.device, options->repeats, common.quick, options->backend.whole_gpu},
+                                table, profile, report);
+        else
+            run_speed_study({scenes, common.chosen_schemes(), common.chosen_precisions(), options->threads, options->repeats,
+                             common.quick},
+                            table, profile, report);
         if (common.output.empty()) print(table.text() + profile.text());
         status = ok;
     });
