@@ -109,6 +109,15 @@ class EnvironmentTest(unittest.TestCase):
         self.assertTrue(terminated and info["unstable"] and np.all(np.isfinite(observation)))
         broken.close()
 
+    def test_a_target_is_not_beyond_walls_that_stay(self):
+        for more, target in (({"scene": "endless/creature-2"}, (30, 1, 1)), ({"scene": "thesis/creature-1-vacuum"}, (30, -1, 1)),
+                             ({"scene": "endless/creature-2", "overrides": {"movingTank": {"along": None}}}, (30, 1, 1)),
+                             ({"scene": "open-water/periodic"}, (30, 0.5, 0.5))):
+            with self.subTest(more):
+                natator.gym.SwimmerEnv(**more, target=target).close()
+        with self.assertRaisesRegex(natator.InputError, r"must be in the tank, y from 0, z from 0 to 1.6$"):
+            natator.gym.SwimmerEnv("endless/creature-2", target=(30, -1, 1))
+
     def test_bad_arguments_and_actions_are_refused(self):
         for more, reason in (({"actions": "push"}, 'actions = .push.: must be "drive" or "gait"'), ({"frames": 0}, "frames"),
                              ({"target": (1, 2)}, "target"), ({"flow": [(99, "left")]}, "flow.0..slice = 99"),
@@ -117,6 +126,9 @@ class EnvironmentTest(unittest.TestCase):
                              ({"work_cost": "a"}, "work_cost = 'a'"), ({"flow": -1}, "flow = -1"), ({"flow": True}, "flow = True"),
                              ({"flow": 2.5}, "flow = 2.5"), ({"flow": [1, 2]}, "flow = .1, 2.: must be pairs"),
                              ({"target": ((1, 1, 1), (0, 2, 2))}, "the first corner must be the lower one"),
+                             ({"target": (9, 0.4, 0.6)},
+                              r"target = \[9.0, 0.4, 0.6\]: must be in the tank, x from 0 to 1.54, y from 0, z from 0 to 0.82$"),
+                             ({"target": ((1, 0.3, -0.5), (1.4, 0.6, 0.5))}, r"target = \[1.0, 0.3, -0.5\]: must be in the tank"),
                              ({"flow": 50}, "flow = 50: must be at most the body's \\d+ slices"),
                              ({"gait": natator.Gait(1, [0.5, 0.5], [0, 0.5])}, "gait: must be left out where actions are .drive."),
                              ({"render_mode": "human"}, "render_mode = 'human': must be None"),

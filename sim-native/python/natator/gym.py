@@ -51,6 +51,7 @@ class SwimmerEnv(gymnasium.Env):
         self.actuators, self.length = stream.actuators, stream.scene["bodyLength"]
         if self.actuators == 0:
             raise InputError(f"scene \"{stream.scene['scene']}\": must have a creature with actuators")
+        _check_in_tank(self.target, stream.scene)
         self.by_gait = actions == "gait"
         self.gait = None
         if self.by_gait:
@@ -270,6 +271,26 @@ def _box_of(target):
     if corners.ndim == 2 and np.any(corners[0] > corners[1]):
         raise InputError(f"target = {target}: the first corner must be the lower one along each axis")
     return (corners, corners) if corners.shape == (3,) else (corners[0], corners[1])
+
+
+def _check_in_tank(box, scene):
+    """Refuses a box of targets that lies beyond a wall across an axis, unless the wall goes along with the swimmer."""
+    if box is None:
+        return
+    tank = scene["definition"].get("movingTank")
+    moving = "" if tank is None else tank.get("along", "x")
+    low, high = np.full(3, -np.inf), np.full(3, np.inf)
+    for *normal, offset in scene["planes"]:
+        across = np.flatnonzero(normal)
+        if len(across) == 1 and "xyz"[across[0]] not in moving:
+            axis, at = across[0], 0.0 - offset / normal[across[0]]
+            ends, bound = (low, max) if normal[axis] > 0 else (high, min)
+            ends[axis] = bound(ends[axis], at)
+    for corner in box:
+        if np.any(corner < low) or np.any(corner > high):
+            limits = [name + (f" from {least:g}" if np.isfinite(least) else "") + (f" to {most:g}" if np.isfinite(most) else "")
+                      for name, least, most in zip("xyz", low, high) if np.isfinite(least) or np.isfinite(most)]
+            raise InputError(f"target = {corner.tolist()}: must be in the tank, {', '.join(limits)}")
 
 
 LARGEST = 1000.0      # of an observation, beyond which it is cut
