@@ -100,6 +100,10 @@ final class ExportCommand implements Callable<Integer> {
             throw new InvalidInputException("--every is " + every + "; expected a whole number from 1");
         }
         EachOnce.check("--fields", fields, StreamField::text);
+        if (spec.commandLine().getParseResult().hasMatchedOption("--python") && format != ExportFormat.USDC && !waterSurface) {
+            throw new InvalidInputException("--python and --format " + format.text()
+                    + ": expected --format usdc or --water-surface with it, which alone need a Python");
+        }
         Path simulator = simulatorOption.path();
         SwimSource swimmer = swimOptions.swimmer();
         return swimmer.simulated(swimOptions.source(), simulator, () -> export(swimmer, simulator));

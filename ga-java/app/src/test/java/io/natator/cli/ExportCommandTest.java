@@ -71,7 +71,8 @@ class ExportCommandTest {
         if (!List.of(arguments).contains("--output-dir")) {
             all.addAll(List.of("--output-dir", folder.resolve("out").toString()));
         }
-        if (!List.of(arguments).contains("--python")) {
+        boolean isPythonUsed = List.of(arguments).contains("usdc") || List.of(arguments).contains("--water-surface");
+        if (isPythonUsed && !List.of(arguments).contains("--python")) {
             all.addAll(List.of("--python", System.getProperty("natator.readers")));
         }
         all.addAll(List.of(arguments));
@@ -163,6 +164,7 @@ class ExportCommandTest {
         "none.json|none.json is neither a run folder nor a scene: there is no such file",
         "test/pool --gait none.json|--gait none.json does not exist",
         "test/pool --duration 1 --water-surface|--water-surface and --format csv: expected a format that holds meshes of many shapes",
+        "test/pool --python /nope|--python and --format csv: expected --format usdc or --water-surface with it, which alone need a Python",
         "test/pool --fields velocity,velocity|--fields has velocity twice; expected each once",
         "test/pool --every 0|--every is 0; expected a whole number from 1",
         "test/pool --duration 0|--duration is 0.0; expected a number of seconds above 0",

@@ -100,9 +100,11 @@ class ExportReadersTest {
     private Path export(Path simulator, String format, double until, String... arguments) {
         Path target = folder.resolve(format);
         List<String> all = new ArrayList<>(List.of("export", "--format", format, "--duration", "" + until,
-                "--simulator-path", simulator.toString(), "--python", READERS.toString(),
-                "--output-dir", target.toString()));
+                "--simulator-path", simulator.toString(), "--output-dir", target.toString()));
         all.addAll(List.of(arguments));
+        if (format.equals("usdc") || all.contains("--water-surface")) {
+            all.addAll(List.of("--python", READERS.toString()));
+        }
         StringWriter said = new StringWriter();
         CommandLine command = Main.commandLine().setOut(new PrintWriter(said, true)).setErr(new PrintWriter(said, true));
         assertThat(command.execute(all.toArray(String[]::new))).as(said.toString()).isZero();
