@@ -114,7 +114,8 @@ class ViewRunsTest extends ViewBrowserTest {
                 ObjectNode changed = Json.parse(route.fetch().text(), ObjectNode.class);
                 JsonNode points = changed.at("/front/points");
                 for (int i = 0; i < points.size(); i++) {
-                    ((ArrayNode) points.get(i).get("values")).set(0, -0.0022 - 0.0012 * i / points.size());
+                    ((ArrayNode) points.get(i).get("values")).set(0, -0.0022 - 0.0012 * i / points.size())
+                            .set(1, -0.00022 - 0.00012 * i / points.size());
                 }
                 route.fulfill(new Route.FulfillOptions().setContentType("application/json").setBody(changed.toString()));
             } catch (IOException e) {
@@ -124,6 +125,7 @@ class ViewRunsTest extends ViewBrowserTest {
         open(many);
         get("run-choice").selectOption("1");
         assertThat(get("front").locator("text", new Locator.LocatorOptions().setHasText("-0.0020"))).hasCount(1);
+        assertThat(get("front").locator("text", new Locator.LocatorOptions().setHasText("-0.00020"))).hasCount(1);
         fits("front");
     }
 

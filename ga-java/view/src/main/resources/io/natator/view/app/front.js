@@ -6,10 +6,12 @@ import {axis, axisText} from './scaling.js';
 
 const WIDTH = 320;
 const HEIGHT = 250;
-const LEFT = 46;
+const LEFT = 46;  // at least
 const BOTTOM = 40;
 const TOP = 24;
 const RIGHT = 26;  // half of the longest label
+const GAP = 5;
+const DIGIT = 6.6;  // of a label, and some more than most fonts need
 
 /** To the right the first objective, upwards one of the others. */
 export class ParetoPlot extends GaitPlot {
@@ -44,7 +46,9 @@ export class ParetoPlot extends GaitPlot {
     const {goals, points} = this.#front;
     const shown = [0, other];
     const [x, y] = shown.map(which => axisOf(points.map(point => point.values[which])));
-    const right = value => LEFT + (value - x.low) / (x.high - x.low) * (WIDTH - LEFT - RIGHT);
+    const labels = y.marks.map(mark => axisText(mark, y.step));
+    const left = Math.max(LEFT, GAP + DIGIT * Math.max(...labels.map(label => label.length)));
+    const right = value => left + (value - x.low) / (x.high - x.low) * (WIDTH - left - RIGHT);
     const up = value => HEIGHT - BOTTOM - (value - y.low) / (y.high - y.low) * (HEIGHT - TOP - BOTTOM);
     const place = point => [right(point.values[0]), up(point.values[other])];
     const items = points.map(point => {
@@ -59,12 +63,12 @@ export class ParetoPlot extends GaitPlot {
     const front = points.filter(point => point.isBest).map(place).sort((a, b) => a[0] - b[0]);
     this.#svg.setAttribute('viewBox', `0 0 ${WIDTH} ${HEIGHT}`);
     this.fill([
-      draw('rect', {class: 'paper', x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM}),
+      draw('rect', {class: 'paper', x: left, y: TOP, width: WIDTH - left - RIGHT, height: HEIGHT - TOP - BOTTOM}),
       ...x.marks.map(mark => draw('text', {x: right(mark), y: HEIGHT - BOTTOM + 18, 'text-anchor': 'middle'}, axisText(mark, x.step))),
-      ...y.marks.map(mark => draw('text', {x: LEFT - 5, y: up(mark) + 4, 'text-anchor': 'end'}, axisText(mark, y.step))),
-      ...y.marks.map(mark => draw('path', {class: 'grid', d: `M${LEFT} ${up(mark)}H${WIDTH - RIGHT}`})),
+      ...y.marks.map((mark, i) => draw('text', {x: left - GAP, y: up(mark) + 4, 'text-anchor': 'end'}, labels[i])),
+      ...y.marks.map(mark => draw('path', {class: 'grid', d: `M${left} ${up(mark)}H${WIDTH - RIGHT}`})),
       ...goals.length === 2 ? [draw('path', {class: 'front', d: `M${front.map(at => at.join(' ')).join('L')}`})] : [],
-      draw('text', {x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 5, 'text-anchor': 'middle', class: 'axis'}, title(goals[0])),
+      draw('text', {x: (left + WIDTH - RIGHT) / 2, y: HEIGHT - 5, 'text-anchor': 'middle', class: 'axis'}, title(goals[0])),
       draw('text', {x: 2, y: 11, class: 'axis'}, title(goals[other])),
     ], items);
   }
