@@ -35,9 +35,16 @@ public record FreshRuns(double duration, SwimSample base, SwimSample halfStep, J
      */
     public static FreshRuns of(double duration, SwimSample base, SwimSample halfStep, Judge judge, double selected,
             int selectedRuns, List<Double> worths) {
-        double again = judge.of(worths);
+        return new FreshRuns(duration, base, halfStep, judge, selected, selectedRuns, judge.of(worths), loss(judge, selected, worths));
+    }
+
+    /**
+     * The selection loss.
+     *
+     * @param worths what each of the fresh runs is worth
+     */
+    public static Double loss(Judge judge, double selected, List<Double> worths) {
         double error = Spread.of(worths).standardError(worths.size());
-        return new FreshRuns(duration, base, halfStep, judge, selected, selectedRuns, again,
-                selected > error ? 1 - again / selected : null);
+        return selected > error ? 1 - judge.of(worths) / selected : null;
     }
 }

@@ -1,6 +1,6 @@
 package io.natator.study.optimizer;
 
-import io.natator.config.Judge;
+import io.natator.checkpoint.FreshRuns;
 import io.natator.file.JsonLines;
 import io.natator.study.KeyedLog;
 import java.nio.file.Path;
@@ -59,9 +59,22 @@ final class FreshResults implements AutoCloseable {
         if (summary.fresh() != null && genes.equals(summary.best().genes())) {
             return summary.fresh().again();
         }
-        FreshGait found = gaits.get(key(new FreshGait(run.variant().label(), run.settings().seed(), genes, List.of())));
-        Judge judge = run.settings().judge();
-        return found == null ? Double.NaN : judge.of(found.runs());
+        FreshGait found = found(run, genes);
+        return found == null ? Double.NaN : run.settings().judge().of(found.runs());
+    }
+
+    private FreshGait found(OptimizerRun run, List<Double> genes) {
+        return gaits.get(key(new FreshGait(run.variant().label(), run.settings().seed(), genes, List.of())));
+    }
+
+    /** The selection loss of a run's winner; null if that is not known, or tells nothing. */
+    synchronized Double loss(OptimizerRun run) {
+        RunSummary summary = run.summary();
+        if (summary.fresh() != null) {
+            return summary.fresh().selectionLoss();
+        }
+        FreshGait found = summary.best() == null ? null : found(run, summary.best().genes());
+        return found == null ? null : FreshRuns.loss(run.settings().judge(), summary.selected(), found.runs());
     }
 
     /** How well a run's last generation was ranked; null if that is not known. */

@@ -58,7 +58,7 @@ final class FreshTables {
             page.append("\nAt equal ").append(budget.label()).append(":\n\n").append(tests(budget));
         }
         return page.append("\n### The choice\n\nMedian over the runs [95 % bootstrap interval]: the share of what winners were chosen "
-                + "for that they lack from fresh starts; and the rank correlation (Spearman) of the last generation's gaits as "
+                + "for that they lack from fresh starts, where they were chosen for more than those are uncertain by; and the rank correlation (Spearman) of the last generation's gaits as "
                 + "the run ranked them with their order by fresh starts.\n\n").append(choice()).toString();
     }
 
@@ -118,19 +118,17 @@ final class FreshTables {
     }
 
     private String choice(String label, List<OptimizerRun> own) {
-        double[] losses = known(own, this::loss);
+        double[] losses = known(own, run -> orNaN(results.loss(run)));
         double[] ranks = known(own, run -> {
             RankedGeneration rank = results.rank(run);
-            return rank == null || rank.spearman() == null ? Double.NaN : rank.spearman();
+            return rank == null ? Double.NaN : orNaN(rank.spearman());
         });
         return "| " + label + " | " + losses.length + " | " + interval(losses, 100, 1) + (losses.length == 0 ? "" : " %") + " | "
                 + ranks.length + " | " + interval(ranks, 1, 2) + " |\n";
     }
 
-    private double loss(OptimizerRun run) {
-        RunSummary summary = run.summary();
-        double again = summary.best() == null ? Double.NaN : results.worth(run, summary.best().genes());
-        return summary.selected() > 0 ? 1 - again / summary.selected() : Double.NaN;
+    private static double orNaN(Double figure) {
+        return figure == null ? Double.NaN : figure;
     }
 
     private static double[] known(List<OptimizerRun> own, ToDoubleFunction<OptimizerRun> figure) {
