@@ -45,10 +45,19 @@ final class AnswerLines implements Runnable {
         return lines.isEmpty();
     }
 
+    /** Tells whoever waits for a line, after those that are there, that no more will come and why. */
+    void fail(String fault) {
+        try {
+            lines.put(new Line(null, fault));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
     @Override
     public void run() {
         try {
-            lines.put(new Line(null, read()));
+            fail(read());
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }

@@ -1,11 +1,6 @@
 package io.natator.simulator;
 
-import java.io.IOException;
-import java.io.OutputStream;
-import java.nio.charset.StandardCharsets;
 import java.util.List;
-import java.util.concurrent.BlockingQueue;
-import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.TimeUnit;
 
 /**
@@ -17,14 +12,13 @@ final class ServeProcess implements AutoCloseable {
 
     private static final int EXIT_BAD_INPUT = 2;
     private static final int EXIT_NO_DEVICE = 4;
-    private static final byte[] CLOSE = new byte[0];
     private static final long GRACE_MILLISECONDS = 5000;
 
     private final ProcessGroup group;
     private final ServeCommands.Command command;
     private final Process process;
     private final AnswerLines answers;
-    private final BlockingQueue<byte[]> requests = new LinkedBlockingQueue<>();
+    private final RequestLines requests;
     private final ErrorTail errors;
     private final List<Thread> threads;
     private boolean answered;
@@ -43,7 +37,8 @@ final class ServeProcess implements AutoCloseable {
         this.process = group.start(command.words());
         this.errors = new ErrorTail(process.getErrorStream());
         this.answers = new AnswerLines(process.getInputStream(), () -> group.kill(process));
-        this.threads = List.of(new Thread(this::write, "serve-input"), new Thread(answers, "serve-output"),
+        this.requests = new RequestLines(process.getOutputStream(), this::fail);
+        this.threads = List.of(new Thread(requests, "serve-input"), new Thread(answers, "serve-output"),
                 new Thread(errors, "serve-errors"));
         for (Thread thread : threads) {
             thread.setDaemon(true);
@@ -63,7 +58,7 @@ final class ServeProcess implements AutoCloseable {
 
     /** Sends requests, one a line. */
     void send(String lines) {
-        requests.add(lines.getBytes(StandardCharsets.UTF_8));
+        requests.add(lines);
     }
 
     /**
@@ -99,24 +94,17 @@ final class ServeProcess implements AutoCloseable {
         return "; exit status " + status + (said.isEmpty() ? "" : ", errors " + ResultReader.shown(said));
     }
 
-    private void write() {
-        try (OutputStream stdin = process.getOutputStream()) {
-            for (byte[] bytes = requests.take(); bytes.length > 0; bytes = requests.take()) {
-                stdin.write(bytes);
-                stdin.flush();
-            }
-        } catch (IOException e) {
-            // The program has closed its input or has ended: what it answers, or does not, tells.
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
+    /** Ends the program, to which nobody writes any more. */
+    private void fail(String fault) {
+        answers.fail(fault);
+        group.kill(process);
     }
 
     /** Kills the program with all its descendants. */
     @Override
     public void close() {
         group.end(process);
-        requests.add(CLOSE);
+        requests.close();
         threads.forEach(Thread::interrupt);
     }
 }
