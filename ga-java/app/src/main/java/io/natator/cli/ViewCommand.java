@@ -10,7 +10,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.MergePatch;
-import io.natator.config.Numbers;
 import io.natator.config.Scheme;
 import io.natator.simulator.RefusedSceneException;
 import io.natator.simulator.SceneInfo;
@@ -152,7 +151,7 @@ final class ViewCommand implements Callable<Integer> {
             boolean fits = swimmer.gait() != null && swimmer.gait().amplitude().size() == info.actuators();
             InitialScene start = new InitialScene(scene, overrides, fits || given != null ? swimmer.gait() : null);
             if (given != null) {
-                checkGait(start, info.actuators(), program);
+                checkGait(start, program);
             }
             return start;
         } catch (RefusedSceneException e) {
@@ -161,12 +160,7 @@ final class ViewCommand implements Callable<Integer> {
     }
 
     /** Before the page opens, where it would only be told that the simulator refuses it. */
-    private void checkGait(InitialScene start, int actuators, Path program) throws InterruptedException {
-        int given = start.gait().actuators();
-        if (given != actuators) {
-            throw new InvalidInputException("--gait " + gait + " is for " + Numbers.count(given, "actuator") + ", but scene " + start.scene()
-                    + " has " + actuators + "; expected one value for each");
-        }
+    private static void checkGait(InitialScene start, Path program) throws InterruptedException {
         try {
             StreamProcess.check(program, StreamOptions.live(start.scene(), start.overrides(), Json.tree(start.gait()), true));
         } catch (IOException e) {
@@ -186,11 +180,10 @@ final class ViewCommand implements Callable<Integer> {
         ObjectNode overrides = InitialScene.patch(
                 MergePatch.both(MergePatch.both(run.overrides(), swimmer.body()), sceneOptions.overrides()), scheme);
         InitialScene start = new InitialScene(run.scene(), overrides, swimmer.gait());
-        if (sceneOptions.overrides() != null || given != null) {
-            SceneInfo info = SceneInfo.of(run.scene(), overrides, program);
-            if (given != null) {
-                checkGait(start, info.actuators(), program);
-            }
+        if (given != null) {
+            checkGait(start, program);
+        } else if (sceneOptions.overrides() != null) {
+            SceneInfo.of(run.scene(), overrides, program);
         }
         return start;
     }

@@ -232,15 +232,17 @@ class ViewCommandTest {
                 + "address can watch, and start up to 4 simulations on this machine; nobody is asked who they are\n");
     }
 
-    @Test
-    void aGaitOutOfRangeIsRefusedAsByPicture() throws IOException {
-        Path gait = Files.writeString(folder.resolve("gait.json"), "{\"frequency\":1,\"amplitude\":[5,0.5],\"phase\":[0,0.5]}");
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {"[5,0.5]|[0,0.5]|amplitude[0] = 5: must be a number in [0, 2]",
+        "[0.5]|[0]|amplitude has length 1: must have length 2, one value per actuator of the creature"})
+    void aGaitThatTheSimulatorRefusesIsRefusedAsByPicture(String amplitude, String phase, String message) throws IOException {
+        Path gait = Files.writeString(folder.resolve("gait.json"), "{\"frequency\":1,\"amplitude\":" + amplitude + ",\"phase\":" + phase + "}");
         for (String command : List.of("view --no-browser --port 0 --scene", "picture --at 0")) {
             StringWriter err = new StringWriter();
             List<String> all = new ArrayList<>(List.of(command.split(" ")));
             all.addAll(List.of("thesis/creature-1", "--gait", gait.toString(), "--simulator-path", SIMULATOR));
             assertThat(Main.commandLine().setErr(new PrintWriter(err, true)).execute(all.toArray(String[]::new))).isEqualTo(2);
-            assertThat(err.toString()).isEqualTo("natator " + all.get(0) + ": natator-sim: gait.amplitude[0] = 5: must be a number in [0, 2]\n");
+            assertThat(err.toString()).isEqualTo("natator " + all.get(0) + ": natator-sim: gait." + message + "\n");
         }
     }
 
@@ -251,8 +253,6 @@ class ViewCommandTest {
         "--scene no/such|2|natator view: --scene is no/such; expected a named scene ",
         "--scene no/such.json|2|natator view: --scene is no/such.json; expected a named scene or an existing file",
         "--gait no-such.json|2|natator view: --gait no-such.json does not exist",
-        "--gait ../../sim-native/examples/gaits/fish-like.json|2|natator view: --gait ../../sim-native/examples/gaits/"
-            + "fish-like.json is for 8 actuators, but scene thesis/creature-1 has 2; expected one value for each",
         "--run no/such --run ./no/such|2|natator view: --run has no/such twice; expected each once",
         "--run no/such|2|natator view: no/such is not a run folder: it has no config.json",
         "--host no-such-host.invalid|2|natator view: --host is no-such-host.invalid, an unknown name; expected a name or "
