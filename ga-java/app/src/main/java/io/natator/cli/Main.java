@@ -74,6 +74,7 @@ public final class Main implements Callable<Integer> {
                 .setExecutionExceptionHandler(OneLineErrors::failure);
         EnumNames.install(command);
         NumberValues.install(command);
+        FileNames.install(command);
         OwnDefaults.install(command);
         SectionedHelp.install(command);
         EmptyValues.refuse(command);

@@ -5,6 +5,7 @@ import io.natator.evolution.EvolutionFailedException;
 import io.natator.simulator.ProgramEnd;
 import io.natator.simulator.RequestRejectedException;
 import java.io.UncheckedIOException;
+import java.nio.file.InvalidPathException;
 import java.util.regex.Pattern;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -89,8 +90,8 @@ final class OneLineErrors {
             print(command, "interrupted");
             return ExitCode.SOFTWARE;
         }
-        if (error instanceof InvalidInputException) {
-            print(command, error.getMessage());
+        if (error instanceof InvalidInputException || error instanceof InvalidPathException) {
+            print(command, error instanceof InvalidPathException name ? FileNames.fault(name) : error.getMessage());
             return ExitCode.USAGE;
         }
         if (error instanceof RequestRejectedException rejected) {
