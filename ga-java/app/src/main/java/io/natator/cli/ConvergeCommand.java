@@ -14,6 +14,7 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.ConvergeProgram;
+import io.natator.simulator.FinerLevel;
 import io.natator.simulator.RequestRejectedException;
 import io.natator.simulator.SimulationRequest;
 import io.natator.verdict.ConvergenceText;
@@ -49,7 +50,7 @@ final class ConvergeCommand implements Callable<Integer> {
     private int starts;
 
     @Section(Topic.EXTENT)
-    @Option(names = "--levels", paramLabel = "LEVEL[,LEVEL...]", split = ",", defaultValue = "time/2,spacing/2",
+    @Option(names = "--levels", paramLabel = "LEVEL", split = ",", defaultValue = "time/2,spacing/2",
             description = "Of time/2, time/4, spacing/2 and both/2, beside the run's own. Default: ${DEFAULT-VALUE}.")
     private List<String> levels;
 
@@ -70,6 +71,8 @@ final class ConvergeCommand implements Callable<Integer> {
             throw new InvalidInputException("--starts is " + starts + "; expected a whole number from " + LEAST_STARTS + " to "
                     + Limits.STARTS);
         }
+        EachOnce.check("--levels", levels, one -> one);
+        List<FinerLevel> finer = levels.stream().map(FinerLevel::of).toList();
         StoredRun run = Archipelago.stored(folder);
         if (run.best() == null) {
             throw new InvalidInputException(run.whyNoBest());
@@ -78,7 +81,7 @@ final class ConvergeCommand implements Callable<Integer> {
         ExecutionSettings execution = EvolutionRun.withTimeLimit(ExecutionSettings.of(simulator.path())
                 .withBackend(backend != null ? backend : settings.backend()), settings);
         Swimmer swimmer = run.best().swimmer();
-        JsonNode answer = new ConvergeProgram(execution).of(SimulationRequest.of(0, settings, swimmer), starts, levels,
+        JsonNode answer = new ConvergeProgram(execution).of(SimulationRequest.of(0, settings, swimmer), starts, finer,
                 Convergence.runs(run.directory()), new Told());
         PrintWriter out = spec.commandLine().getOut();
         try {

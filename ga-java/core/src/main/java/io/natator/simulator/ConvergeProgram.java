@@ -10,6 +10,7 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Consumer;
+import java.util.stream.Collectors;
 
 /** Asks {@code natator-sim converge} how far a swim depends on the sizes of its steps. */
 public final class ConvergeProgram {
@@ -45,13 +46,13 @@ public final class ConvergeProgram {
      * Runs a swim as it is asked for and at finer levels, all from the same starts.
      *
      * @param starts how many, at least 2
-     * @param levels for example {@code spacing/2}
+     * @param levels beside its own, each once
      * @return what the program says, see sim-native/protocol/converge.md
      * @throws RefusedSceneException    if the program refuses that
      * @throws RequestRejectedException if it fails
      * @throws InterruptedException     if the calling thread is interrupted
      */
-    public JsonNode of(SimulationRequest request, int starts, List<String> levels) throws InterruptedException {
+    public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels) throws InterruptedException {
         return call(request, starts, levels, List.of(), line -> { });
     }
 
@@ -61,7 +62,7 @@ public final class ConvergeProgram {
      * @param runs     gets a line for each run; those that it has already are not done again
      * @param listener called in another thread
      */
-    public JsonNode of(SimulationRequest request, int starts, List<String> levels, Path runs, Listener listener)
+    public JsonNode of(SimulationRequest request, int starts, List<FinerLevel> levels, Path runs, Listener listener)
             throws InterruptedException {
         Consumer<String> lines = line -> {
             if (line.startsWith(PROGRESS)) {
@@ -73,10 +74,10 @@ public final class ConvergeProgram {
         return call(request, starts, levels, List.of("--output", runs.toString()), lines);
     }
 
-    private JsonNode call(SimulationRequest request, int starts, List<String> levels, List<String> more, Consumer<String> lines)
+    private JsonNode call(SimulationRequest request, int starts, List<FinerLevel> levels, List<String> more, Consumer<String> lines)
             throws InterruptedException {
         List<String> arguments = new ArrayList<>(List.of("converge", Json.line(request), "--starts", "" + starts,
-                "--levels", String.join(",", levels), "--backend", execution.backend().argument()));
+                "--levels", levels.stream().map(FinerLevel::label).collect(Collectors.joining(",")), "--backend", execution.backend().argument()));
         arguments.addAll(execution.backend() == Backend.CPU ? List.of("--threads", "" + execution.workers())
                 : List.of("--device", "" + execution.device()));
         arguments.addAll(more);

@@ -2,14 +2,11 @@ package io.natator.verdict;
 
 import io.natator.checkpoint.Convergence;
 import io.natator.config.Numbers;
-import java.util.Map;
+import io.natator.simulator.FinerLevel;
 import java.util.stream.Collectors;
 
 /** How far a winner's speed depends on time step and spacing, in words; after each ± stands a standard error. */
 public final class ConvergenceText {
-
-    private static final Map<String, String> LEVELS = Map.of("time/2", "half the time step", "time/4", "a quarter of the time step",
-            "spacing/2", "half the spacing", "both/2", "half of both");
 
     private ConvergenceText() {
     }
@@ -28,7 +25,7 @@ public final class ConvergenceText {
     }
 
     private static String change(Convergence.Level level) {
-        String where = " at " + LEVELS.getOrDefault(level.level(), level.level());
+        String where = " at " + FinerLevel.of(level.level()).words();
         String unstable = level.unstable() == 0 ? "" : " (" + Numbers.count(level.unstable(), "run") + " unstable)";
         return (level.change() == null ? "no speed" : Numbers.fixed(100 * level.change().mean(), 1) + " ± "
                 + Numbers.fixed(100 * level.change().error(), 1) + " %") + where + unstable;

@@ -5,6 +5,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Backend;
 import io.natator.config.ExecutionSettings;
 import io.natator.simulator.ConvergeProgram;
+import io.natator.simulator.FinerLevel;
 import io.natator.simulator.Sha256;
 import io.natator.simulator.SimulationRequest;
 import java.nio.file.Path;
@@ -13,7 +14,7 @@ import java.util.List;
 /** Gaits at half the spacing of all particles, the body and its motion kept; {@code convergence.jsonl}. */
 final class ConvergenceLog extends RequestLog<ConvergenceLog.Row> {
 
-    private static final String LEVEL = "spacing/2";
+    private static final FinerLevel LEVEL = FinerLevel.HALF_SPACING;
     private static final int STARTS = 3;
 
     /**
@@ -56,7 +57,7 @@ final class ConvergenceLog extends RequestLog<ConvergenceLog.Row> {
     /** Speed at half the spacing less that as it is, from the same starts; NaN if that was not measured or became unstable. */
     double change(Experiment experiment) {
         Row row = find(experiment.request());
-        return row == null ? Double.NaN : speed(row, LEVEL) - speed(row, "base");
+        return row == null ? Double.NaN : speed(row, LEVEL.label()) - speed(row, "base");
     }
 
     private static double speed(Row row, String level) {
