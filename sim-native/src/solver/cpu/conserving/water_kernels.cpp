@@ -12,11 +12,26 @@ inline WendlandKernel<Real> kernel_of(const WaterView<Real>& water) {
     return {water.inverse_radius, water.kernel_scale, water.slope_scale};
 }
 
-/// Calls visit(entry) for each entry of the rows of the group of slots that begins at `first`.
+/// How many groups are a block.
+template <class Group>
+constexpr int groups = lanes / Group::slots;
+
+template <class Real, class Work>
+inline void for_each_block(const WaterView<Real>& water, const Work& work) {
+    for (int block = water.first_block; block < water.end_block; ++block) work(block);
+}
+/// Calls work(k, first slot) for each group k of a block.
+template <class Group, class Work>
+inline void for_groups_of(int block, const Work& work) {
+    for (int k = 0; k < groups<Group>; ++k) work(k, block * lanes + k * Group::slots);
+}
+/// Calls visit(k, entry) for each entry of a block's rows, row by row for all its groups k: group after group would fetch
+/// whole cache lines for the first, and have nothing to fetch while it computes for the others.
 template <class Group, class Real, class Visit>
-inline void for_each_entry(const WaterView<Real>& water, int first, const Visit& visit) {
-    const int block = first / lanes, end = water.row_begin[block + 1];
-    for (int row = water.row_begin[block]; row < end; ++row) visit(row * lanes + first % lanes);
+inline void for_each_entry(const WaterView<Real>& water, int block, const Visit& visit) {
+    const int end = water.row_begin[block + 1];
+    for (int row = water.row_begin[block]; row < end; ++row)
+        for (int k = 0; k < groups<Group>; ++k) visit(k, row * lanes + k * Group::slots);
 }
 
 template <class Group, class Real>
@@ -117,31 +132,37 @@ void put_velocity(const WaterView<Real>& water, int first, const Vec3<typename G
 template <class Group, class Real>
 void compute_impulse(WaterView<Real> water) {
     using Lane = typename Group::Lane;
-    for_each_group<Group>(water, [&](int first) {
-        const Vec3<Lane> v = get3<Group>(water.velocity, first);
-        Lane rate{};
-        for_each_entry<Group>(water, first, [&](int entry) {
+    for_each_block(water, [&](int block) {
+        Vec3<Lane> v[groups<Group>];
+        Lane rate[groups<Group>]{};
+        for_groups_of<Group>(block, [&](int k, int first) { v[k] = get3<Group>(water.velocity, first); });
+        for_each_entry<Group>(water, block, [&](int k, int entry) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
-            rate += dot(Vec3<Lane>{moves.x, moves.y, moves.z} - v, get3<Group>(water.gradient, entry));
+            rate[k] += dot(Vec3<Lane>{moves.x, moves.y, moves.z} - v[k], get3<Group>(water.gradient, entry));
         });
-        const Lane impulse = pressure_impulse(Group::get(water.target + first), rate,
-                                              Group::get(water.response + first), Group::get(water.density + first));
-        put_impulse<Group>(water, first, impulse, Group::get(water.impulse_sum + first));
+        for_groups_of<Group>(block, [&](int k, int first) {
+            const Lane impulse = pressure_impulse(Group::get(water.target + first), rate[k],
+                                                  Group::get(water.response + first), Group::get(water.density + first));
+            put_impulse<Group>(water, first, impulse, Group::get(water.impulse_sum + first));
+        });
     });
 }
 
 template <class Group, class Real>
 void apply_impulse(WaterView<Real> water) {
     using Lane = typename Group::Lane;
-    for_each_group<Group>(water, [&](int first) {
-        const Lane own = Group::get(water.impulse + first);
-        Vec3<Lane> sum{};
-        for_each_entry<Group>(water, first, [&](int entry) {
+    for_each_block(water, [&](int block) {
+        Lane own[groups<Group>];
+        Vec3<Lane> sum[groups<Group>]{};
+        for_groups_of<Group>(block, [&](int k, int first) { own[k] = Group::get(water.impulse + first); });
+        for_each_entry<Group>(water, block, [&](int k, int entry) {
             const Lane other = Group::gather_one(water.impulse, water.neighbour + entry);
-            sum += (own + other) * get3<Group>(water.gradient, entry);
+            sum[k] += (own[k] + other) * get3<Group>(water.gradient, entry);
         });
-        const Lane inverse_mass = Group::get(water.inverse_mass + first);
-        put_velocity<Group>(water, first, get3<Group>(water.velocity, first) - inverse_mass * sum);
+        for_groups_of<Group>(block, [&](int k, int first) {
+            const Lane inverse_mass = Group::get(water.inverse_mass + first);
+            put_velocity<Group>(water, first, get3<Group>(water.velocity, first) - inverse_mass * sum[k]);
+        });
     });
 }
 
