@@ -121,6 +121,7 @@ struct Fluid {
                               .packed_correction = packed_correction.data(),
                               .packed_shear = packed_shear.data(),
                               .packed_relief = packed_relief.data(),
+                              .distance = distance.data(),
                               .gradient = {g[0], g[1], g[2]}};
         for (int k = 0; k < 6; ++k) view.correction[k] = water_correction[k].data();
         return view;

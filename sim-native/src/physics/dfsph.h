@@ -114,9 +114,9 @@ struct MomentSums {
 
 /// G_ij = V_i V_j (L_i + L_j)/2 grad_i W: sum_j (v_j - v_i) G_ij is V_i times the divergence of v at i.
 template <class T, class R>
-NATATOR_HD Vec3<T> pair_gradient(const Vec3<T>& difference, const WendlandKernel<R>& kernel, T volumes,
+NATATOR_HD Vec3<T> pair_gradient(const Vec3<T>& difference, T distance, const WendlandKernel<R>& kernel, T volumes,
                                  const Symmetric3<T>& both) {
-    return (R(-0.5) * volumes * kernel.slope(length_of(difference))) * (both * difference);
+    return (R(-0.5) * volumes * kernel.slope(distance)) * (both * difference);
 }
 
 /// Of all G_ij of a particle: what a unit of its pressure impulse does to its own rate of expansion.

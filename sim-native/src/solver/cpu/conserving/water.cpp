@@ -167,6 +167,7 @@ WaterView<Real> Water<Real>::view() {
                         .packed_correction = packed_correction_.data(),
                         .packed_shear = packed_shear_.data(),
                         .packed_relief = packed_relief_.data(),
+                        .distance = distance_.data(),
                         .gradient = {gradient[0], gradient[1], gradient[2]}};
     for (int k = 0; k < 6; ++k) all.correction[k] = correction_[k].data();
     return all;

@@ -183,6 +183,7 @@ private:
     AlignedVector<Real> packed_, packed_velocity_, packed_correction_, packed_shear_, packed_relief_;
     std::vector<int> row_begin_, neighbour_count_;
     AlignedVector<std::int32_t> neighbour_;
+    AlignedVector<Real> distance_;
     Vector3Array<Real> gradient_;
 
     std::vector<Vec3<Real>> impulse_on_;  ///< of the water, by particle; empty unless forces are kept

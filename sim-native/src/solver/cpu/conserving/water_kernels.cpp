@@ -51,6 +51,7 @@ template <class Group, class Real>
         MomentSums<Lane> sums;
         for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
             const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
+            Group::put(water.distance + entry, length_of(difference));
             sums.add(difference, kernel, water.at_spacing, other.w, Vec3<Lane>{moves.x, moves.y, moves.z} - v);
         });
         const Lane density = sums.density + Group::get(water.volume + first) * water.kernel_scale;
@@ -89,7 +90,7 @@ template <class Group, class Real>
             const Four<Lane> shear = Group::gather(water.packed_shear, index);
             const Four<Lane> moves = Group::gather(water.packed_velocity, index);
             const Vec3<Lane> gradient =
-                pair_gradient(difference, kernel, volume * other.w,
+                pair_gradient(difference, Group::get(water.distance + entry), kernel, volume * other.w,
                               own + Symmetric3<Lane>{l.x, l.y, l.z, l.w, shear.x, shear.y});
             put3<Group>(water.gradient, entry, gradient);
             sums.add(gradient, moves.w);
@@ -196,14 +197,16 @@ template <class Group, class Real>
 void return_relief(WaterView<Real> water) {
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
-    for_each_group<Group>(water, [&](int first) {
-        Vec3<Lane> sum{};
-        for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>&, const Vec3<Lane>& difference) {
+    for_each_block(water, [&](int block) {
+        Vec3<Lane> sum[groups<Group>]{};
+        for_each_entry<Group>(water, block, [&](int k, int entry) {
             const Four<Lane> part = Group::gather(water.packed_relief, water.neighbour + entry);
-            sum += kernel.value(length_of(difference)) * Vec3<Lane>{part.x, part.y, part.z};
+            sum[k] += kernel.value(Group::get(water.distance + entry)) * Vec3<Lane>{part.x, part.y, part.z};
         });
-        const Lane scale = Group::get(water.inverse_mass + first) * Group::get(water.volume + first);
-        put_velocity<Group>(water, first, get3<Group>(water.velocity, first) - scale * sum);
+        for_groups_of<Group>(block, [&](int k, int first) {
+            const Lane scale = Group::get(water.inverse_mass + first) * Group::get(water.volume + first);
+            put_velocity<Group>(water, first, get3<Group>(water.velocity, first) - scale * sum[k]);
+        });
     });
 }
 

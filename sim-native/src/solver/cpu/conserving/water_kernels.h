@@ -43,7 +43,9 @@ struct WaterView {
     Real* packed_shear;       ///< L: xz, yz; solid
     Real* packed_relief;      ///< E_j times its relief_share
 
-    Real* gradient[3];  ///< G_ij by entry of the rows
+    // By entry of the rows.
+    Real* distance;     ///< cheaper to read than to compute anew from two positions
+    Real* gradient[3];  ///< G_ij
 };
 
 /// Each particle's sums are computed apart, so blocks may be worked on side by side. The view comes by value: no store can
@@ -52,7 +54,7 @@ template <class Real>
 struct WaterKernels {
     /// Lays positions with volumes, and velocities with mobilities, out for the rest.
     void (*pack)(WaterView<Real> water);
-    /// Density, correction (also laid out), crowding, fastest_square.
+    /// Density, correction (also laid out), crowding, fastest_square; distance.
     void (*compute_moments)(WaterView<Real> water);
     /// gradient, zeroth and response; and, while the gradients are at hand, the impulse of a first pass of target 0.
     void (*compute_gradients)(WaterView<Real> water);

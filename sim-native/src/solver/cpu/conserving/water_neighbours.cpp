@@ -115,7 +115,9 @@ void Water<Real>::list_neighbours(ThreadTeam& team) {
                                           .kernels = neighbour_kernels_},
                                          team, {row_begin_, neighbour_, neighbour_count_}, cell_of, go_to,
                                          [](int, std::int32_t*, int n) { return n; });
-    if (gradient_.x.size() < size) gradient_.resize(neighbour_.size());
+    if (distance_.size() >= size) return;
+    distance_.resize(neighbour_.size());
+    gradient_.resize(neighbour_.size());
 }
 
 template <class Real>

@@ -69,7 +69,7 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
         if (borders != 0) its = turned(model.water.ghost_map[borders], its);
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
         const Vec3<Real> gradient =
-            physics::pair_gradient(difference, model.water.kernel, here.w * there.w, own + its);
+            physics::pair_gradient(difference, physics::length_of(difference), model.water.kernel, here.w * there.w, own + its);
         const PairGradient<Real> kept(gradient);
         water.pair[place] = kept;
         sums.add(kept.value(), shear.z);
