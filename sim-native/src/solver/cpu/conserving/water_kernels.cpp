@@ -20,11 +20,13 @@ template <class Real, class Work>
 inline void for_each_block(const WaterView<Real>& water, const Work& work) {
     for (int block = water.first_block; block < water.end_block; ++block) work(block);
 }
+
 /// Calls work(k, first slot) for each group k of a block.
 template <class Group, class Work>
 inline void for_groups_of(int block, const Work& work) {
     for (int k = 0; k < groups<Group>; ++k) work(k, block * lanes + k * Group::slots);
 }
+
 /// Calls visit(k, entry) for each entry of a block's rows, row by row for all its groups k: group after group would fetch
 /// whole cache lines for the first, and have nothing to fetch while it computes for the others.
 template <class Group, class Real, class Visit>
