@@ -213,7 +213,8 @@ TEST(BenchProtocolTest, ThroughputSaysWhatItTakes) {
         EXPECT_NE(help.out.find(option), std::string::npos) << option << " in " << help.out;
     for (const std::vector<std::string>& bad :
          std::vector<std::vector<std::string>>{{"--particles", "999"}, {"--particles", "15000001"}, {"--particles", "many"},
-                                               {"--batch", "0"}, {"--repeats", "0"}, {"--scheme", "both"}}) {
+                                               {"--batch", "0"}, {"--batch", "0x10"}, {"--repeats", "0"},
+                                               {"--scheme", "both"}}) {
         const Outcome outcome = run_simulator({"bench", "throughput", bad[0], bad[1]});
         EXPECT_EQ(outcome.exit_code, 2) << bad[1];
         EXPECT_EQ(outcome.out, "");

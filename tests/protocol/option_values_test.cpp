@@ -41,7 +41,6 @@ const BadValue bad_values[] = {
     {{"run", vacuum_scene, "--threads", "010"}, "--threads = 010: must be a decimal number without a 0 before it; see "},
     {{"stream", vacuum_scene, "--until", "0x2"}, "--until = 0x2: must be a decimal number; see "},
     {{"converge", "-", "--starts", " 0x10"}, "--starts =  0x10: must be a decimal number; see "},
-    {{"bench", "speed", "--batch", "1", "0x10"}, "--batch = 0x10: must be a decimal number; see "},
     {{"run", vacuum_scene, "--threads", "two"}, "--threads = two: must be a whole number in [1, 1024]; see "},
     {{"run", vacuum_scene, "--threads", "1025"}, "--threads = 1025: must be a whole number in [1, 1024]; see "},
     {{"run", vacuum_scene, "--threads", "1.5"}, "--threads = 1.5: must be a whole number in [1, 1024]; see "},
