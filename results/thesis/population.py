@@ -34,7 +34,7 @@ def evolutions():
 
 def requests():
     for number, (creature, _, folder) in enumerate(evolutions()):
-        gait = json.loads((folder / "best.json").read_text(encoding="utf-8"))["gait"]
+        gait = swims.best_gait(folder)
         for start in STARTS:
             yield {"id": number * len(STARTS) + start, "scene": f"open-water/creature-{creature}", "duration": 4, "gait": gait, "start": start}
 
@@ -52,9 +52,8 @@ def main():
     for number, (creature, chromosomes, folder) in enumerate(evolutions()):
         found = [results[number * len(STARTS) + start] for start in STARTS]
         speeds = [recompute.speed(one, "open-water") for one in found]
-        error = statistics.stdev(speeds) / len(speeds) ** 0.5
-        groups.setdefault((creature, chromosomes), []).append(
-            (*searched(folder), statistics.mean(speeds), error, statistics.mean(one["simulated"] for one in found)))
+        groups.setdefault((creature, chromosomes), []).append((*searched(folder), statistics.mean(speeds), swims.standard_error(speeds),
+                                                               statistics.mean(one["simulated"] for one in found)))
     print("| creature | chromosomes | evolutions | evaluations of one | way in the search | speed in the scene | a run ends after |")
     print("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
     for (creature, chromosomes), group in groups.items():

@@ -16,21 +16,22 @@ import subprocess
 import sys
 import tempfile
 
+import swims
+
 HERE = pathlib.Path(__file__).resolve().parent
 SECONDS = 2
 STARTS = [1, 2]
-PLANES = [[0, 1, 0, 0], [1, 0, 0, 0], [-1, 0, 0, 6], [0, 0, 1, 0], [0, 0, -1, 1.6]]
-CHANGES = {"as it is": {}, "resting muscles": {}, "a lid on the water": {"planes": [*PLANES, [0, -1, 0, 1.6]]},
+WALLS = swims.tank(6, 1.6, 1.6, 1)["planes"]  # the scene's
+CHANGES = {"as it is": {}, "resting muscles": {}, "a lid on the water": {"planes": [*WALLS, [0, -1, 0, 1.6]]},
            "gravity 12 instead of 3": {"solver": {"gravity": [0, -12, 0]}}, "half the time step": {"solver": {"substeps": 8}},
            "support 3.5 instead of 2.5": {"solver": {"kernelSupport": 3.5}}}
 
 
 def swim(program, creature, change, start):
     """(way up of the body's middle, degrees by which the head is above the tail) after the swim."""
-    best = json.loads((HERE / f"runs/creature-{creature}/open-water/seed-1/best.json").read_text(encoding="utf-8"))
-    gait = best["gait"]
+    gait = swims.best_gait(HERE / f"runs/creature-{creature}/open-water/seed-1")
     if change == "resting muscles":
-        gait = {**gait, "amplitude": [0] * len(gait["amplitude"])}
+        gait = swims.resting(gait)
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "slices.csv"
         subprocess.run([program, "run", f"open-water/creature-{creature}", "--gait", json.dumps(gait), "--overrides",

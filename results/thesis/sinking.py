@@ -34,7 +34,7 @@ def winners():
     """(number, creature, gait) of each evolution, the number its creature's and its seed's."""
     for folder in sorted((HERE / "sinking").glob("creature-*-seed-*")):
         creature, seed = (int(part) for part in folder.name.split("-")[1::2])
-        yield 10 * creature + seed, creature, json.loads((folder / "best.json").read_text(encoding="utf-8"))["gait"]
+        yield 10 * creature + seed, creature, swims.best_gait(folder)
 
 
 def request(creature, gait, substeps, ends):
@@ -47,7 +47,7 @@ def asked(published):
     for number, creature, gait in winners():
         yield ("moving", creature, number), request(creature, gait, 4, True)
         yield ("half step", creature, number), request(creature, gait, 8, True)
-        yield ("resting", creature, number), request(creature, {**gait, "amplitude": [0] * len(gait["amplitude"])}, 4, True)
+        yield ("resting", creature, number), request(creature, swims.resting(gait), 4, True)
     for gait in published:
         for substeps in SUBSTEPS:
             yield (substeps, gait["name"], None), request(gait["creature"], gait["gait"], substeps, False)

@@ -1,4 +1,5 @@
-"""What search_steps.py, wider_tank.py, without_end.py, population.py and sinking.py share: all print requests, and make a table of their results."""
+"""What search_steps.py, wider_tank.py, without_end.py, population.py, sinking.py and rise.py share. All but the last print requests, and make a table of
+their results."""
 import json
 import pathlib
 import statistics
@@ -12,9 +13,23 @@ def tank(length, height, width, rear):
             "creature": {"rearCentre": [rear, height / 2, width / 2]}}
 
 
+def best_gait(folder):
+    """That of an evolution."""
+    return json.loads((folder / "best.json").read_text(encoding="utf-8"))["gait"]
+
+
+def resting(gait):
+    """With muscles that do nothing."""
+    return {**gait, "amplitude": [0] * len(gait["amplitude"])}
+
+
+def standard_error(values):
+    return statistics.stdev(values) / len(values) ** 0.5
+
+
 def with_error(values, digits):
     """Mean ± standard error."""
-    return f"{statistics.mean(values):.{digits}f} ± {statistics.stdev(values) / len(values)**0.5:.{digits}f}"
+    return f"{statistics.mean(values):.{digits}f} ± {standard_error(values):.{digits}f}"
 
 
 def spread(values, digits, unit=""):

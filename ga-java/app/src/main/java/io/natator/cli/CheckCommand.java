@@ -54,17 +54,12 @@ final class CheckCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        if (starts < 2 || starts > Limits.STARTS) {
-            throw new InvalidInputException("--starts is " + starts + "; expected a whole number from 2 to " + Limits.STARTS);
-        }
+        Limits.checkSeveralStarts("--starts", starts);
         StoredRun run = Archipelago.stored(folder);
-        if (run.best() == null) {
-            throw new InvalidInputException(run.whyNoBest());
-        }
+        Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(
                 cacheOptions.in(executionOptions.execution(settings.backend())), settings);
-        Swimmer swimmer = run.best().swimmer();
         Controls controls = new ControlRuns(settings, execution, starts).of(swimmer);
         Controls all = controls.withUnderWater(underWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),
                 controls.duration(), execution));

@@ -10,7 +10,6 @@ import io.natator.cli.Section.Topic;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
-import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.ConvergeProgram;
@@ -39,8 +38,6 @@ import picocli.CommandLine.Spec;
         footer = {"", "Example:", "  natator converge runs/creature-1-seed-1"})
 final class ConvergeCommand implements Callable<Integer> {
 
-    private static final int LEAST_STARTS = 2;
-
     @Spec
     private CommandSpec spec;
 
@@ -67,20 +64,14 @@ final class ConvergeCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        if (starts < LEAST_STARTS || starts > Limits.STARTS) {
-            throw new InvalidInputException("--starts is " + starts + "; expected a whole number from " + LEAST_STARTS + " to "
-                    + Limits.STARTS);
-        }
+        Limits.checkSeveralStarts("--starts", starts);
         EachOnce.check("--levels", levels, one -> one);
         List<FinerLevel> finer = levels.stream().map(FinerLevel::of).toList();
         StoredRun run = Archipelago.stored(folder);
-        if (run.best() == null) {
-            throw new InvalidInputException(run.whyNoBest());
-        }
+        Swimmer swimmer = run.requiredBest().swimmer();
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(ExecutionSettings.of(simulator.path())
                 .withBackend(backend != null ? backend : settings.backend()), settings);
-        Swimmer swimmer = run.best().swimmer();
         JsonNode answer = new ConvergeProgram(execution).of(SimulationRequest.of(0, settings, swimmer), starts, finer,
                 Convergence.runs(run.directory()), new Told());
         PrintWriter out = spec.commandLine().getOut();

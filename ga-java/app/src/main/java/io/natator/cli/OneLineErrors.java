@@ -90,8 +90,12 @@ final class OneLineErrors {
             print(command, "interrupted");
             return ExitCode.SOFTWARE;
         }
-        if (error instanceof InvalidInputException || error instanceof InvalidPathException) {
-            print(command, error instanceof InvalidPathException name ? FileNames.fault(name) : error.getMessage());
+        if (error instanceof InvalidInputException) {
+            print(command, error.getMessage());
+            return ExitCode.USAGE;
+        }
+        if (error instanceof InvalidPathException name) {
+            print(command, FileNames.fault(name));
             return ExitCode.USAGE;
         }
         if (error instanceof RequestRejectedException rejected) {

@@ -90,6 +90,18 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
                 .filter(Objects::nonNull).findFirst().orElse(null);
     }
 
+    /**
+     * The best gait so far, of a command that needs one.
+     *
+     * @throws InvalidInputException if there is none
+     */
+    public BestGait requiredBest() {
+        if (best == null) {
+            throw new InvalidInputException(whyNoBest());
+        }
+        return best;
+    }
+
     /** Why there is no best gait, and what helps, in one line; null if there is one. */
     public String whyNoBest() {
         if (best != null) {

@@ -38,6 +38,17 @@ public final class Limits {
     }
 
     /**
+     * Checks a number of starts of which a scatter is told.
+     *
+     * @throws InvalidInputException if it is not from 2 to {@link #STARTS}
+     */
+    public static void checkSeveralStarts(String name, int value) {
+        if (value < 2 || value > STARTS) {
+            throw new InvalidInputException(name + " is " + value + "; expected a whole number from 2 to " + STARTS);
+        }
+    }
+
+    /**
      * Checks a simulated time.
      *
      * @throws InvalidInputException if it is not above 0, or beyond {@link #DURATION}

@@ -55,9 +55,7 @@ public final class GaitReport {
      * @throws InvalidInputException if the run has no best gait or no checkpoint yet, or the folder has a page of somebody's own
      */
     public GaitReport(StoredRun run, Path folder) {
-        if (run.best() == null) {
-            throw new InvalidInputException(run.whyNoBest());
-        }
+        run.requiredBest();
         if (run.state() == null) {
             throw new InvalidInputException(run.directory() + " has no checkpoint yet; finish it by natator resume");
         }
