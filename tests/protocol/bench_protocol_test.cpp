@@ -48,11 +48,11 @@ TEST(BenchProtocolTest, WaterWritesEveryFigureOfEveryCaseAndTheCurvesBesideIt) {
     const Outcome outcome = run_simulator({"bench", "water", "--quick", "--scheme", "conserving", "--output", file});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file);
-    for (const char* row : {"vortex,10,conserving,float,cpu,4,4,2.5,amplitude after one turnover,ok,",
-                            "vortex,10,conserving,float,cpu,4,4,2.5,numerical Reynolds number,ok,",
-                            "vortex,10,conserving,float,cpu,4,4,2.5,gain of kinetic energy,ok,",
-                            "standing-wave,10,conserving,float,cpu,4,4,2.5,period (s),ok,",
-                            "tilted-gravity,10,conserving,float,cpu,4,4,2.5,slope under 1 degree (degrees),ok,"})
+    for (const char* row : {"vortex,10,conserving,float,cpu,4,4,2.5,1,amplitude after one turnover,ok,",
+                            "vortex,10,conserving,float,cpu,4,4,2.5,1,numerical Reynolds number,ok,",
+                            "vortex,10,conserving,float,cpu,4,4,2.5,1,gain of kinetic energy,ok,",
+                            "standing-wave,10,conserving,float,cpu,4,4,2.5,1,period (s),ok,",
+                            "tilted-gravity,10,conserving,float,cpu,4,4,2.5,1,slope under 1 degree (degrees),ok,"})
         EXPECT_NE(table.find(row), std::string::npos) << row << " in " << table;
     EXPECT_NE(content(folder.path / "water-curves.csv").find("vortex,10,conserving,float,cpu,4,4,2.5,0,1\n"), std::string::npos);
 }
@@ -65,9 +65,9 @@ TEST(BenchProtocolTest, WaterTakesTheKernelsSupport) {
                                            "--support", "2", "--support", "2.5", "--output", file});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file), quantity = "slope afterwards (degrees)";
-    EXPECT_NE(table.find(",support,quantity,"), std::string::npos) << table;
+    EXPECT_NE(table.find(",support,start,quantity,"), std::string::npos) << table;
     std::vector<std::string> values;
-    for (const char* key : {"conserving,float,cpu,1,1,2,", "conserving,float,cpu,1,1,2.5,", "flex,float,cpu,1,1,,"}) {
+    for (const char* key : {"conserving,float,cpu,1,1,2,1,", "conserving,float,cpu,1,1,2.5,1,", "flex,float,cpu,1,1,,,"}) {
         const std::size_t at = table.find(key + quantity);
         ASSERT_NE(at, std::string::npos) << key << " in " << table;
         values.push_back(table.substr(at + std::string(key + quantity).size(), 12));
@@ -77,6 +77,27 @@ TEST(BenchProtocolTest, WaterTakesTheKernelsSupport) {
     const Outcome refused = run_simulator({"bench", "water", "--support", "1.9"});
     EXPECT_NE(refused.exit_code, 0);
     EXPECT_NE(refused.err.find("--support"), std::string::npos) << refused.err;
+}
+
+/// Each start is another run, but of a scheme whose water begins as a lattice; curves are kept of the first alone.
+TEST(BenchProtocolTest, WaterTakesSeveralStarts) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path / "water.csv").string();
+    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "8", "--setting", "1x1", "--case", "tilted-gravity",
+                                           "--start", "1", "3", "--output", file});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string table = content(file), quantity = "slope afterwards (degrees),ok,";
+    std::vector<std::string> values;
+    for (const char* key : {"conserving,float,cpu,1,1,2.5,1,", "conserving,float,cpu,1,1,2.5,3,"}) {
+        const std::size_t at = table.find(key + quantity);
+        ASSERT_NE(at, std::string::npos) << key << " in " << table;
+        values.push_back(table.substr(at + std::string(key + quantity).size(), 8));
+    }
+    EXPECT_NE(values[0], values[1]);
+    EXPECT_EQ(lines(table), 1 + 2 * 3) << table;
+    const std::string curves = content(folder.path / "water-curves.csv");
+    EXPECT_NE(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,2.5,0,"), std::string::npos);
+    EXPECT_EQ(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,2.5,0,", curves.find("1,1,2.5,0,") + 1), std::string::npos);
 }
 
 TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
@@ -89,6 +110,7 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"water", "--support", "nan"}, "--support = nan: must be a number in [2, 4]; see "},
         {{"water", "--support", "two"}, "--support = two: must be a number in [2, 4]; see "},
         {{"water", "--resolution", "20", "7"}, "--resolution = 7: must be a whole number in [8, 200]; see "},
+        {{"water", "--start", "0"}, "--start = 0: must be a whole number in [1, 1000000]; see "},
         {{"speed", "--batch", "two"}, "--batch = two: must be a whole number in [1, 1048576]; see "},
         {{"stability", "--scheme", "fles"}, "--scheme = fles: must be flex or conserving; see "},
         {{"water", "--device", "1"}, "--device = 1: the backend is cpu; must be left out, or beside --backend cuda or auto"},

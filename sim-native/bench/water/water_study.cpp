@@ -19,7 +19,7 @@ Row with(Row row, const std::string& field) {
     return row;
 }
 
-Row name_of(const WaterCase& one, const WaterSetting& setting) {
+Row name_of_curve(const WaterCase& one, const WaterSetting& setting) {
     const Setting& solver = setting.solver;
     return {one.name,
             std::to_string(setting.resolution),
@@ -29,6 +29,10 @@ Row name_of(const WaterCase& one, const WaterSetting& setting) {
             std::to_string(solver.substeps),
             std::to_string(solver.iterations),
             solver.scheme == Scheme::conserving ? number_text(setting.support) : ""};
+}
+
+Row name_of(const WaterCase& one, const WaterSetting& setting) {
+    return with(name_of_curve(one, setting), setting.solver.scheme == Scheme::conserving ? std::to_string(setting.start) : "");
 }
 
 bool is_done(const WaterCase& one, const Row& name, const ResultTable& table) {
@@ -45,13 +49,13 @@ void add_curve(const Row& name, const std::vector<WaterSample>& curve, ResultTab
     }
 }
 
-void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& table, ResultTable& curves,
+void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& table, ResultTable* curves,
               const std::function<void(const std::string&)>& report) {
     if (one.held && setting.solver.scheme != Scheme::conserving) return;
     const Row name = name_of(one, setting);
     if (is_done(one, name, table)) return;
     const WaterRun run = one.run(setting);
-    add_curve(name, run.curve, curves);
+    if (curves) add_curve(name_of_curve(one, setting), run.curve, *curves);
     for (std::size_t i = 0; i < one.quantities.size(); ++i) {
         Row row = with(name, one.quantities[i]);
         if (table.has(row)) continue;
@@ -70,7 +74,7 @@ void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& ta
 
 Row water_columns() {
     return {"case",   "resolution", "scheme", "precision", "backend",  "substeps", "iterations", "support",
-            "quantity", "status",  "value",  "reference", "least",   "greatest", "met",        "particles", "run_time"};
+            "start",    "quantity", "status",  "value",  "reference", "least",   "greatest", "met",        "particles", "run_time"};
 }
 
 Row water_curve_columns() {
@@ -83,8 +87,10 @@ void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& c
         if (water_case(name).held && !study.held) continue;
         for (const int resolution : study.resolutions)
             for (const Setting& setting : study.settings)
-                for (const double support : study.supports)  // what has none is done once
-                    run_case(water_case(name), {setting, resolution, study.gpu, support}, table, curves, report);
+                for (const double support : study.supports)  // what has no support, and no starts, is done once
+                    for (const int start : study.starts)
+                        run_case(water_case(name), {setting, resolution, study.gpu, support, start}, table,
+                                 start == study.starts.front() ? &curves : nullptr, report);
     }
 }
 

@@ -33,7 +33,8 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
                            .bottom_mass = 1};
     add_fluid(block, model);
     if (immerse) immerse(model);
-    if (model.scheme == Scheme::conserving) disorder_fluid(spacing, model);
+    constexpr int seed_before_first = 19;
+    if (model.scheme == Scheme::conserving) disorder_fluid(spacing, model, seed_before_first + setting.start);
     model.planes = {{{0, 1, 0}, 0},
                     {{1, 0, 0}, 0},
                     {{-1, 0, 0}, count.x() * spacing},

@@ -15,6 +15,8 @@ using namespace natator::bench;
 
 namespace {
 
+constexpr int most_starts = 1'000'000;
+
 /// Refuses a case of which the study does nothing.
 void refuse_cases_left_out(const WaterStudy& study) {
     const bool conserving = std::ranges::any_of(study.settings, [](const Setting& one) { return one.scheme == Scheme::conserving; });
@@ -31,6 +33,7 @@ void add_water(CLI::App& app, int& status) {
         std::vector<std::string> cases, settings{"4x4"};
         std::vector<int> resolutions{20, 40};
         std::vector<double> supports{SolverParameters().kernelSupport};
+        std::vector<int> starts{1};
         BackendChoice backend;
     };
     const auto options = std::make_shared<Options>();
@@ -49,10 +52,14 @@ void add_water(CLI::App& app, int& status) {
     command->add_option("--support", options->supports, "Of the kernel of scheme conserving, in particle distances.")
         ->check(number_in(limits::least_kernel_support, limits::most_kernel_support))
         ->capture_default_str();
+    command->add_option("--start", options->starts, "Of scheme conserving: each begins with its water disordered otherwise.")
+        ->check(whole_number_in(1, most_starts))
+        ->capture_default_str();
     command->callback([options, command, &status] {
         const StudyOptions& common = options->common;
         WaterStudy study{options->cases, options->resolutions, settings_of(common, options->settings)};
         study.supports = options->supports;
+        study.starts = options->starts;
         refuse_gpu_options_for_cpu(options->backend);
         if (on_gpu(options->backend, {})) study.gpu = options->backend.device;
         if (common.quick && command->count("--resolution") == 0) study.resolutions = {10};
