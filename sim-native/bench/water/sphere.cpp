@@ -49,14 +49,20 @@ WaterRun follow(double duration, Fallen what, WaterTank<Real>& tank) {
     return tank.follow(duration, [&, start = height()] { return start - height(); });
 }
 
+/// Of the sphere, of the water's: lets it go.
+template <class Real>
+void set_density(double density, WaterTank<Real>& tank) {
+    tank.change([&](Model& model) {
+        for (const int i : model.clusters[0].particles) model.inverse_mass[i] = 1 / density;
+    });
+}
+
 template <class Real>
 WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
     WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting, [&](Model& model) {
         immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), model);
     });
-    tank.change([&](Model& model) {
-        for (const int i : model.clusters[0].particles) model.inverse_mass[i] = 1 / fall.density;
-    });
+    set_density(fall.density, tank);
     return follow(fall.duration, fall.curve, tank);
 }
 
@@ -96,8 +102,7 @@ double acceleration_from(double begin, const std::vector<WaterSample>& curve) {
     return numerator / denominator;
 }
 
-/// A sphere in a tank 1.4 lengths wide and 1.8 high that is let go with its weight so much more than its buoyancy, in parts
-/// of that.
+/// A sphere in a tank 1.4 lengths wide and 1.8 high that is let go so much denser than its water, in parts of that.
 struct Release {
     double excess;
     double start;  ///< height of the middle
@@ -124,8 +129,6 @@ double expected_speed(double excess, double sphere_diameter) {
     return way / counted;
 }
 
-/// Its weight is set by the force that the water holds it up with, so that an error of the buoyancy, which run_neutral_sphere
-/// measures, is not in it.
 template <class Real>
 WaterRun release(const Release& how, const WaterSetting& setting) {
     const int across = particles_along(release_width, setting), up = particles_along(release_height, setting);
@@ -135,19 +138,7 @@ WaterRun release(const Release& how, const WaterSetting& setting) {
     });
     const double sphere_diameter = diameter(tank.model());
     tank.set_kinematic_viscosity(release_viscosity);
-    double buoyancy = 0;
-    const int frames_held = 60;
-    for (int frame = 0; frame < frames_held; ++frame) {
-        Load load;
-        if (!tank.drive({}, load)) return tank.run();
-        buoyancy += load.force.y() / frames_held;
-    }
-    tank.change([&](Model& model) {
-        const auto& sphere = model.clusters[0].particles;
-        const double weight = (1 + how.excess) * buoyancy;
-        for (const int i : sphere)
-            model.inverse_mass[i] = static_cast<double>(sphere.size()) * release_gravity / weight;
-    });
+    set_density(1 + how.excess, tank);
     WaterRun run = follow(release_duration, Fallen::way, tank);
     if (run.instability) return run;
     const auto frames_counted = static_cast<std::size_t>(std::lround(counted / tank.model().time_step));
