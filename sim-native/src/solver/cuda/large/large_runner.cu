@@ -17,24 +17,13 @@ struct LargeRunner<Real>::Graph {
     }
 };
 
-namespace {
-
-/// One that does not wait for the default stream.
-cudaStream_t new_stream() {
-    cudaStream_t stream = nullptr;
-    check(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "stream");
-    return stream;
-}
-
-}  // namespace
-
 template <class Real>
 LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room, bool keeps_forces)
     : host_model_(model),
       device_model_(model, true),
       base_{.model = device_model_.view(),
             .states = states,
-            .stream = new_stream(),
+            .stream = stream_.get(),
             .keeps_forces = keeps_forces && device_model_.view().plan.water},
       memory_(model, device_model_, states, room, base_.keeps_forces, base_.stream),
       muscles_(states),
@@ -46,10 +35,7 @@ LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room,
 }
 
 template <class Real>
-LargeRunner<Real>::~LargeRunner() {
-    graphs_.clear();
-    cudaStreamDestroy(base_.stream);
-}
+LargeRunner<Real>::~LargeRunner() = default;
 
 template <class Real>
 void LargeRunner<Real>::make_room(ListRoom needed) {

@@ -11,6 +11,7 @@
 #include "natator/state.h"
 #include "solver/cuda/device_model.h"
 #include "solver/cuda/host_buffer.h"
+#include "solver/cuda/stream.h"
 #include "substep.cuh"
 
 namespace natator::cuda {
@@ -100,6 +101,7 @@ private:
 
     const Model& host_model_;
     DeviceModel<Real> device_model_;
+    Stream stream_;
     LargeLaunch<Real> base_;
     LargeMemory<Real> memory_;
     std::vector<State<Real>> muscles_;  ///< only their spring rest lengths
