@@ -17,6 +17,18 @@ struct LargeRunner<Real>::Graph {
     }
 };
 
+namespace {
+
+/// What a stream was asked for while it captured.
+struct Captured {
+    cudaGraph_t graph = nullptr;
+    ~Captured() {
+        if (graph) cudaGraphDestroy(graph);
+    }
+};
+
+}  // namespace
+
 template <class Real>
 LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room, bool keeps_forces)
     : host_model_(model),
@@ -136,22 +148,21 @@ void LargeRunner<Real>::launch(const Update& update, StageClock* clock, const Tr
 
 template <class Real>
 cudaGraphExec_t LargeRunner<Real>::graph_of(const Update& update) {
-    std::unique_ptr<Graph>& graph = graphs_[{update.time_step, update.substeps, update.settling}];
-    if (!graph) {
-        graph = std::make_unique<Graph>();
-        cudaGraph_t captured = nullptr;
-        check(cudaStreamBeginCapture(base_.stream, cudaStreamCaptureModeThreadLocal), "capture");
-        try {
-            launch(update, nullptr, {});
-        } catch (...) {  // a thread that goes on capturing could do nothing else
-            cudaStreamEndCapture(base_.stream, &captured);
-            throw;
-        }
-        check(cudaStreamEndCapture(base_.stream, &captured), "capture");
-        check(cudaGraphInstantiate(&graph->exec, captured, 0), "graph");
-        cudaGraphDestroy(captured);
+    std::unique_ptr<Graph>& known = graphs_[{update.time_step, update.substeps, update.settling}];
+    if (known) return known->exec;
+    Captured captured;
+    check(cudaStreamBeginCapture(base_.stream, cudaStreamCaptureModeThreadLocal), "capture");
+    try {
+        launch(update, nullptr, {});
+    } catch (...) {  // a thread that goes on capturing could do nothing else
+        cudaStreamEndCapture(base_.stream, &captured.graph);
+        throw;
     }
-    return graph->exec;
+    check(cudaStreamEndCapture(base_.stream, &captured.graph), "capture");
+    auto graph = std::make_unique<Graph>();
+    check(cudaGraphInstantiate(&graph->exec, captured.graph, 0), "graph");
+    known = std::move(graph);
+    return known->exec;
 }
 
 template <class Real>
