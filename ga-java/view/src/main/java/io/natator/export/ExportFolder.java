@@ -24,7 +24,8 @@ import java.util.stream.Stream;
 /**
  * A folder that appears only when all in it is written: until then it is called {@code NAME.partial}. That goes when the
  * export fails or this program is told to end; what {@code kill -9} leaves goes with the next export to the same place. An empty
- * folder that is there already stays, with its owner and mode: at the end it is filled, {@code metadata.json} last.
+ * folder that is there already stays, with its owner and mode: at the end it is filled, {@code metadata.json} last. An earlier
+ * export that is replaced is called {@code NAME.replaced} until the new one has its name.
  */
 final class ExportFolder implements Closeable {
 
@@ -36,15 +37,17 @@ final class ExportFolder implements Closeable {
 
     private final Path target;
     private final Path partial;
-    private final Path replaced;
+    private final ReplacedExport replaced;
+    private final boolean replace;
     private final FileChannel lock;
     private final ProgramEnd end = new ProgramEnd(Thread.currentThread()::interrupt, () -> { });
     private boolean committed;
 
-    private ExportFolder(Path target, Path partial, FileChannel lock) {
+    private ExportFolder(Path target, Path partial, ReplacedExport replaced, boolean replace, FileChannel lock) {
         this.target = target;
         this.partial = partial;
-        this.replaced = target.resolveSibling(target.getFileName() + ".replaced");
+        this.replaced = replaced;
+        this.replace = replace;
         this.lock = lock;
     }
 
@@ -61,6 +64,7 @@ final class ExportFolder implements Closeable {
             throw new InvalidInputException("output folder is " + folder + "; expected a folder of its own");
         }
         Path partial = target.resolveSibling(target.getFileName() + ".partial");
+        ReplacedExport replaced = new ReplacedExport(target);
         boolean isFilling = ExportFilling.isBegun(partial, target);
         if (RunFolder.isOccupied(target) && !isFilling) {
             failUnlessReplaceable(folder, target, replace);
@@ -78,19 +82,16 @@ final class ExportFolder implements Closeable {
             lock.close();
             throw new InvalidInputException("another export to " + folder + " is being written", e);
         }
-        ExportFolder fresh = new ExportFolder(target, partial, lock);
+        ExportFolder fresh = new ExportFolder(target, partial, replaced, replace, lock);
         try {
             if (isFilling) {
                 ExportFilling.takeBack(partial, target);
-                if (RunFolder.isOccupied(target)) {
-                    failUnlessReplaceable(folder, target, replace);
-                }
             }
-            for (Path old : contents(partial)) {
-                if (!old.equals(partial.resolve(LOCK))) {
-                    delete(old);
-                }
+            replaced.settle();
+            if (RunFolder.isOccupied(target)) {
+                failUnlessReplaceable(folder, target, replace);
             }
+            deleteContents(partial);
             if (RunFolder.isOccupied(target)) {
                 fresh.failUnlessMovable(folder);
             } else if (Files.exists(target)) {
@@ -137,12 +138,10 @@ final class ExportFolder implements Closeable {
 
     /** What is there makes room for the export at its end: whether it can is tried before anything is computed. */
     private void failUnlessMovable(Path folder) throws IOException {
-        if (RunFolder.isOccupied(replaced)) {
-            throw new InvalidInputException(replaced + " is in the way; remove it");
-        }
+        replaced.failIfInTheWay();
         try {
-            Files.move(target, replaced, StandardCopyOption.ATOMIC_MOVE);
-            Files.move(replaced, target, StandardCopyOption.ATOMIC_MOVE);
+            replaced.setAside();
+            replaced.takeBack();
         } catch (IOException e) {
             throw new InvalidInputException("output folder " + folder + " cannot be replaced: " + FileErrors.whyNotMade(target, e)
                     + "; expected another, such as " + target.resolve("swim"), e);
@@ -180,16 +179,28 @@ final class ExportFolder implements Closeable {
             committed = true;
             return;
         }
-        Files.delete(partial.resolve(LOCK));
-        boolean occupied = RunFolder.isOccupied(target);
-        if (occupied) {
-            Files.move(target, replaced, StandardCopyOption.ATOMIC_MOVE);
+        if (RunFolder.isOccupied(target)) {
+            replaceEarlier();
+        } else {
+            Files.move(partial, target, StandardCopyOption.ATOMIC_MOVE);
+            committed = true;
         }
-        Files.move(partial, target, StandardCopyOption.ATOMIC_MOVE);
+        Files.delete(target.resolve(LOCK));
+    }
+
+    /** If nothing but an export, which may be replaced, is in the folder still: who put something there meanwhile keeps it. */
+    private void replaceEarlier() throws IOException {
+        failUnlessReplaceable(target, target, replace);
+        replaced.failIfInTheWay();
+        replaced.setAside();
+        try {
+            Files.move(partial, target, StandardCopyOption.ATOMIC_MOVE);
+        } catch (IOException e) {
+            replaced.takeBack();
+            throw e;
+        }
         committed = true;
-        if (occupied) {
-            delete(replaced);
-        }
+        replaced.delete();
     }
 
     /** Removes the folder unless it was committed. */
@@ -202,19 +213,21 @@ final class ExportFolder implements Closeable {
         }
     }
 
-    private static List<Path> contents(Path folder) throws IOException {
-        try (Stream<Path> files = Files.list(folder)) {
-            return files.toList();
+    /** A folder that has a lock, where it exists: the lock goes last, so that what a kill leaves is known again. */
+    static void delete(Path folder) throws IOException {
+        if (Files.exists(folder)) {
+            deleteContents(folder);
+            Files.deleteIfExists(folder.resolve(LOCK));
+            Files.delete(folder);
         }
     }
 
-    private static void delete(Path path) throws IOException {
-        if (!Files.exists(path)) {
-            return;
-        }
+    /** All but the lock. */
+    private static void deleteContents(Path folder) throws IOException {
         List<Path> inwards;
-        try (Stream<Path> all = Files.walk(path)) {
-            inwards = all.sorted(Comparator.reverseOrder()).toList();
+        try (Stream<Path> all = Files.walk(folder)) {
+            inwards = all.filter(one -> !one.equals(folder) && !one.equals(folder.resolve(LOCK)))
+                    .sorted(Comparator.reverseOrder()).toList();
         }
         for (Path one : inwards) {
             Files.delete(one);

@@ -7,8 +7,9 @@ import io.natator.config.InvalidInputException;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.List;
+import java.nio.file.StandardCopyOption;
 import java.nio.file.attribute.PosixFilePermissions;
+import java.util.List;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -136,6 +137,84 @@ class ExportFolderTest {
                 .hasMessage("output folder " + target + " holds figures/notes.txt, which is no part of the export in it; move it away, "
                         + "or choose another folder by --output-dir");
         assertThat(notes).hasContent("mine");
+    }
+
+    /** An export may take an hour. */
+    @Test
+    void whatSomebodyPutIntoTheFolderMeanwhileIsNotRemoved() throws IOException {
+        for (boolean isThere : List.of(true, false)) {
+            if (isThere) {
+                write("{\"files\":[\"metadata.json\"]}", false);
+            }
+            try (ExportFolder folder = ExportFolder.begin(target, true)) {
+                Files.writeString(folder.path().resolve(ExportFolder.METADATA), "next");
+                Path notes = Files.writeString(Files.createDirectories(target).resolve("notes.txt"), "mine");
+
+                assertThatThrownBy(folder::commit).isInstanceOf(InvalidInputException.class)
+                        .hasMessageContaining(isThere ? "holds notes.txt, which is no part" : "holds no export");
+                assertThat(notes).hasContent("mine");
+                Files.delete(notes);
+            }
+            assertThat(parent.resolve("swim.replaced")).doesNotExist();
+            assertThat(partial).doesNotExist();
+            Files.deleteIfExists(target.resolve(ExportFolder.METADATA));
+            Files.deleteIfExists(target);
+        }
+    }
+
+    @Test
+    void anExportThatCameMeanwhileStaysUnlessForced() throws IOException {
+        try (ExportFolder folder = ExportFolder.begin(target, false)) {
+            Files.writeString(folder.path().resolve(ExportFolder.METADATA), "next");
+            Files.writeString(Files.createDirectories(target).resolve(ExportFolder.METADATA), "{\"files\":[\"metadata.json\"]}");
+
+            assertThatThrownBy(folder::commit).isInstanceOf(InvalidInputException.class).hasMessageContaining("by --force");
+            assertThat(target.resolve(ExportFolder.METADATA)).content().contains("files");
+        }
+    }
+
+    @Test
+    void anExportIsBackWhereTheNextCannotTakeItsPlace() throws IOException {
+        write("{\"files\":[\"metadata.json\"]}", false);
+        try (ExportFolder folder = ExportFolder.begin(target, true)) {
+            Files.delete(partial.resolve(ExportFolder.LOCK));
+            Files.delete(partial);
+
+            assertThatThrownBy(folder::commit).isInstanceOf(IOException.class);
+        }
+        assertThat(target.resolve(ExportFolder.METADATA)).content().contains("files");
+        assertThat(parent).isDirectoryNotContaining(path -> !path.equals(target));
+        assertThat(target).isDirectoryNotContaining(path -> !path.endsWith(ExportFolder.METADATA));
+    }
+
+    /** Killed when the earlier export had lost its name, and the next did not have it yet. */
+    @Test
+    void anExportThatAKillLeftWithoutItsNameIsBackWithTheNext() throws IOException {
+        write("{\"files\":[\"metadata.json\"]}", false);
+        new ReplacedExport(target).setAside();
+        Files.writeString(Files.createDirectories(partial).resolve(ExportFolder.LOCK), "");
+        Files.writeString(partial.resolve(ExportFolder.METADATA), "of the killed one");
+
+        assertThatThrownBy(() -> ExportFolder.begin(target, false)).isInstanceOf(InvalidInputException.class)
+                .hasMessageContaining("by --force");
+        assertThat(target.resolve(ExportFolder.METADATA)).content().contains("files");
+        write("next", true);
+        assertThat(target.resolve(ExportFolder.METADATA)).hasContent("next");
+        assertThat(parent).isDirectoryNotContaining(path -> !path.equals(target));
+    }
+
+    /** Killed when the next had its name, and the earlier export was not removed yet. */
+    @Test
+    void anExportThatAKillLeftBesideTheNextGoesWithTheOneAfterIt() throws IOException {
+        String listed = "{\"files\":[\"metadata.json\"]}";
+        write(listed, false);
+        new ReplacedExport(target).setAside();
+        Files.writeString(Files.createDirectories(target).resolve(ExportFolder.LOCK), "");
+        Files.writeString(target.resolve(ExportFolder.METADATA), listed);
+
+        write("last", true);
+        assertThat(target.resolve(ExportFolder.METADATA)).hasContent("last");
+        assertThat(parent).isDirectoryNotContaining(path -> !path.equals(target));
     }
 
     @Test
