@@ -138,10 +138,11 @@ TEST(CostTest, TheEnvironmentReplacesTheLimits) {
         const Variable work("NATATOR_MOST_WORK", "1e15");
         EXPECT_EQ(refusal(with("thesis/creature-1", R"({"duration":160000})")), "");
     }
-    for (const char* value : {"much", "-1", "0", "nan", "1e6x"}) {
-        const Variable work("NATATOR_MOST_WORK", value);
-        EXPECT_NE(refusal(scene).find("NATATOR_MOST_WORK"), std::string::npos) << value;
-    }
+    for (const char* name : {"NATATOR_MOST_WORK", "NATATOR_MOST_MEMORY"})
+        for (const std::string value : {"much", "-1", "0", "nan", "inf", "1e6x", "0x1p60", " 1e15", "1e15 ", "+-1", "1e999"}) {
+            const Variable most(name, value.c_str());
+            EXPECT_EQ(refusal(scene), std::string("environment: ") + name + " = \"" + value + "\": must be a decimal number above 0");
+        }
 }
 
 }  // namespace

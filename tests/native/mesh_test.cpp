@@ -371,6 +371,7 @@ Shape dumbbell(double waist) {
 const BadMesh bad_meshes[] = {
     {"empty", [] { return std::string(); }, "bad.obj", {"has no faces"}},
     {"number", [] { return std::string("v 0 0 0\nv 1 x 0\n"); }, "bad.obj", {"line 2", "\"x\" is no coordinate"}},
+    {"two_signs", [] { return std::string("v 0 0 0\nv 1 +-2 0\n"); }, "bad.obj", {"line 2", "\"+-2\" is no coordinate"}},
     {"missing", [] { return std::string("v 0 0\n"); }, "bad.obj", {"line 1", "a coordinate is missing"}},
     {"nan", [] { return std::string("v 0 0 nan\n"); }, "bad.obj", {"line 1", "\"nan\""}},
     {"huge", [] { return std::string("v 0 0 1e12\n"); }, "bad.obj", {"line 1", "within 1e9"}},

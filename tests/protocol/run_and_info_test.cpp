@@ -88,6 +88,12 @@ TEST(InfoTest, ReadsTheInstructionSetFromTheEnvironment) {
     EXPECT_EQ(refused.err, "natator-sim: environment: NATATOR_ISA = \"sse\": must be portable, avx2 or avx512\n");
 }
 
+TEST(InfoTest, RefusesALimitInTheEnvironmentThatIsNoDecimalNumber) {
+    const Outcome refused = run_limited("export NATATOR_MOST_WORK=0x1p60", {"run", "pool/eel", "--duration", "0.1"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err, "natator-sim: environment: NATATOR_MOST_WORK = \"0x1p60\": must be a decimal number above 0\n");
+}
+
 TEST(InfoTest, TellsOfAxesThatHaveNoEnds) {
     const Outcome outcome = run_simulator({"info", "open-water/periodic", "--json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -23,7 +23,7 @@ struct Budget {
     double work = 0;   ///< pair visits
     double bytes = 0;  ///< of memory
 
-    /// Throws InputError when $NATATOR_MOST_WORK or $NATATOR_MOST_MEMORY is no number above 0.
+    /// Throws InputError when $NATATOR_MOST_WORK or $NATATOR_MOST_MEMORY is no decimal number above 0.
     static Budget of_user();
 };
 

@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <optional>
 
+#include "io/decimal_number.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
 #include "natator/limits.h"
@@ -104,11 +106,10 @@ Candidates candidates_at_start(const Model& model, double search_distance) {
 double from_environment(const char* name, double usual) {
     const char* const text = std::getenv(name);
     if (text == nullptr || *text == '\0') return usual;
-    char* end = nullptr;
-    const double value = std::strtod(text, &end);
-    if (*end != '\0' || !(value > 0))
-        throw InputError("environment: " + std::string(name) + " = " + quoted(text) + ": must be a number above 0");
-    return value;
+    const std::optional<double> value = decimal_number(text);
+    if (!value || *value <= 0)
+        throw InputError("environment: " + std::string(name) + " = " + quoted(text) + ": must be a decimal number above 0");
+    return *value;
 }
 
 double memory_of_machine() {

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <tuple>
 
+#include "io/decimal_number.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
 #include "natator/limits.h"
@@ -56,16 +58,12 @@ public:
 
 private:
     double next_number() {
-        std::string_view word = next();
-        const std::string_view shown = word;
-        if (word.starts_with('+')) word.remove_prefix(1);
-        double value = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (word.empty() || error != std::errc() || end != word.data() + word.size() ||
-            !(std::abs(value) <= largest_coordinate))
-            refuse((shown.empty() ? "a coordinate is missing" : quoted(std::string(shown)) + " is no coordinate") +
+        const std::string_view word = next();
+        const std::optional<double> value = decimal_number(word);
+        if (!value || std::abs(*value) > largest_coordinate)
+            refuse((word.empty() ? "a coordinate is missing" : quoted(std::string(word)) + " is no coordinate") +
                    "; must be three numbers within 1e9");
-        return value + 0.0;  // -0 is 0
+        return *value + 0.0;  // -0 is 0
     }
 
     std::string_view rest_, line_;
