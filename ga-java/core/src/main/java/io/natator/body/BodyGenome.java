@@ -6,6 +6,7 @@ import java.util.ArrayList;
 import java.util.Iterator;
 import java.util.List;
 import java.util.Locale;
+import java.util.function.DoublePredicate;
 import java.util.function.ToDoubleFunction;
 
 /**
@@ -165,8 +166,7 @@ public final class BodyGenome {
         for (int i = slices.size() - 1; i >= 0; i--) {
             slices.set(i, Math.min(slices.get(i), i + 1 == slices.size() ? last : slices.get(i + 1) - 1));
         }
-        return new ProfileBody(body.spacing(), body.length(), body.height(), body.width(), body.fin(), body.thickness(),
-                slices.stream().map(slice -> body.part(slice)).toList(), body.stiffness(), body.muscles());
+        return body.withJoints(slices.stream().map(slice -> body.part(slice)).toList());
     }
 
     /** Scaled until it has as many particles as the scene's body; as near to that as the lattice allows. */
@@ -183,18 +183,8 @@ public final class BodyGenome {
 
     /** The best so far, or what comes nearer with sections that grow by the tilt towards the tail. */
     private ProfileBody nearest(ProfileBody best, ProfileBody body, double tilt, int wanted) {
-        double low = 1 / MOST_SCALE;
-        double high = MOST_SCALE;
-        for (int i = 0; i < HALVINGS; i++) {
-            double middle = (low + high) / 2;
-            if (scaled(body, middle, tilt).particles() < wanted) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
         ProfileBody nearest = best;
-        for (double scale : new double[] {low, high}) {
+        for (double scale : halved(1 / MOST_SCALE, MOST_SCALE, middle -> scaled(body, middle, tilt).particles() < wanted)) {
             ProfileBody candidate = scaled(body, scale, tilt);
             nearest = off(candidate, wanted) < off(nearest, wanted) ? candidate : nearest;
         }
@@ -207,10 +197,8 @@ public final class BodyGenome {
 
     private ProfileBody scaled(ProfileBody body, double scale, double tilt) {
         ToDoubleFunction<Point> size = point -> Math.max(thinnest(), scale * (1 + tilt * (2 * point.at() - 1)) * point.value());
-        return new ProfileBody(body.spacing(), body.length(),
-                body.height().map(point -> new Point(point.at(), size.applyAsDouble(point))),
-                body.width().map(point -> new Point(point.at(), size.applyAsDouble(point))), body.fin(), body.thickness(),
-                body.joints(), body.stiffness(), body.muscles());
+        return body.withSections(body.height().map(point -> new Point(point.at(), size.applyAsDouble(point))),
+                body.width().map(point -> new Point(point.at(), size.applyAsDouble(point))));
     }
 
     /** With muscles that pull as hard together as those of the scene's body, none harder than 1. */
@@ -220,22 +208,20 @@ public final class BodyGenome {
         if (body.muscles().points().stream().allMatch(point -> scale * point.value() <= 1)) {
             return stronger(body, scale);
         }
-        double low = scale;
-        double high = 1 / LEAST_STIFFNESS;
+        return stronger(body, halved(scale, 1 / LEAST_STIFFNESS, middle -> stronger(body, middle).strength() < wanted)[1]);
+    }
+
+    /** The ends of an interval that is halved until they hardly differ: what lies below the place where {@code isBelow} ends, and above it. */
+    private static double[] halved(double low, double high, DoublePredicate isBelow) {
+        double[] ends = {low, high};
         for (int i = 0; i < HALVINGS; i++) {
-            double middle = (low + high) / 2;
-            if (stronger(body, middle).strength() < wanted) {
-                low = middle;
-            } else {
-                high = middle;
-            }
+            double middle = (ends[0] + ends[1]) / 2;
+            ends[isBelow.test(middle) ? 0 : 1] = middle;
         }
-        return stronger(body, high);
+        return ends;
     }
 
     private static ProfileBody stronger(ProfileBody body, double scale) {
-        return new ProfileBody(body.spacing(), body.length(), body.height(), body.width(), body.fin(), body.thickness(),
-                body.joints(), body.stiffness(),
-                body.muscles().map(point -> new Point(point.at(), Math.min(1, scale * point.value()))));
+        return body.withMuscles(body.muscles().map(point -> new Point(point.at(), Math.min(1, scale * point.value()))));
     }
 }

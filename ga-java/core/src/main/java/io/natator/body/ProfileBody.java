@@ -115,6 +115,21 @@ public record ProfileBody(double spacing, double length, Curve height, Curve wid
         return patch == null || !patch.has("creature") ? this : of(MergePatch.both(json(), patch.get("creature")));
     }
 
+    /** The same body with other heights and widths. */
+    ProfileBody withSections(Curve newHeight, Curve newWidth) {
+        return new ProfileBody(spacing, length, newHeight, newWidth, fin, thickness, joints, stiffness, muscles);
+    }
+
+    /** The same body with its joints elsewhere. */
+    ProfileBody withJoints(List<Double> newJoints) {
+        return new ProfileBody(spacing, length, height, width, fin, thickness, newJoints, stiffness, muscles);
+    }
+
+    /** The same body with muscles that pull otherwise. */
+    ProfileBody withMuscles(Curve newMuscles) {
+        return new ProfileBody(spacing, length, height, width, fin, thickness, joints, stiffness, newMuscles);
+    }
+
     /** How many slices of particles it has. */
     public int slices() {
         return (int) Math.round(length / spacing);
