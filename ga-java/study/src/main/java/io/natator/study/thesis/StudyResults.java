@@ -181,9 +181,12 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
 
     /** The mode with the least mean e; null without recordings. */
     static FishMode nearest(List<SwimKinematics> motions, Function<SwimKinematics, List<ModeFit>> fits) {
-        return motions.isEmpty() ? null : IntStream.range(0, FishMode.values().length).mapToObj(i -> FishMode.values()[i])
-                .min((a, b) -> Double.compare(error(motions, a, fits).mean(), error(motions, b, fits).mean()))
-                .orElseThrow();
+        return nearest(Arrays.stream(FishMode.values()), motions, fits).orElse(null);
+    }
+
+    private static Optional<FishMode> nearest(Stream<FishMode> modes, List<SwimKinematics> motions,
+            Function<SwimKinematics, List<ModeFit>> fits) {
+        return motions.isEmpty() ? Optional.empty() : modes.min(Comparator.comparingDouble(mode -> error(motions, mode, fits).mean()));
     }
 
     /** e as a share of that of no motion. */
@@ -203,8 +206,7 @@ record StudyResults(ThesisData data, Path directory, ExperimentCatalogue catalog
 
     /** Of the modes that they are like at all the one with the least mean e; empty if there is none. */
     static Optional<FishMode> like(List<SwimKinematics> motions, Function<SwimKinematics, List<ModeFit>> fits) {
-        return motions.isEmpty() ? Optional.empty() : Arrays.stream(FishMode.values()).filter(mode -> resembles(motions, mode, fits))
-                .min(Comparator.comparingDouble(mode -> error(motions, mode, fits).mean()));
+        return nearest(Arrays.stream(FishMode.values()).filter(mode -> resembles(motions, mode, fits)), motions, fits);
     }
 
     /** The same in words, with e as a share of no motion's, the part of the body that it was taken over, and α. */
