@@ -105,7 +105,9 @@ final class StartingFiles {
         creature.setAll((ObjectNode) ordered(body));
         Place place = placeOf(body, like);
         creature.set("rearCentre", place.rearCentre());
-        String put = place.water() + " --overrides " + ShellWord.of("{\"creature\":{\"name\":\"" + file + "\"}}");
+        ObjectNode overrides = JsonNodeFactory.instance.objectNode();
+        overrides.putObject("creature").put("name", file.toString());
+        String put = place.water() + " --overrides " + ShellWord.of(Json.line(overrides));
         String gait = file.resolveSibling(name + "-gait") + ".json";
         return new StartingFile(creature, List.of(
                 "natator-sim info " + put + " --gait-template > " + ShellWord.of(gait),

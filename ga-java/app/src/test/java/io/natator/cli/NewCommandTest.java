@@ -94,6 +94,14 @@ class NewCommandTest {
     }
 
     @Test
+    void aFolderMayHaveQuotesInItsName() throws IOException, InterruptedException {
+        Path creature = Files.createDirectories(folder.resolve("the \"fish\"")).resolve("own.json");
+        assertThat(natator("new", "creature", "own", "-o", creature.toString())).as(err.toString()).isZero();
+
+        assertThat(tried().get(0)).contains("the \\\"fish\\\"/own.json");
+    }
+
+    @Test
     void aGaitDrivesTheMusclesOfItsScene() throws IOException, InterruptedException {
         Path gait = written("gait", "wave", "--like", "thesis/creature-3");
 
