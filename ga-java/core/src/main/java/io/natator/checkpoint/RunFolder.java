@@ -9,6 +9,7 @@ import io.natator.config.Json;
 import io.natator.config.OptimizerKind;
 import io.natator.evolution.Departure;
 import io.natator.evolution.EvaluationRecord;
+import io.natator.evolution.EvolutionFailedException;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
 import io.natator.evolution.Recorded;
@@ -202,7 +203,7 @@ public final class RunFolder implements EvolutionListener, AutoCloseable {
                 firstFailed = firstFailed < 0 ? i : firstFailed;
             }
         }
-        if (2 * failed > all.size() - first) {
+        if (EvolutionFailedException.isDue(failed, all.size() - first)) {
             log.dropFrom(firstFailed);
         }
     }

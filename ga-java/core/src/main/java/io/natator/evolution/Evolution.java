@@ -253,7 +253,7 @@ public final class Evolution {
 
     private void failIfMostFailed() {
         int failed = count(SimulationResult.Status.FAILED);
-        if (2 * failed > simulated.size()) {
+        if (EvolutionFailedException.isDue(failed, simulated.size())) {
             String reason = simulated.stream().filter(result -> result.status() == SimulationResult.Status.FAILED)
                     .findFirst().map(SimulationResult::error).orElse("");
             throw new EvolutionFailedException("generation " + generation + ": " + failed + " of "

@@ -13,4 +13,9 @@ public class EvolutionFailedException extends RuntimeException {
     EvolutionFailedException(String message, Throwable cause) {
         super(message, cause);
     }
+
+    /** Whether so many failures in a generation end the evolution: most of its simulations. */
+    public static boolean isDue(int failed, int simulations) {
+        return 2 * failed > simulations;
+    }
 }
