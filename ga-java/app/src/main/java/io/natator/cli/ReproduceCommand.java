@@ -7,7 +7,6 @@ import io.natator.config.InvalidInputException;
 import io.natator.config.Json;
 import io.natator.config.Limits;
 import io.natator.file.GeneratedPage;
-import io.natator.file.ShellWord;
 import io.natator.run.EvolutionRun;
 import io.natator.study.thesis.EvolutionPlan;
 import io.natator.study.thesis.Repeated;
@@ -16,12 +15,7 @@ import io.natator.study.thesis.Water;
 import java.io.PrintWriter;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.Map;
-import java.util.Set;
 import java.util.concurrent.Callable;
-import java.util.function.Function;
-import java.util.stream.Collectors;
-import java.util.stream.Stream;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ExitCode;
 import picocli.CommandLine.Mixin;
@@ -43,11 +37,6 @@ final class ReproduceCommand implements Callable<Integer> {
 
     private static final List<Integer> CREATURES = List.of(1, 2, 3, 4);
     private static final double NANOSECONDS = 1e9;
-    private static final List<String> WITHOUT_OUTCOME = List.of("--stop-after", "--simulator-path",
-            "--simulator-command", "--master", "--workers", "--timeout", "--phase", "--runs-at-once", "--compact", "--device",
-            "--sample", "--sample-seed");
-    /** Options that a page has as they came to be, not as they were given. */
-    private static final List<String> FOUND = List.of("--water", "--seeds", "--generations", "--output-dir");
 
     @Spec
     private CommandSpec spec;
@@ -178,7 +167,7 @@ final class ReproduceCommand implements Callable<Integer> {
             }
             if (phase == Phase.REPORT || phase == Phase.ALL) {
                 Path simulator = execution.simulator();
-                out.println(study.report(plan, commands(plan),
+                out.println(study.report(plan, new ReproduceCommands(spec, directory).of(plan),
                         study.portrayed().map(swim -> DrawnSwim.portrait(swim, simulator)).orElse(null)));
             }
         }
@@ -201,47 +190,6 @@ final class ReproduceCommand implements Callable<Integer> {
                 err.printf("dropped %d rows of gaits that are finalists no more%n", dropped);
             }
         }
-    }
-
-    /**
-     * What makes all that the page is of: where waters have not as many evolutions, or creatures not as many generations,
-     * one line for each such extent and one for the page.
-     */
-    private String commands(EvolutionPlan plan) {
-        String rest = rest(FOUND);
-        Map<Water, EvolutionPlan.Extent> extents = plan.extents();
-        Map<Water, Map<Integer, List<Integer>>> creaturesOf = extents.keySet().stream()
-                .collect(Collectors.toMap(Function.identity(), plan::creaturesByGenerations));
-        boolean same = creaturesOf.values().stream().allMatch(byGenerations -> byGenerations.size() == 1);
-        if (same && Set.copyOf(extents.values()).size() == 1) {
-            return command(extents.size() == Water.values().length ? "" : water(waters.get(0)), extents.get(waters.get(0)), rest);
-        }
-        return extents.entrySet().stream().flatMap(one -> commands(creaturesOf.get(one.getKey()), one.getKey(), one.getValue()))
-                .collect(Collectors.joining("\n")) + "\n" + CommandText.of(spec, " --phase report" + rest);
-    }
-
-    private Stream<String> commands(Map<Integer, List<Integer>> creaturesByGenerations, Water water, EvolutionPlan.Extent extent) {
-        if (creaturesByGenerations.size() == 1) {
-            return Stream.of(command(water(water), extent, rest(FOUND)));
-        }
-        String rest = rest(Stream.concat(FOUND.stream(), Stream.of("--creature")).toList());
-        return creaturesByGenerations.entrySet().stream().map(one -> command(water(water) + " --creature "
-                + one.getValue().stream().map(String::valueOf).collect(Collectors.joining(",")),
-                new EvolutionPlan.Extent(extent.seeds(), one.getKey()), rest));
-    }
-
-    /** The options that were given, without those that the page has otherwise. */
-    private String rest(List<String> found) {
-        return CommandText.options(spec, Stream.concat(WITHOUT_OUTCOME.stream(), found.stream()).toList())
-                + " --output-dir " + ShellWord.of(directory);
-    }
-
-    private static String water(Water water) {
-        return " --water " + water.label();
-    }
-
-    private String command(String water, EvolutionPlan.Extent extent, String rest) {
-        return CommandText.of(spec, water + " --seeds " + extent.seeds() + " --generations " + extent.generations() + rest);
     }
 
     /** Whether the present program still makes what is stored. */
