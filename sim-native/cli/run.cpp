@@ -117,7 +117,7 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
         text << "unstable   particle " << result.instability->particle << " is not finite after stage "
              << result.instability->stage << " at " << result.instability->time << " s\n";
     } else if (scene.creature) {
-        const double length = scene.creature->spacing * (static_cast<double>(scene.creature->slices.size()) - 1);
+        const double length = scene.creature->length();
         const double speed = result.simulated > 0 ? result.distance / result.simulated : 0;
         text << "distance   " << figure_text(result.distance) << " units\n";
         text << "speed      " << figure_text(speed) << " units/s";

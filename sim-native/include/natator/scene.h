@@ -137,6 +137,8 @@ struct Creature {
     double stiffness_of_springs(int gap) const {
         return spring_stiffnesses.empty() ? spring_stiffness : spring_stiffnesses[static_cast<std::size_t>(gap)];
     }
+    /// Head to tail at rest, from the first slice's centre to the last one's.
+    double length() const { return (static_cast<double>(slices.size()) - 1) * spacing; }
     /// Particles that one described here is made of.
     int parts() const { return refinement * refinement * refinement; }
 };

@@ -74,7 +74,7 @@ BodyLayout::BodyLayout(const Creature& creature) {
 void add_body(const Creature& creature, const BodyLayout& layout, Model& model) {
     const int last = static_cast<int>(creature.slices.size()) - 1;
     for (int slice = 0; slice <= last; ++slice) add_slice(creature, layout, slice, model);
-    model.body.length = last * creature.spacing;
+    model.body.length = creature.length();
 
     std::vector<int> shared;
     int first = 0, cluster = 0;
