@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "commit.h"
+#include "evaluate/perturb.h"
 #include "measure/fnv1a.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
@@ -20,8 +21,6 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-constexpr double usual_perturbation = 1e-3;  // of the fluid's rest distance
 
 /// Of the runs that were stable.
 std::vector<double> values(const LevelRuns& runs, const std::function<double(const json&)>& figure) {
@@ -98,7 +97,7 @@ std::vector<LevelRuns> read_levels(json request, const std::string& document, co
     std::vector<LevelRuns> levels{read_level(Level::named("base"), request, document, backend)};
     Perturbation perturbation = levels.front().job.request.perturbation;
     const Scene scene = levels.front().job.scene;
-    if (perturbation.amplitude == 0) perturbation.amplitude = usual_perturbation * scene.solver.fluidRestDistance;
+    if (perturbation.amplitude == 0) perturbation.amplitude = start_amplitude * scene.solver.fluidRestDistance;
     levels.front().job.request.perturbation = perturbation;
     request.erase("perturbation");
     levels.front().request = request;

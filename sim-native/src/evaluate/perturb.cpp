@@ -6,12 +6,6 @@
 #include "natator/error.h"
 
 namespace natator {
-namespace {
-
-/// Shift of all places where there is no water to disorder, in rest distances of the fluid.
-constexpr double start_shift = 1e-3;
-
-}  // namespace
 
 Perturbation choose_start(int start, Scene& scene) {
     if (start < 0) throw InputError("start = " + std::to_string(start) + ": must be a whole number in [0, 2147483647]");
@@ -19,7 +13,7 @@ Perturbation choose_start(int start, Scene& scene) {
         scene.fluid->disorder = start;
         return {};
     }
-    return {start_shift * scene.solver.fluidRestDistance, static_cast<std::uint64_t>(start)};
+    return {start_amplitude * scene.solver.fluidRestDistance, static_cast<std::uint64_t>(start)};
 }
 
 void perturb(const Perturbation& perturbation, Model& model) {
