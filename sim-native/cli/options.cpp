@@ -96,6 +96,14 @@ CLI::Validator whole_number_in(int low, int high) {
 
 CLI::Validator one_of(const std::vector<std::string>& words) { return in_words(CLI::IsMember(words), any_of(words)); }
 
+CLI::Validator precision_name() {
+    return one_of({to_string(Precision::single_precision), to_string(Precision::double_precision)});
+}
+
+Precision precision_named(const std::string& name) {
+    return name == to_string(Precision::double_precision) ? Precision::double_precision : Precision::single_precision;
+}
+
 CLI::Validator number_in(double low, double high) {
     return within(low, high, "a number in [" + natator::number_text(low) + ", " + natator::number_text(high) + "]", "NUMBER");
 }

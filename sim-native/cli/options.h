@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "natator/evaluate.h"
+
 namespace natator::cli {
 
 /// "a, b or c".
@@ -35,5 +37,11 @@ CLI::Validator whole_number_in(int low, int high);
 
 /// One of these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// A name of a precision, "float" or "double".
+CLI::Validator precision_name();
+
+/// The precision of such a name.
+Precision precision_named(const std::string& name);
 
 }  // namespace natator::cli

@@ -30,8 +30,7 @@ std::string experiment_name(const std::string& file, const nlohmann::json& exper
 void run_particles(const ParticlesOptions& options, int& status) {
     const nlohmann::json experiments = read_json_file(options.file);
     if (!experiments.is_array()) fields::refuse({options.file, ""}, experiments, "an array of experiments");
-    const Precision precision =
-        options.precision == "double" ? Precision::double_precision : Precision::single_precision;
+    const Precision precision = precision_named(options.precision);
     refuse_gpu_options_for_cpu({.name = options.backend, .device = options.device});
     const std::optional<int> gpu = options.backend == "cuda" ? std::optional(options.device) : std::nullopt;
     if (!options.output.empty()) require_writable(options.output);
@@ -60,8 +59,7 @@ void add_particles(CLI::App& app, int& status) {
     command->add_option("file", options->file, "JSON array of experiments; format: tests/conformance/README.md")
         ->required();
     command->add_option("--output,-o", options->output, "Write here instead of standard output");
-    command->add_option("--precision", options->precision, "float or double")
-        ->check(one_of({"float", "double"}));
+    command->add_option("--precision", options->precision, "float or double")->check(precision_name());
     command->add_option("--backend", options->backend, "cpu or cuda (a GPU)")
         ->check(one_of({"cpu", "cuda"}))
         ->capture_default_str();

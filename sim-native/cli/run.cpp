@@ -137,9 +137,7 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
 int run_scene(RunOptions& options) {
     const Scene scene = load(options);
     const Gait gait = load_gait(options, scene.creature ? scene.creature->actuators() : 0);
-    const Precision precision =
-        options.precision == "double" ? Precision::double_precision : Precision::single_precision;
-
+    const Precision precision = precision_named(options.precision);
     const Perturbation perturbation = read_perturbation(options);
     check_outputs(options, scene);
     EvaluationOptions evaluation{.precision = precision, .perturbation = perturbation};
@@ -202,7 +200,7 @@ void add_run(CLI::App& app, int& status) {
     command->add_option("--duration", options->duration, "Simulated time, s. Default: the scene's.");
     command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
-        ->check(one_of({"float", "double"}))
+        ->check(precision_name())
         ->capture_default_str();
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
     auto* trajectory =

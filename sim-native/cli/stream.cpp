@@ -63,7 +63,7 @@ int stream_scene(StreamOptions& options) {
         throw InputError("--rate = " + number_text(options.settings.rate) +
                          ": must be 0 or a number in [0.001, 1000]");
     options.settings.fields = read_fields(options.fields);
-    options.precision == "double" ? run_stream<double>(options) : run_stream<float>(options);
+    precision_named(options.precision) == Precision::double_precision ? run_stream<double>(options) : run_stream<float>(options);
     return ok;
 }
 
@@ -82,7 +82,7 @@ void add_stream(CLI::App& app, int& status) {
     command->add_option("--overrides", options->overrides, "File or JSON text merged into the scene (RFC 7386).");
     command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
-        ->check(one_of({"float", "double"}))
+        ->check(precision_name())
         ->capture_default_str();
     command->add_option("--start", options->start, "Which of its many starts, as in a request. Default: the scene's own.")
         ->check(whole_number_in(0, 2147483647));

@@ -31,8 +31,7 @@ std::vector<Scheme> StudyOptions::chosen_schemes() const {
 
 std::vector<Precision> StudyOptions::chosen_precisions() const {
     std::vector<Precision> result;
-    for (const std::string& name : precisions)
-        result.push_back(name == "double" ? Precision::double_precision : Precision::single_precision);
+    for (const std::string& name : precisions) result.push_back(precision_named(name));
     return result;
 }
 
@@ -42,7 +41,7 @@ void add_study_options(CLI::App* command, StudyOptions& common, std::vector<std:
         ->check(one_of({"flex", "conserving"}))
         ->capture_default_str();
     command->add_option("--precision", common.precisions, "float, double.")
-        ->check(one_of({"float", "double"}))
+        ->check(precision_name())
         ->capture_default_str();
     command->add_option("--output,-o", common.output,
                         "CSV file; rows that it holds already are kept. Default: standard output.");
