@@ -32,7 +32,10 @@ public final class EvaluationCache {
         this.folder = folder;
     }
 
-    /** The user's: {@code evaluations} in $NATATOR_CACHE, else in ~/.cache/natator; null if the variable is empty. */
+    /**
+     * The user's: {@code evaluations} in $NATATOR_CACHE, else in natator in $XDG_CACHE_HOME, else in ~/.cache/natator; null if the first
+     * variable is empty.
+     */
     public static Path ofUser() {
         String own = System.getenv("NATATOR_CACHE");
         String shared = System.getenv("XDG_CACHE_HOME");

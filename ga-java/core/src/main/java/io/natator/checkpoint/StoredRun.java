@@ -39,7 +39,7 @@ import org.slf4j.LoggerFactory;
  * @param state       after the last finished generation, or null
  * @param best        the best gait so far, or null
  * @param recorded    its evaluations, without the first of them where it was made small
- * @param statistics     what it did not have to simulate, or null if that was not recorded
+ * @param statistics  what it did not have to simulate, or null if that was not recorded
  * @param vacuum      best gaits that were run in vacuum
  */
 public record StoredRun(Path directory, EvolutionSettings settings, EvolutionState state, BestGait best,

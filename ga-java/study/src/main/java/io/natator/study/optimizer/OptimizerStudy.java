@@ -32,13 +32,13 @@ public final class OptimizerStudy {
     /**
      * What is to be compared.
      *
-     * @param scenes         settings by short name of a scene; its size is that of JGAP and random search, its number
-     *                       of evaluations what every run takes
-     * @param variants    at least one
-     * @param seeds          runs of each with seeds 1, 2, …; at least 1
+     * @param scenes          settings by short name of a scene; its size is that of JGAP and random search, its number
+     *                        of evaluations what every run takes
+     * @param variants        at least one
+     * @param seeds           runs of each with seeds 1, 2, …; at least 1
      * @param cmaEsPopulation evaluations in a generation of CMA-ES, or null for its inventor's 4 + ⌊3 ln n⌋ with n genes
-     * @param rankStarts     fresh starts by which the gaits of each run's last generation are ranked; 0: they are not
-     * @param directory      where the run folders and results go
+     * @param rankStarts      fresh starts by which the gaits of each run's last generation are ranked; 0: they are not
+     * @param directory       where the run folders and results go
      * @throws InvalidInputException if the folder is a run's or has a page of somebody's own, or if the last generation of
      *                               a run that is only a line is to be ranked
      */

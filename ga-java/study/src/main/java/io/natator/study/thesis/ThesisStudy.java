@@ -166,7 +166,7 @@ public final class ThesisStudy implements AutoCloseable {
      * @param count     how many
      * @param seed      of the choice
      * @param execution with a time limit
-     * @return of each what was found to differ, or null
+     * @return each of them
      * @throws InterruptedException if the calling thread is interrupted
      */
     public List<Repeated> repeat(List<Water> waters, int count, long seed, ExecutionSettings execution) throws InterruptedException {
