@@ -190,6 +190,8 @@ class TrajectoryTest(unittest.TestCase):
     def test_bad_lengths_are_refused(self):
         with self.assertRaisesRegex(natator.InputError, "every = 0"):
             natator.record(TANK, GAIT, every=0)
+        with self.assertRaisesRegex(natator.InputError, r"duration = 1e\+300: must be at most 166667 s, 10000000 time steps"):
+            natator.record(TANK, GAIT, duration=1e300)
 
 
 class StreamTest(unittest.TestCase):
@@ -267,6 +269,12 @@ class StreamTest(unittest.TestCase):
             stream.step()
         with self.assertRaisesRegex(natator.InputError, "unknown scene \"none/such\""):
             natator.Stream("none/such")
+        for arguments, reason in (({"scene": {"creature": {}}}, "scene = {'creature': {}}: must be a name or a path"),
+                                  ({"scene": None}, "scene = None: must be a name or a path"),
+                                  ({"scene": TANK, "gait": "gait.json"}, "gait = 'gait.json': must be a dict or a Gait"),
+                                  ({"scene": TANK, "overrides": "{}"}, "overrides = '{}': must be a dict$")):
+            with self.assertRaisesRegex(natator.InputError, reason):
+                natator.Stream(**arguments)
 
     def test_nothing_is_rounded_or_taken_for_a_number(self):
         with natator.Stream(TANK) as stream:

@@ -50,6 +50,11 @@ class DocumentsTest(unittest.TestCase):
                 self.assertTrue(done.stderr.startswith(f"{program}: "), done.stderr)
                 self.assertIn(message, done.stderr)
 
+    def test_examples_tell_each_default_once(self):
+        for example in (PACKAGE / "examples").glob("*.py"):
+            said = subprocess.run([sys.executable, example, "--help"], capture_output=True, text=True, check=True).stdout
+            self.assertNotIn("None", said, example)
+
     def test_examples_say_what_they_lack(self):
         for command, program, code, message in [
                 ("steer.py", "/no/natator-sim", 1, "/no/natator-sim: must be the program natator-sim"),

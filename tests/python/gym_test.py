@@ -129,6 +129,10 @@ class EnvironmentTest(unittest.TestCase):
                              ({"target": (9, 0.4, 0.6)},
                               r"target = \[9.0, 0.4, 0.6\]: must be in the tank, x from 0 to 1.54, y from 0, z from 0 to 0.82$"),
                              ({"target": ((1, 0.3, -0.5), (1.4, 0.6, 0.5))}, r"target = \[1.0, 0.3, -0.5\]: must be in the tank"),
+                             ({"target": "here"}, "target = 'here': must be numbers"),
+                             ({"target": ((1, 1), (1, 1, 1))}, "target: must be numbers, in rows of the same length"),
+                             ({"frames": 1001}, "frames = 1001: must be at most 1000"),
+                             ({"starts": 2**31 + 1}, "starts = 2147483649: must be at most 2147483648"),
                              ({"flow": 50}, "flow = 50: must be at most the body's \\d+ slices"),
                              ({"gait": natator.Gait(1, [0.5, 0.5], [0, 0.5])}, "gait: must be left out where actions are .drive."),
                              ({"render_mode": "human"}, "render_mode = 'human': must be None"),
@@ -139,13 +143,28 @@ class EnvironmentTest(unittest.TestCase):
         with self.assertRaises(gymnasium.error.ResetNeeded):
             env.step(np.zeros(2))
         env.reset(seed=1)
-        for action in ([0, np.nan], [2, 0], [0]):
-            with self.assertRaisesRegex(natator.InputError, r"must be 2 numbers in \[-1, 1\]"):
+        for action, reason in (([0, np.nan], r"action\[1\] = nan: must be a finite number"), (["a", "b"], "must be numbers"),
+                               ([2, 0], r"must be 2 numbers in \[-1, 1\]"), ([0], r"must be 2 numbers in \[-1, 1\]"), (None, "action")):
+            with self.assertRaisesRegex(natator.InputError, reason):
                 env.step(np.array(action))
         with self.assertRaisesRegex(natator.InputError, "options: 'strt' is unknown; must be 'start'"):
             env.reset(options={"strt": 1})
         env.close()
         natator.gym.SwimmerEnv(**TANK, flow=np.int64(2)).close()
+
+
+    def test_each_action_can_be_taken_with_each_gait_that_is(self):
+        widest = natator.Gait(1, [1.5, 1.2], [0, 0.5], offset=[0, -0.3])
+        with_room = natator.gym.SwimmerEnv(**TANK, actions="gait", gait=widest)
+        with_room.reset(seed=1)
+        for action in ([1, 1, 1, 1], [1, 1, -1, -1]):
+            with_room.step(np.array(action))
+        with_room.close()
+        for gait, reason in ((natator.Gait(1, [1.5, 1.6], [0, 0.5]), r"gait: amplitude\[1\] .* are 1.6 together: must be at most 1.5"),
+                             ({"frequency": 1, "amplitude": [1, 1], "phase": [0, 0.5], "offset": [-0.6, 0]},
+                              r"gait: amplitude\[0\] .* are 1.6 together")):
+            with self.assertRaisesRegex(natator.InputError, reason):
+                natator.gym.SwimmerEnv(**TANK, actions="gait", gait=gait)
 
 
 class VectorTest(unittest.TestCase):
@@ -156,6 +175,8 @@ class VectorTest(unittest.TestCase):
             vector.step(np.array([[0, 0], [np.nan, 0]]))
         with self.assertRaisesRegex(natator.InputError, "1 actions: must be 2"):
             vector.step(np.zeros((1, 2)))
+        with self.assertRaisesRegex(natator.InputError, "actions = 0.5: must be 2, one for each"):
+            vector.step(0.5)
         observations = vector.step(np.full((2, 2), 0.5))[0]
         vector.close()
         other = natator.gym.SwimmerVectorEnv(2, **TANK)

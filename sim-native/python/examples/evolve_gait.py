@@ -16,7 +16,7 @@ parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.A
 parser.add_argument("--scene", default="pool/creature-1")
 parser.add_argument("--duration", type=float, default=2.0, help="s")
 parser.add_argument("--evaluations", type=int, default=48, help="at least, from 1; whole generations are finished")
-parser.add_argument("--workers", type=int, help="programs side by side, from 1 (default: one for each processor)")
+parser.add_argument("--workers", type=int, default=argparse.SUPPRESS, help="programs side by side, from 1; one for each processor if left out")
 parser.add_argument("--seed", type=int, default=1, help="from 1, below 2**32")
 
 
@@ -33,7 +33,7 @@ def evolve(options):
         """Genes are in [0, 1]: frequency, then amplitudes, then phases."""
         return natator.Gait(0.5 + 1.5 * genes[0], genes[1:1 + actuators], genes[1 + actuators:])
 
-    with natator.Simulator(options.workers) as simulator:
+    with natator.Simulator(getattr(options, "workers", None)) as simulator:
         search = cma.CMAEvolutionStrategy([0.5] * (1 + 2 * actuators), 0.25, {
             "bounds": [0, 1], "seed": options.seed, "verbose": -9})
         while search.result.evaluations < options.evaluations and not search.stop():

@@ -6,7 +6,7 @@ from gymnasium import spaces
 from gymnasium.vector.utils import batch_space
 
 from natator.errors import InputError, Unstable
-from natator.gait import as_json, number, wave_in, whole
+from natator.gait import as_json, number, rows, wave_in, whole
 from natator.stream import SIDES, Stream, pairs
 
 
@@ -33,7 +33,8 @@ class SwimmerEnv(gymnasium.Env):
         if render_mode is not None:
             raise InputError(f"render_mode = {render_mode!r}: must be None")
         self.render_mode = render_mode
-        self.frames, self.starts = whole("frames", frames, 1), whole("starts", starts, 1)
+        self.frames = _at_most(MOST_FRAMES, "frames", whole("frames", frames, 1))
+        self.starts = _at_most(MOST_STARTS, "starts", whole("starts", starts, 1))
         self.duration = _at_least(0, "duration", duration)
         if self.duration == 0:
             raise InputError("duration = 0: must be more than 0 s")
@@ -57,6 +58,7 @@ class SwimmerEnv(gymnasium.Env):
         if self.by_gait:
             self.gait = as_json(gait if gait is not None else wave_in(stream.scene))
             stream.set_gait(self.gait)
+            _check_room(self.gait)
         self._places = places_of(flow, len(stream.scene["slices"]))
         stream.sense(flow=self._places)
         self._senses, self._work, self._action, self._sent = None, 0.0, self._rest(), 0
@@ -112,9 +114,9 @@ class SwimmerEnv(gymnasium.Env):
 
     def checked(self, action):
         """An action that can be taken. Raises InputError."""
-        action = np.asarray(action, float)
         if self._senses is None:
             raise gymnasium.error.ResetNeeded("step before the first reset")
+        action = rows("action", action)
         if action.shape != self.action_space.shape or not np.all(np.abs(action) <= 1):
             raise InputError(f"action {action.tolist()}: must be {self.action_space.shape[0]} numbers in [-1, 1]")
         return action
@@ -221,6 +223,8 @@ class SwimmerVectorEnv(gymnasium.vector.VectorEnv):
 
     def step(self, actions):
         actions = np.asarray(actions)
+        if actions.ndim == 0:
+            raise InputError(f"actions = {actions}: must be {self.num_envs}, one for each environment")
         if len(actions) != self.num_envs:
             raise InputError(f"{len(actions)} actions: must be {self.num_envs}, one for each environment")
         checked = [None if over else env.checked(action)  # all, before anything is begun
@@ -261,12 +265,27 @@ def _at_least(least, name, value):
     return float(value)
 
 
+def _at_most(most, name, value):
+    if value > most:
+        raise InputError(f"{name} = {value}: must be at most {most}")
+    return value
+
+
+def _check_room(gait):
+    """Refuses a gait that some action would drive beyond what muscles can do: each action is to be one that can be taken."""
+    offsets = gait.get("offset", [0.0] * len(gait["amplitude"]))
+    for i, (amplitude, offset) in enumerate(zip(gait["amplitude"], offsets)):
+        if amplitude + abs(offset) + LARGEST_OFFSET > LARGEST_DRIVE:
+            raise InputError(f"gait: amplitude[{i}] and the size of its offset are {amplitude + abs(offset):g} together: must be at "
+                             f"most {LARGEST_DRIVE - LARGEST_OFFSET:g}, as actions add up to {LARGEST_OFFSET:g}")
+
+
 def _box_of(target):
     """A point, or (low, high), as (low, high)."""
     if target is None:
         return None
-    corners = np.asarray(target, float)
-    if corners.shape not in ((3,), (2, 3)) or not np.all(np.isfinite(corners)):
+    corners = rows("target", target)
+    if corners.shape not in ((3,), (2, 3)):
         raise InputError(f"target = {target}: must be a point of 3 numbers, or two corners of a box")
     if corners.ndim == 2 and np.any(corners[0] > corners[1]):
         raise InputError(f"target = {target}: the first corner must be the lower one along each axis")
@@ -295,6 +314,9 @@ def _check_in_tank(box, scene):
 
 LARGEST = 1000.0      # of an observation, beyond which it is cut
 LARGEST_OFFSET = 0.5  # of a change of the gait
+LARGEST_DRIVE = 2.0   # of an actuator, as the simulator has it
+MOST_FRAMES = 1000    # of a step, as the simulator has it
+MOST_STARTS = 2**31   # which the simulator counts from 0
 
 gymnasium.register("natator/Swimmer-v0", entry_point="natator.gym:SwimmerEnv",
                    vector_entry_point="natator.gym:SwimmerVectorEnv")

@@ -1,15 +1,17 @@
 """A swimmer that a program drives, through `natator-sim stream` (sim-native/protocol/stream.md)."""
 
 import json
+import os
 import re
 import struct
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from natator import program as programs
 from natator.errors import InputError, ProgramError, Unstable
-from natator.gait import numbers, rows, whole
+from natator.gait import Gait, numbers, rows, whole
 from natator.plain import line, plain
 
 SIDES = ("left", "right", "above", "below")
@@ -84,10 +86,15 @@ class Stream:
     def __init__(self, scene, gait=None, overrides=None, scheme=None, start=None, fields=(), arguments=(), program=None):
         fields = [fields] if isinstance(fields, str) else programs.listed("fields", fields)
         arguments = programs.listed("arguments", arguments)
+        if not isinstance(scene, (str, os.PathLike)):
+            raise InputError(f"scene = {scene!r}: must be a name or a path")
         options = ["stream", scene, "--paused", "--fields", ",".join(fields) or "none"]
         for name, value in (("--gait", gait), ("--overrides", overrides)):
-            if value is not None:
-                options += [name, json.dumps(plain(name, value))]
+            if value is None:
+                continue
+            if not isinstance(value, (Mapping, Gait)):
+                raise InputError(f"{name.removeprefix('--')} = {value!r}: must be a dict" + " or a Gait" * (name == "--gait"))
+            options += [name, json.dumps(plain(name.removeprefix("--"), value))]
         for name, value in (("--scheme", scheme), ("--start", start)):
             if value is not None:
                 options += [name, value]

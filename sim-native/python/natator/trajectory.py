@@ -31,6 +31,9 @@ def record(scene, gait=None, duration=4.0, every=1, fields=("position",), **opti
         raise InputError(f"duration = {duration}: must be at least 0 s")
     whole("every", every, 1)
     with Stream(scene, gait=gait, fields=fields or ("position",), **options) as stream:
+        longest = MOST_STEPS * stream.scene["timeStep"]
+        if duration > longest:
+            raise InputError(f"duration = {duration}: must be at most {longest:g} s, {MOST_STEPS} time steps")
         frames = [stream.frame]
         for _ in range(int(round(duration / stream.scene["timeStep"])) // every):
             for left in range(every, 0, -1000):
@@ -47,3 +50,6 @@ def _joined(frames, scene):
     first, count = scene["fluid"]
     return Trajectory(*(all_of(name) for name in ("time", "distance", "drive", "position", "velocity", "density")),
                       body=np.array(scene["body"], int), fluid=slice(first, first + count), scene=scene)
+
+
+MOST_STEPS = 10**7  # of an evaluation, as the simulator has it
