@@ -1,5 +1,6 @@
 package io.natator.config;
 
+import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.core.StreamReadFeature;
 import com.fasterxml.jackson.databind.DeserializationFeature;
@@ -13,6 +14,7 @@ import com.fasterxml.jackson.databind.exc.MismatchedInputException;
 import com.fasterxml.jackson.databind.json.JsonMapper;
 import com.fasterxml.jackson.databind.type.LogicalType;
 import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.nio.charset.CharacterCodingException;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
@@ -34,6 +36,8 @@ public final class Json {
             .enable(StreamReadFeature.STRICT_DUPLICATE_DETECTION)
             .disable(StreamReadFeature.INCLUDE_SOURCE_IN_LOCATION)
             .build();
+
+    private static final String BYTE_ORDER_MARK = "\ufeff";
 
     private Json() {
     }
@@ -67,11 +71,21 @@ public final class Json {
      * @throws JsonProcessingException if the text is not exactly one such value
      */
     public static <T> T parse(String text, Class<T> type) throws JsonProcessingException {
-        T value = MAPPER.readValue(text, type);
+        T value = finite(text, type);
         if (value == null) {
             throw MismatchedInputException.from(null, type, "no value");
         }
         return value;
+    }
+
+    private static <T> T finite(String text, Class<T> type) throws JsonProcessingException {
+        try (JsonParser parser = new FiniteNumbers(MAPPER.createParser(text))) {
+            return MAPPER.readValue(parser, type);
+        } catch (JsonProcessingException e) {
+            throw e;
+        } catch (IOException e) {
+            throw new UncheckedIOException("a text in memory", e);
+        }
     }
 
     /**
@@ -89,14 +103,15 @@ public final class Json {
     }
 
     /**
-     * Reads one value that the user gave.
+     * Reads one value that the user gave. A byte order mark before it, which editors of Windows write, is skipped.
      *
      * @param what what it is, for the message: for example {@code gait file}
      * @throws InvalidInputException if the file is missing or is not such a value
      */
     public static <T> T read(Path file, Class<T> type, String what) {
         try {
-            return parse(FileErrors.text(file), type);
+            String text = FileErrors.text(file);
+            return parse(text.startsWith(BYTE_ORDER_MARK) ? text.substring(1) : text, type);
         } catch (NoSuchFileException e) {
             throw new InvalidInputException(what + " " + file + " does not exist", e);
         } catch (JsonProcessingException e) {

@@ -7,7 +7,11 @@ import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.natator.encoding.Gait;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
@@ -44,6 +48,8 @@ class JsonErrorsTest {
         "{'frequency':1.}|found '}'; expected a digit",
         "{'frequency':01}|found a number that begins with 0; expected it without",
         "{'frequency':NaN}|found 'NaN'; expected a number",
+        "{'frequency':1e400}|frequency: found the number 1e400; expected one within 1.8e308",
+        "{'amplitude':[-1e999]}|amplitude: found the number -1e999; expected one within 1.8e308",
         "{'frequency':1,'frequency':2}|key 'frequency' stands twice; expected it once",
         "/* gait */ {}|found '/'; expected JSON",
         "}|found '}', which closes nothing; expected JSON",
@@ -79,6 +85,18 @@ class JsonErrorsTest {
     void aPlaceThatIsNotKnownIsLeftOut() {
         assertThat(Json.reason(catchThrowableOfType(JsonProcessingException.class,
                 () -> Json.tree(Json.parse("{\"frequency\":1}", JsonNode.class), Gait.class)))).isEqualTo("amplitude is missing");
+    }
+
+    /** Notepad and PowerShell write one; the simulator skips it, too. */
+    @Test
+    void aFileMayBeginWithAByteOrderMark(@TempDir Path folder) throws IOException {
+        Path file = Files.writeString(folder.resolve("gait.json"), "\ufeff{\"frequency\":1,\"amplitude\":[1],\"phase\":[0]}\r\n");
+        assertThat(Json.read(file, Gait.class, "--gait").frequency()).isEqualTo(1);
+    }
+
+    @Test
+    void noNumberIsInfinite() {
+        assertThat(reason("{'duration':1e400}", JsonNode.class)).contains("found the number 1e400; expected one within 1.8e308 (line 1");
     }
 
     @ParameterizedTest
