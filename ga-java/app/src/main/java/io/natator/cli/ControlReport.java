@@ -43,6 +43,6 @@ final class ControlReport {
         String ends = sample.stopped().entrySet().stream().map(one -> one.getValue() + " " + one.getKey())
                 .collect(Collectors.joining(", "));
         out.printf("%-26s%-22s%s%n", what,
-                RunReport.number(sample.distance().mean()) + " ± " + RunReport.number(sample.distance().sd()), ends);
+                Numbers.withError(sample.distance().mean(), sample.distance().sd(), RunReport.DIGITS), ends);
     }
 }

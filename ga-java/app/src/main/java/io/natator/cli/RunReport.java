@@ -21,7 +21,7 @@ import java.util.stream.Collectors;
 /** The best gait of a run, in words. */
 final class RunReport {
 
-    private static final int DIGITS = 4;
+    static final int DIGITS = 4;
 
     private final PrintWriter out;
 

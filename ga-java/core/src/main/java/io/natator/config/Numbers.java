@@ -10,6 +10,8 @@ public final class Numbers {
 
     private static final Pattern DECIMAL = Pattern.compile("[+-]?(\\d+\\.?\\d*|\\.\\d+)([eE][+-]?\\d+)?");
 
+    private static final int MORE_DECIMALS = 2;
+
     private Numbers() {
     }
 
@@ -30,6 +32,23 @@ public final class Numbers {
     public static String fixed(double value, int decimals) {
         String text = String.format(Locale.ROOT, "%." + decimals + "f", value);
         return text.matches("-0(\\.0*)?") ? text.substring(1) : text;
+    }
+
+    /**
+     * A value and its error bar, with so many decimals, or with up to two more where that error would round to nothing: an error
+     * of 0 says that a number is exact.
+     */
+    public static String withError(double value, double error, int decimals) {
+        int enough = decimals;
+        while (enough < decimals + MORE_DECIMALS && roundsToNothing(error, enough)) {
+            enough++;
+        }
+        int shown = roundsToNothing(error, enough) ? decimals : enough;
+        return fixed(value, shown) + " ± " + fixed(error, shown);
+    }
+
+    private static boolean roundsToNothing(double error, int decimals) {
+        return Math.abs(error) < 0.5 * Math.pow(10, -decimals);
     }
 
     /** So many of what a word stands for that has its plural by an s: 1 gait, 2 gaits. */

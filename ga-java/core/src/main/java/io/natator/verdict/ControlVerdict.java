@@ -21,9 +21,9 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         String name = unit == 1 ? "units" : "body lengths";
         double net = controls.net();
         if (net / unit < Verdict.LEAST_DISTANCE) {
-            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(net / unit, 3) + " ± "
-                    + Numbers.fixed(controls.water().distance().sd() / unit, 3) + " " + name + " further than a resting body in "
-                    + Numbers.fixed(controls.duration(), 2) + " s, less than " + Verdict.LEAST_DISTANCE);
+            return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves "
+                    + Numbers.withError(net / unit, controls.water().distance().sd() / unit, 3) + " " + name
+                    + " further than a resting body in " + Numbers.fixed(controls.duration(), 2) + " s, less than " + Verdict.LEAST_DISTANCE);
         }
         if (drift(controls) - error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves " + Numbers.fixed(drift(controls), 1)
@@ -34,8 +34,8 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: the acceleration clamp moves it; without, "
                     + percent(left(clampOff, controls)) + " of its way is left");
         }
-        String speed = Numbers.fixed(net / controls.duration() / unit, 2) + " ± "
-                + Numbers.fixed(controls.water().speed().sd() / unit, 2) + " " + name + "/s more than a resting body";
+        String speed = Numbers.withError(net / controls.duration() / unit, controls.water().speed().sd() / unit, 2) + " " + name
+                + "/s more than a resting body";
         String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
         List<String> doubts = doubts(controls, net, unit);
         return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls))
@@ -51,7 +51,7 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
             doubts.add("the wall is nearer than " + Verdict.WAY_TO_WALL + (unit == 1 ? " units" : " body lengths"));
         }
         if (drift(controls) + error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
-            doubts.add("it moves " + Numbers.fixed(drift(controls), 1) + " ± " + Numbers.fixed(error(controls.vacuum(), controls), 1)
+            doubts.add("it moves " + Numbers.withError(drift(controls), error(controls.vacuum(), controls), 1)
                     + " times as far in vacuum");
         }
         SwimSample clampOff = controls.clampOff();

@@ -20,14 +20,14 @@ public final class ConvergenceText {
     private static String speed(Convergence convergence) {
         boolean isMeasured = convergence.bodyLength() != null && convergence.bodyLength() > 0;
         double unit = isMeasured ? convergence.bodyLength() : 1;
-        return Numbers.fixed(convergence.estimate().speed() / unit, 3) + " ± " + Numbers.fixed(convergence.estimate().error() / unit, 3)
+        return Numbers.withError(convergence.estimate().speed() / unit, convergence.estimate().error() / unit, 3)
                 + (isMeasured ? " body lengths/s" : " units/s") + " at time step and spacing 0";
     }
 
     private static String change(Convergence.Level level) {
         String where = " at " + FinerLevel.of(level.level()).words();
         String unstable = level.unstable() == 0 ? "" : " (" + Numbers.count(level.unstable(), "run") + " unstable)";
-        return (level.change() == null ? "no speed" : Numbers.fixed(100 * level.change().mean(), 1) + " ± "
-                + Numbers.fixed(100 * level.change().error(), 1) + " %") + where + unstable;
+        return (level.change() == null ? "no speed" : Numbers.withError(100 * level.change().mean(),
+                100 * level.change().error(), 1) + " %") + where + unstable;
     }
 }

@@ -58,6 +58,6 @@ public final class FreshText {
     }
 
     private static String spread(Spread spread, int digits) {
-        return Numbers.fixed(spread.mean(), digits) + " ± " + Numbers.fixed(spread.sd(), digits);
+        return Numbers.withError(spread.mean(), spread.sd(), digits);
     }
 }

@@ -119,6 +119,6 @@ public record Measure(String name, String value, String expected, Outcome outcom
     }
 
     private static String spread(Spread spread, double unit) {
-        return Numbers.fixed(spread.mean() / unit, 3) + " ± " + Numbers.fixed(spread.sd() / unit, 3);
+        return Numbers.withError(spread.mean() / unit, spread.sd() / unit, 3);
     }
 }

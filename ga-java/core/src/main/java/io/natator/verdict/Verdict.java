@@ -230,7 +230,7 @@ public record Verdict(Kind kind, String text, String advice) {
         }
 
         private String with(double value, Spread spread, int digits) {
-            return Numbers.fixed(value / unit, digits) + (spread == null ? "" : " ± " + Numbers.fixed(spread.sd() / unit, digits));
+            return spread == null ? Numbers.fixed(value / unit, digits) : Numbers.withError(value / unit, spread.sd() / unit, digits);
         }
     }
 }

@@ -17,6 +17,13 @@ class NumbersTest {
     }
 
     @ParameterizedTest
+    @CsvSource({"-0.0046,0.0003,3,-0.0046 ± 0.0003", "0.1,0.01,2,0.10 ± 0.01", "0.00041,0.00003,3,0.00041 ± 0.00003", "0.5,0,2,0.50 ± 0.00",
+        "0.1,1e-9,3,0.100 ± 0.000", "0.1,0.005,2,0.10 ± 0.01", "-0.00002,0.004,2,0.000 ± 0.004", "1,NaN,2,1.00 ± NaN"})
+    void anErrorIsNotRoundedToNothing(double value, double error, int decimals, String text) {
+        assertThat(Numbers.withError(value, error, decimals)).isEqualTo(text);
+    }
+
+    @ParameterizedTest
     @CsvSource({"2,2", "+2.,2", "-.5,-0.5", "1.5e-3,0.0015", "007,7"})
     void whatIsDecimalIsRead(String text, double value) {
         assertThat(Numbers.parse(text)).isEqualTo(value);

@@ -31,18 +31,18 @@ class ControlVerdictTest {
     /** Distances in 4 s of a body 1.25 long; a dead body drifts by -0.01. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
-        "0.74|0.01|0.0|0.70|0.70|0.74|0.9|SWIMS|swims: 0.15 ± 0.00 body lengths/s more than a resting body, not in vacuum, without "
+        "0.74|0.01|0.0|0.70|0.70|0.74|0.9|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, not in vacuum, without "
             + "the acceleration clamp (95 %), at half the time step (95 % of its way), mirrored (100 %); 90 % under water",
         "0.05|0.01|0.0|0.05|0.05|0.05|0.9|DOES_NOT_SWIM|does not swim: moves 0.048 ± 0.011 body lengths further than a resting body "
             + "in 4.00 s, less than 0.05",
         "0.74|0.01|-0.4|0.70|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: moves 0.5 times as far in vacuum, the other way",
         "0.74|0.01|0.0|-0.01|0.70|0.74|0.9|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 0 % of its way "
             + "is left",
-        "0.74|0.01|0.0|0.70|0.20|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but at half the "
+        "0.74|0.01|0.0|0.70|0.20|0.74|0.9|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but at half the "
             + "time step it has 28 % of its way",
-        "0.74|0.01|0.0|0.70|1.20|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but at half the "
+        "0.74|0.01|0.0|0.70|1.20|0.74|0.9|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but at half the "
             + "time step it has 161 % of its way",
-        "0.74|0.01|0.0|0.70|0.70|-0.2|0.2|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but it skims: "
+        "0.74|0.01|0.0|0.70|0.70|-0.2|0.2|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it skims: "
             + "20 % of its body are under water; mirrored -25 % of its way is left",
         "0.74|0.70|0.0|0.70|0.70|0.74|0.9|UNPROVEN|may swim: 0.15 ± 0.20 body lengths/s more than a resting body; but its runs "
             + "differ too much to tell"})
@@ -59,9 +59,9 @@ class ControlVerdictTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', value = {
         "0.5|0.05|0.7|0.0|DOES_NOT_SWIM|does not swim: moves 0.7 times as far in vacuum",
-        "-0.5|0.1|0.7|0.0|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but it moves 0.7 ± 0.3 times as far in vacuum",
-        "0.3|0.1|0.7|0.0|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but it moves 0.4 ± 0.3 times as far in vacuum",
-        "0.3|0.01|0.3|0.1|UNPROVEN|may swim: 0.15 ± 0.00 body lengths/s more than a resting body; but without the acceleration clamp 41 % ± 27 % "
+        "-0.5|0.1|0.7|0.0|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it moves 0.7 ± 0.3 times as far in vacuum",
+        "0.3|0.1|0.7|0.0|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but it moves 0.4 ± 0.3 times as far in vacuum",
+        "0.3|0.01|0.3|0.1|UNPROVEN|may swim: 0.150 ± 0.003 body lengths/s more than a resting body; but without the acceleration clamp 41 % ± 27 % "
             + "of its way is left",
         "0.0|0.1|0.2|0.05|DOES_NOT_SWIM|does not swim: the acceleration clamp moves it; without, 28 % of its way is left"})
     void whatIsNotKnownWellDecidesNothing(double vacuum, double vacuumFrom, double clampOff, double clampOffFrom, Verdict.Kind kind,
@@ -76,9 +76,9 @@ class ControlVerdictTest {
     /** As the verdict on a run by itself does; 0.5 body lengths are 0.625. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
-        "0.74|completed|SWIMS|swims: 0.15 ± 0.00 body lengths/s more than a resting body, not in vacuum",
-        "0.74|touched-plane|SWIMS|swims: 0.15 ± 0.00 body lengths/s more than a resting body, until it touches a wall, not in vacuum",
-        "0.60|touched-plane|UNPROVEN|may swim: 0.12 ± 0.00 body lengths/s more than a resting body, until it touches a wall; but the wall is "
+        "0.74|completed|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, not in vacuum",
+        "0.74|touched-plane|SWIMS|swims: 0.150 ± 0.003 body lengths/s more than a resting body, until it touches a wall, not in vacuum",
+        "0.60|touched-plane|UNPROVEN|may swim: 0.122 ± 0.003 body lengths/s more than a resting body, until it touches a wall; but the wall is "
             + "nearer than 0.5 body lengths"})
     void aWallIsTold(double way, String stopped, Verdict.Kind kind, String text) {
         Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.25, sample(way, 0.01, stopped), sample(-0.01, 0), sample(0, 0), null,
@@ -96,6 +96,6 @@ class ControlVerdictTest {
                 sample(0.7, 0), sample(0.7, 0), sample(distance, 0), "cuda", null);
 
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
-        assertThat(ControlVerdict.of(controls).text()).contains(text).contains("0.19 ± 0.00 units/s").doesNotContain("clamp");
+        assertThat(ControlVerdict.of(controls).text()).contains(text).contains("0.188 ± 0.004 units/s").doesNotContain("clamp");
     }
 }
