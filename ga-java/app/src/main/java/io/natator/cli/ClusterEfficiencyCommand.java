@@ -33,7 +33,7 @@ import picocli.CommandLine.Spec;
                 + "and tells which share of their time would go into evaluations that count.",
             "Measures how long evaluations take here, one after another, unless DIR/times.csv has it."},
         customSynopsis = "natator cluster-efficiency --output-dir DIR [OPTIONS]",
-        footer = {"", "Example:", "  natator cluster-efficiency --output-dir results/cluster --failures-per-hour 0.1"})
+        footer = {"", "Example:", "  natator cluster-efficiency --output-dir cluster --failures-per-hour 0.1"})
 final class ClusterEfficiencyCommand implements Callable<Integer> {
 
     private static final double MILLISECOND = 1e-3;

@@ -39,7 +39,7 @@ import picocli.CommandLine.Spec;
         mixinStandardHelpOptions = true,
         customSynopsis = "natator evaluate --scene NAME|FILE --gait FILE|GENE... [OPTIONS]",
         footer = {"", "Examples:",
-            "  natator evaluate --scene pool/creature-1 --gait runs/one/best.json --duration 2",
+            "  natator evaluate --scene pool/eel --gait runs/eel/best.json --duration 2",
             "  natator evaluate --scene thesis/creature-1 --gait 1.861 0.973 0.69 0.648"})
 final class EvaluateCommand implements Callable<Integer> {
 

@@ -46,6 +46,15 @@ class HelpTest {
         assertThat(help).doesNotContainPattern("\\([Tt]hesis \\d|eq\\. \\d");
     }
 
+    /** What is copied from a help is a command: one line in the help is one line in the text. */
+    @ParameterizedTest
+    @MethodSource("commands")
+    void examplesAreInOnePiece(CommandLine command) {
+        List<String> footer = List.of(command.getCommandSpec().usageMessage().footer());
+
+        assertThat(command.getUsageMessage().lines()).containsAll(footer);
+    }
+
     /** Options that commands share say what is so in this one: nothing is resumed where nothing is. */
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
