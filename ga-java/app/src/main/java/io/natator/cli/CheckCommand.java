@@ -60,6 +60,7 @@ final class CheckCommand implements Callable<Integer> {
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(
                 cacheOptions.in(executionOptions.execution(settings.backend())), settings);
+        run.checkUnchanged(execution.simulator());
         Controls controls = new ControlRuns(settings, execution, starts).of(swimmer);
         Controls all = controls.withUnderWater(underWater(SimulationRequest.of(0, settings, swimmer).withoutStops(),
                 controls.duration(), execution));

@@ -62,6 +62,11 @@ final class CompareCommand implements Callable<Integer> {
         List<StoredRun> runs = folders.stream().map(Archipelago::stored).toList();
         // By whatever path, and an island beside the archipelago whose winner it is.
         EachOnce.checkFolders("RUN", runs.stream().map(StoredRun::directory).toList());
+        if (starts > 0) {
+            for (StoredRun run : runs) {
+                run.checkUnchanged(executionOptions.execution(Backend.CPU).simulator());
+            }
+        }
         PrintWriter out = spec.commandLine().getOut();
         for (int i = 0; i < runs.size(); i++) {
             out.printf("%d  %s: %s%n", i + 1, runs.get(i).directory(), ShowCommand.settings(runs.get(i).settings()));

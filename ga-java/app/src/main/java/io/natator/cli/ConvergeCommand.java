@@ -72,6 +72,7 @@ final class ConvergeCommand implements Callable<Integer> {
         EvolutionSettings settings = run.settings();
         ExecutionSettings execution = EvolutionRun.withTimeLimit(ExecutionSettings.of(simulator.path())
                 .withBackend(backend != null ? backend : settings.backend()), settings);
+        run.checkUnchanged(execution.simulator());
         JsonNode answer = new ConvergeProgram(execution).of(SimulationRequest.of(0, settings, swimmer), starts, finer,
                 Convergence.runs(run.directory()), new Told());
         PrintWriter out = spec.commandLine().getOut();

@@ -312,6 +312,33 @@ class ResumeCommandTest extends FakeSimulatorTest {
         assertThat(natator("resume", run, "--generations", "4")).as(err.toString()).isZero();
     }
 
+    /** What a winner does in another scene, or by other settings, is not what it was chosen for, and would stand in the run's folder. */
+    @ParameterizedTest
+    @ValueSource(strings = {"check", "converge", "compare"})
+    void noWinnerIsExaminedInAnotherScene(String command) throws IOException {
+        assertThat(evolve("run")).as(err.toString()).isZero();
+        assertThat(evolve("other")).as(err.toString()).isZero();
+        String run = folder.resolve("run").toString();
+        String[] examined = command.equals("compare") ? new String[] {command, folder.resolve("other").toString(), run}
+                : new String[] {command, run};
+        Path scene = Files.writeString(folder.resolve("scene"), "{\"what\":\"other water\"}");
+        Path config = folder.resolve("run/config.json");
+        String settings = Files.readString(config);
+        Map<String, String> before = files();
+        err.getBuffer().setLength(0);
+
+        assertThat(natator(examined)).isEqualTo(2);
+
+        assertThat(err.toString()).startsWith("natator " + command + ": scene pool/creature-1 was changed after ").hasLineCount(1);
+        assertThat(files()).isEqualTo(before);
+        Files.delete(scene);
+        Files.writeString(config, settings.replaceFirst("\"seed\" : \\d+", "\"seed\" : 77"));
+        err.getBuffer().setLength(0);
+        assertThat(natator(examined)).isEqualTo(2);
+        assertThat(err.toString()).startsWith("natator " + command + ": " + config + " was edited after the run was begun: seed was ")
+                .hasLineCount(1);
+    }
+
     @Test
     void aDescriptionOfTheSceneMayBeChanged() throws IOException {
         Path scene = Files.writeString(folder.resolve("scene"), "{\"creature\":{\"spacing\":1,\"description\":\"an eel\"},\"description\":\"one\"}");

@@ -48,12 +48,27 @@ public final class SceneDigest {
      */
     public static void check(Path directory, EvolutionSettings settings, String digest) {
         StoredRun.Begun begun = StoredRun.begun(directory);
-        boolean isKnown = begun != null && begun.sceneSha256() != null && begun.settings() != null
-                && begun.settings().scene().equals(settings.scene())
+        boolean isKnown = isKnown(begun) && begun.settings().scene().equals(settings.scene())
                 && Objects.equals(begun.settings().overrides(), settings.overrides());
         if (isKnown && !begun.sceneSha256().equals(digest)) {
             throw new InvalidInputException("scene " + settings.scene() + " was changed after " + directory
                     + " was begun; expected the scene that it was begun with, or a new run");
         }
+    }
+
+    /**
+     * Whether the scene that a run was begun with is another one now; not of a run of an earlier version, which does not know.
+     *
+     * @param directory of the run
+     * @param simulator the native program
+     * @throws InterruptedException if the calling thread is interrupted
+     */
+    public static boolean isChanged(Path directory, Path simulator) throws InterruptedException {
+        StoredRun.Begun begun = StoredRun.begun(directory);
+        return isKnown(begun) && !begun.sceneSha256().equals(of(begun.settings(), simulator));
+    }
+
+    private static boolean isKnown(StoredRun.Begun begun) {
+        return begun != null && begun.sceneSha256() != null && begun.settings() != null;
     }
 }

@@ -91,6 +91,24 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
     }
 
     /**
+     * Refuses a run whose settings were edited or whose scene was changed since it computed: what its winner does by them is nothing
+     * that it was chosen for.
+     *
+     * @param simulator the native program
+     * @throws InvalidInputException that says what was changed
+     * @throws InterruptedException  if the calling thread is interrupted
+     */
+    public void checkUnchanged(Path simulator) throws InterruptedException {
+        String edited = RunDamage.editedSettings(directory, settings);
+        if (edited != null) {
+            throw new InvalidInputException(edited);
+        }
+        if (SceneDigest.isChanged(directory, simulator)) {
+            SceneDigest.check(directory, settings, SceneDigest.of(settings, simulator));
+        }
+    }
+
+    /**
      * The best gait so far, of a command that needs one.
      *
      * @throws InvalidInputException if there is none

@@ -2,6 +2,7 @@ package io.natator.verdict;
 
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.Program;
+import io.natator.checkpoint.SceneDigest;
 import io.natator.config.Backend;
 import io.natator.config.Numbers;
 import io.natator.simulator.SimulationResult;
@@ -65,10 +66,17 @@ public final class Reproduction {
     }
 
     private String line(double today) throws InterruptedException {
+        if (SceneDigest.isChanged(run, simulator)) {
+            return told(today, "the scene was changed after the run was begun");
+        }
         Program then = Program.of(run);
         String reason = then == null ? "" : then.differenceTo(Program.at(simulator, backend, device));
-        return run + ": stored " + Numbers.fixed(stored.distance(), DIGITS) + ", today's program "
-                + Numbers.fixed(today, DIGITS) + " (" + (then == null ? "the folder does not say which program made it"
-                        : reason.isEmpty() ? "the same program: no reason is known" : reason) + ")";
+        return told(today, then == null ? "the folder does not say which program made it"
+                : reason.isEmpty() ? "the same program: no reason is known" : reason);
+    }
+
+    private String told(double today, String reason) {
+        return run + ": stored " + Numbers.fixed(stored.distance(), DIGITS) + ", today's program " + Numbers.fixed(today, DIGITS)
+                + " (" + reason + ")";
     }
 }
