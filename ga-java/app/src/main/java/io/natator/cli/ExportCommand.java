@@ -129,6 +129,8 @@ final class ExportCommand implements Callable<Integer> {
         String difference = today == null ? null : stored.difference(today, 0);
         if (difference != null) {
             spec.commandLine().getErr().println(difference);
+        } else {
+            OneLineErrors.warn(spec.commandLine(), swimmer.changedScene(simulator));
         }
         spec.commandLine().getOut().printf(format.holdsParticles()
                 ? "%s: %s of %d particles of water and %d others%n" : "%s: %s of bodies alone%n", folder,

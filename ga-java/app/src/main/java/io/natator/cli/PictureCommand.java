@@ -78,6 +78,7 @@ final class PictureCommand implements Callable<Integer> {
         DrawnSwim swim = swimmer.simulated(swimOptions.source(), simulator,
                 () -> DrawnSwim.of(swimmer, changes.overrides(), changes.scheme(), at, options, simulator));
         png.write(swim.png());
+        OneLineErrors.warn(spec.commandLine(), swimmer.changedScene(simulator));
         spec.commandLine().getOut().printf(Locale.ROOT, "%s: %d x %d pixels, at %.2f s%n", file, swim.picture().getWidth(),
                 swim.picture().getHeight(), swim.time());
         return ExitCode.OK;

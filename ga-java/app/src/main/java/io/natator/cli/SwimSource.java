@@ -8,6 +8,7 @@ import io.natator.body.Swimmer;
 import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.BestGait;
 import io.natator.checkpoint.JudgedGait;
+import io.natator.checkpoint.SceneDigest;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Backend;
 import io.natator.config.EvolutionSettings;
@@ -123,6 +124,12 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
     Reproduction reproduction(Path simulator, Object... changes) {
         boolean same = best != null && Arrays.stream(changes).allMatch(Objects::isNull);
         return same ? new Reproduction(run, best, simulator, Backend.CPU, 0) : null;
+    }
+
+    /** That a run's scene is no longer what it was begun with, in one line; null if it is, or that is not known. */
+    String changedScene(Path simulator) throws InterruptedException {
+        return run == null || !SceneDigest.isChanged(run, simulator) ? null
+                : "scene " + scene + " was changed after " + run + " was begun: the gait swims in another one than it was evolved in";
     }
 
     /** What simulates a swim. */

@@ -60,6 +60,28 @@ class PictureCommandTest {
         assertThat(different(pictures[0], pictures[1])).isGreaterThan(100);
     }
 
+    /** What is drawn and exported is the swim in the scene as it is; that it is another one is told. */
+    @Test
+    void aSceneThatWasChangedIsToldWithThePictureAndTheExport() throws IOException {
+        Path scene = Files.writeString(folder.resolve("scene.json"), "{\"base\":\"bench/small-tank\"}");
+        Path run = folder.resolve("run");
+        String simulator = Path.of(System.getProperty("natator.simulator")).normalize().toString();
+        Commands.natator("evolve", "--simulator-path", simulator, "--scene", scene.toString(), "--population", "2",
+                "--generations", "0", "--duration", "0.1", "--output-dir", run.toString());
+        Path file = folder.resolve("run.png");
+        assertThat(picture(file, run.toString(), "--at", "0.05")).as(err.toString()).isZero();
+        assertThat(err.toString()).isEmpty();
+
+        Files.writeString(scene, "{\"base\":\"bench/small-tank\",\"solver\":{\"substeps\":2}}");
+        String changed = "warning: scene " + scene + " was changed after " + run + " was begun: ";
+        assertThat(picture(file, run.toString(), "--at", "0.05")).as(err.toString()).isZero();
+        assertThat(err.toString()).startsWith("natator picture: " + changed).hasLineCount(1);
+        err.getBuffer().setLength(0);
+        assertThat(Main.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true)).execute("export",
+                "--simulator-path", simulator, "--format", "csv", "--duration", "0.05", run.toString())).isZero();
+        assertThat(err.toString()).startsWith("natator export: " + changed).hasLineCount(1);
+    }
+
     @Test
     void aBodyAtRestIsDrawnAtTheStartAsHighAsItTakes() throws IOException {
         Path file = folder.resolve("rest.png");
