@@ -72,7 +72,7 @@ class ProcessSimulatorTest {
         "fault/crash|exit status 139", "fault/exit|out of luck", "fault/silent|no valid result",
         "fault/garbage|buffer overflow", "fault/half|no valid result", "fault/loud|more than 1048576 bytes",
         "fault/wrong-id|id is 8, not 7", "fault/wrong-exit|status ok with exit status 3", "fault/nan|NaN",
-        "fault/infinite|no finite distance", "fault/two-lines|no valid result",
+        "fault/infinite|found the number 1e999", "fault/two-lines|no valid result",
         "fault/held-open|output still open"})
     void aFaultyAnswerIsAFailedResultWithTheReason(String scene, String reason) throws InterruptedException {
         SimulationResult result = evaluate(scene, PATIENCE);
