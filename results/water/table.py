@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The table of the page on water, of water.csv: means over fresh starts with standard errors.
+"""The tables of the pages on water, of water.csv: means over fresh starts with standard errors.
 
-usage: table.py [--write | --check]; prints the table, writes it into README.md, or ends with 1 where README.md has another one.
-Needs Python alone.
+usage: table.py [--write | --check]; prints the tables, writes them into README.md and trials.md, or ends with 1 where those have other
+ones. Needs Python alone.
 """
 import csv
 import math
@@ -11,148 +11,183 @@ import statistics
 import sys
 
 here = pathlib.Path(__file__).parent
-page = here / "README.md"
-begin, end = "<!-- by table.py -->\n", "<!-- to here -->\n"
 
-AMPLITUDE, REYNOLDS = "amplitude after one turnover", "numerical Reynolds number"
-KINETIC, BOTH = "gain of kinetic energy", "gain of kinetic and potential energy"
-VISCOSITY, DRAG = "viscosity (length^2/s)", "drag of the walls (of the exact)"
+VISCOSITY, DRAG, PERIOD = "viscosity (length^2/s)", "drag of the walls (of the exact)", "period (s)"
+RATIOS = {VISCOSITY, PERIOD}  # shown over what they should be
 SPEED, TORQUE = "terminal speed (length/s)", "torque (of Kirchhoff's)"
-OVER_ALL, LATER = (f"added mass {when} (of the displaced)" for when in ("over 0.15 s", "after 0.05 s"))
+BUOYANCY, ADDED = "error of buoyancy (of the weight)", "added mass (of the displaced)"
+STROUHAL = [f"Strouhal number at viscosity {v}" for v in ("0.003", "0.006", "0.01")]
 
-VORTEX = [(AMPLITUDE, AMPLITUDE), (REYNOLDS, REYNOLDS), (KINETIC, KINETIC), (BOTH, BOTH)]
-CHANNEL = [(VISCOSITY, "viscosity over the set one"), (DRAG, "drag of the walls over the exact one")]
-RATIOS = {VISCOSITY, "period (s)"}  # shown over what they should be
+# quantities of a case, with their names in the tables
+VORTEX = {name: name for name in ("amplitude after one turnover", "numerical Reynolds number", "gain of kinetic energy",
+                                  "gain of kinetic and potential energy")}
+SLOPE = {"slope under 1 degree (degrees)": "slope under 1° (degrees)", "slope afterwards (degrees)": "slope afterwards (degrees)"}
+COLUMN = {"pressure (of the hydrostatic)": "pressure over the hydrostatic one", "depth (length)": "depth"}
+CHANNEL = {VISCOSITY: "viscosity over the set one", DRAG: "drag of the walls over the exact one"}
+FALL, TURN = {SPEED: "terminal speed after 6 to 8 s"}, {TORQUE: "torque over Kirchhoff's"}
 
 
 def drags(*numbers):
-    return [(f"drag coefficient at Re {re}", f"drag coefficient at Re {re}") for re in numbers]
+    return {name: name for name in (f"drag coefficient at Re {re}" for re in numbers)}
 
 
-# case; (quantity in water.csv, its name in the table)
+# case; its quantities; resolutions, each with the finer steps that are shown at it
 CASES = [
-    ("vortex", VORTEX),
-    ("stirred-vortex", VORTEX),
-    ("viscous-vortex", [(VISCOSITY, "viscosity over set + numerical one")]),
-    ("standing-wave", [("period (s)", "period over that of linear theory"), ("decay (1/s)", "decay (1/s)")]),
-    ("tilted-gravity", [("slope under 1 degree (degrees)", "slope under 1° (degrees)"),
-                        ("slope afterwards (degrees)", "slope afterwards (degrees)")]),
-    ("column", [("pressure (of the hydrostatic)", "pressure over the hydrostatic one"), ("depth (length)", "depth")]),
-    ("couette", CHANNEL),
-    ("poiseuille", CHANNEL),
-    ("neutral-sphere", [("error of buoyancy (of the weight)", "error of buoyancy (of the weight)")]),
-    ("added-mass", [(OVER_ALL, "of a sphere (of the displaced mass), over 0.15 s"), (LATER, "the same after 0.05 s")]),
-    ("heavier-sphere", [(SPEED, "terminal speed after 6 to 8 s")]),
-    ("lighter-sphere", [(SPEED, "terminal speed after 6 to 8 s")]),
-    ("spinning-sphere", [(TORQUE, "torque over Kirchhoff's")]),
-    ("slow-sphere", [(TORQUE, "torque over Kirchhoff's")]),
-    ("towed-sphere", drags(100, 50, 20, 10)),
-    ("towed-cylinder", drags(40, 20)),
-    ("travelling-wave", [(f"Strouhal number at viscosity {v}", "Strouhal number") for v in ("0.003", "0.006", "0.01")]),
-    ("shedding-cylinder", [*drags(100), ("Strouhal number at Re 100", "Strouhal number at Re 100")]),
+    ("vortex", VORTEX, {20: "4x4", 40: "4x4"}),
+    ("stirred-vortex", VORTEX, {20: "4x4", 40: "4x4"}),
+    ("viscous-vortex", {VISCOSITY: "viscosity over set + numerical one"}, {20: "4x4", 40: "4x4"}),
+    ("standing-wave", {PERIOD: "period over that of linear theory", "decay (1/s)": "decay (1/s)"}, {20: "4x4", 40: "4x4"}),
+    ("tilted-gravity", SLOPE, {20: "4x4", 40: "4x4"}),
+    ("column", COLUMN, {20: "4x4", 40: "4x4"}),
+    ("couette", CHANNEL, {20: "4x4", 40: "4x4"}),
+    ("poiseuille", CHANNEL, {20: "4x4", 40: "4x4"}),
+    ("neutral-sphere", {BUOYANCY: BUOYANCY}, {20: "4x4", 40: "4x4"}),
+    ("added-mass", {ADDED: "of a sphere (of the displaced mass)"}, {20: "4x4", 40: "4x4"}),
+    ("heavier-sphere", FALL, {20: "4x4", 40: "8x4"}),
+    ("lighter-sphere", FALL, {20: "4x4", 40: "8x4"}),
+    ("spinning-sphere", TURN, {20: "4x4", 40: "8x4"}),
+    ("slow-sphere", TURN, {20: "4x4"}),
+    ("towed-sphere", drags(100, 50, 20, 10), {20: "4x4", 32: "4x4"}),
+    ("towed-cylinder", drags(40, 20), {20: "4x4", 40: "4x4"}),
+    ("travelling-wave", dict.fromkeys(STROUHAL, "Strouhal number"), {16: "4x4", 20: "4x4", 28: "4x4"}),
+    ("shedding-cylinder", {**drags(100), "Strouhal number at Re 100": "Strouhal number at Re 100"}, {14: "4x4", 20: "4x4", 32: "4x4"}),
 ]
-# scheme, backend, setting; with what support does not matter to flex
-COLUMNS = [("flex", "cpu", "4x4"), ("conserving", "cpu", "2x4"), ("conserving", "cuda", "2x4"), ("conserving", "cpu", "4x4"),
-           ("conserving", "cuda", "4x4"), ("conserving", "cuda", "8x4")]
-NAMES = ["`flex` 4 × 4", "`conserving` 2 × 4", "the same, H100", "4 × 4, H100"]
+# how a target is told: in parts of what should be
+IN_PARTS = ("drag", "torque", "terminal", "Strouhal", "pressure", "depth", "viscosity", "period")
 
 
-def number(value, error=0.0):
-    """To where the error begins, four digits at most."""
-    digits = 3 if not error else 1 - math.floor(math.log10(error)) - (1 if error / 10 ** math.floor(math.log10(error)) >= 2 else 0)
-    most = 3 - math.floor(math.log10(abs(value))) if value else 3
-    digits = max(0, min(digits, most, 4))
+def setting(row):
+    return f"{row['substeps']}x{row['iterations']}"
+
+
+def read():
+    with open(here / "water.csv", newline="") as table:
+        return [row for row in csv.DictReader(table) if row["support"] in ("", "2.5")]
+
+
+def pick(rows, **wanted):
+    return [row for row in rows if all((setting(row) if key == "setting" else row[key]) == value for key, value in wanted.items())]
+
+
+def text_of(value, digits):
     text = f"{value:.{digits}f}"
-    return (text.replace("-", "−") if float(text) else f"{0:.{digits}f}"), digits
+    return text.replace("-", "−") if float(text) else f"{0:.{digits}f}"
 
 
-def cell(rows, quantity):
+def digits_of(value, error):
+    """As many as the error allows, and no more than four of the value's."""
+    by_error = -math.floor(math.log10(error / 2)) if error else 4
+    by_value = 3 - math.floor(math.log10(abs(value))) if value else 3
+    return max(0, min(by_error, by_value, 4))
+
+
+def cell(rows):
+    """Mean and standard error; bold where two of those are within the target, in italics where the mean alone is."""
     if not rows:
         return ""
     if any(row["status"] != "ok" for row in rows):
         return "unstable"
-    references = [float(row["reference"] or 0) for row in rows]
-    scales = references if quantity in RATIOS else [1] * len(rows)
+    scales = [float(row["reference"]) if row["quantity"] in RATIOS else 1 for row in rows]
     values = [float(row["value"]) / scale for row, scale in zip(rows, scales)]
-    bounds = [statistics.mean(float(row[side]) / scale if row[side] else far for row, scale in zip(rows, scales))
-              for side, far in (("least", -math.inf), ("greatest", math.inf))]
+    least, greatest = (statistics.mean(float(row[side] or far) / scale for row, scale in zip(rows, scales))
+                       for side, far in (("least", -math.inf), ("greatest", math.inf)))
     mean = statistics.mean(values)
+    reached = least <= mean <= greatest
     if len(values) == 1:
-        text = number(mean)[0]
-        return f"*{text}*" if bounds[0] <= mean <= bounds[1] else text
+        text = text_of(mean, digits_of(mean, 0))
+        return f"*{text}*" if reached and rows[0]["start"] else f"**{text}**" if reached else text
     error = statistics.stdev(values) / math.sqrt(len(values))
-    text, digits = number(mean, error)
-    off = f"{error:.{digits}f}"
-    text += f" ± {off}" if float(off) else ""
-    if bounds[0] <= mean - 2 * error and mean + 2 * error <= bounds[1]:
+    digits = digits_of(mean, error)
+    text, off = text_of(mean, digits), f"{error:.{digits}f}"
+    if float(off):
+        text += f" ± {off}"
+    if least <= mean - 2 * error and mean + 2 * error <= greatest:
         return f"**{text}**"
-    return f"*{text}*" if bounds[0] <= mean <= bounds[1] else text
+    return f"*{text}*" if reached else text
 
 
-def target(row, quantity):
-    reference = float(row["reference"]) if row["reference"] else None
+def target(row):
     least, greatest = (float(row[side]) if row[side] else None for side in ("least", "greatest"))
+    quantity, reference = row["quantity"], float(row["reference"] or 0)
     if greatest is None:
         return f"≥ {least:g}"
-    if least is None or (reference == 0 and quantity == "decay (1/s)"):
+    if least is None or quantity.startswith("decay"):
         return f"≤ {greatest:g}"
-    if reference and (quantity in RATIOS or quantity.split()[0] in ("drag", "torque", "terminal", "Strouhal", "pressure", "depth")):
-        return f"within {round(100 * (greatest / reference - 1))} %"
+    if quantity.startswith(IN_PARTS):
+        return f"within {100 * (greatest / reference - 1):.0f} %"
     return f"within {greatest - reference:.2g}"
 
 
-def exact(rows, quantity):
+def exact(rows):
     if not rows[0]["reference"]:
         return "∞"
-    if quantity in RATIOS:
+    if rows[0]["quantity"] in RATIOS:
         return "1"
     return f"{statistics.mean(float(row['reference']) for row in rows):.3g}"
 
 
-def lines():
-    with open(here / "water.csv", newline="") as table:
-        rows = [row for row in csv.DictReader(table) if row["support"] in ("", "2.5")]
-    yield "| case, resolution | figure | exact | target | " + " | ".join(NAMES) + " |"
-    yield "| --- | --- | ---: | --- |" + " ---: |" * len(NAMES)
-    for case, figures in CASES:
-        of_case = [row for row in rows if row["case"] == case]
-        for resolution in sorted({int(row["resolution"]) for row in of_case if row["scheme"] == "conserving"}):
-            for k, (quantity, name) in enumerate(figures):
-                here_rows = [row for row in of_case if row["resolution"] == str(resolution) and row["quantity"] == quantity]
-
-                def of(scheme, backend, setting):
-                    return [row for row in here_rows if (row["scheme"], row["backend"]) == (scheme, backend) and
-                            f"{row['substeps']}x{row['iterations']}" == setting]
-
-                shown = [of("flex", "cpu", "4x4"), of("conserving", "cpu", "2x4"), of("conserving", "cuda", "2x4"),
-                         of("conserving", "cuda", "4x4")]
-                used = [row for some in shown[1:] for row in some]
-                if not used:
-                    continue
+def of_cases(rows):
+    yield "| case, resolution | figure | exact | target | `flex` 4 × 4 | `conserving` 2 × 4 | the same, H100 | smaller steps |"
+    yield "| --- | --- | ---: | --- | ---: | ---: | ---: | --- |"
+    for case, figures, resolutions in CASES:
+        for resolution, finer in resolutions.items():
+            at = pick(rows, case=case, resolution=str(resolution))
+            for k, (quantity, name) in enumerate(figures.items()):
+                some = pick(at, quantity=quantity)
+                flex = pick(some, scheme="flex", backend="cpu", setting="4x4")
+                cpu, gpu = (pick(some, scheme="conserving", backend=backend) for backend in ("cpu", "cuda"))
+                shown = [flex, pick(cpu, setting="2x4"), pick(gpu, setting="2x4"), pick(gpu, setting=finer) or pick(cpu, setting=finer)]
+                used = [row for cells in shown[1:] for row in cells]
                 if case == "travelling-wave":
-                    speed = quantity.replace("Strouhal", "Reynolds")
-                    reynolds = [float(row["value"]) for row in of_case if row["resolution"] == str(resolution) and
-                                row["quantity"] == speed and row["status"] == "ok"]
-                    name = f"Strouhal number at Re {statistics.mean(reynolds):.0f}"
+                    speeds = pick(at, quantity=quantity.replace("Strouhal", "Reynolds"), scheme="conserving", setting="2x4")
+                    name += f" at Re {statistics.mean(float(row['value']) for row in speeds):.0f}"
+                cells = [cell(each) for each in shown]
+                if cells[3]:
+                    cells[3] += f" ({finer.replace('x', ' × ')})"
                 label = f"{case.replace('-', ' ')}, {resolution}" if k == 0 else ""
-                cells = [cell(some, quantity) for some in shown]
-                yield "| " + " | ".join([label, name, exact(used, quantity), target(used[0], quantity), *cells]) + " |"
+                yield f"| {label} | {name} | {exact(used)} | {target(used[0])} | " + " | ".join(cells) + " |"
+
+
+def of_settings(rows, cases, settings):
+    """On the CPU at resolution 20."""
+    yield "| | exact | " + " | ".join(steps.replace("x", " × ") for steps in settings) + " |"
+    yield "| --- | ---: |" + " ---: |" * len(settings)
+    for case, figures, _ in CASES:
+        for quantity, name in figures.items():
+            if case not in cases:
+                continue
+            shown = [pick(rows, case=case, quantity=quantity, scheme="conserving", backend="cpu", resolution="20", setting=steps)
+                     for steps in settings]
+            yield f"| {case.replace('-', ' ')}: {name} | {exact(shown[0])} | " + " | ".join(cell(each) for each in shown) + " |"
+
+
+def tables(rows):
+    """By page and name."""
+    fast = ("stirred-vortex", "viscous-vortex", "tilted-gravity", "column", "couette", "poiseuille", "neutral-sphere", "added-mass",
+            "heavier-sphere", "lighter-sphere", "spinning-sphere", "slow-sphere", "towed-sphere", "towed-cylinder")
+    passes = ("column", "neutral-sphere", "added-mass", "heavier-sphere", "lighter-sphere", "spinning-sphere")
+    return {("README.md", "cases"): of_cases(rows),
+            ("README.md", "fast"): of_settings(rows, fast, ("2x4", "1x4")),
+            ("trials.md", "passes"): of_settings(rows, passes, ("2x4", "1x4", "1x6", "1x8"))}
 
 
 def main():
     if sys.argv[1:] not in ([], ["--write"], ["--check"]):
         sys.exit(f"table.py: unknown arguments {sys.argv[1:]}; expected none, --write or --check")
-    table = "".join(line + "\n" for line in lines())
-    if not sys.argv[1:]:
-        print(table, end="")
-        return
-    text = page.read_text(encoding="utf-8")
-    before, rest = text.split(begin)
-    old, after = rest.split(end)
-    if sys.argv[1] == "--write":
-        page.write_text(before + begin + table + end + after, encoding="utf-8")
-    elif old != table:
-        sys.exit(f"table.py: {page.name} has another table than water.csv gives; expected what table.py --write writes")
+    for (page, name), lines in tables(read()).items():
+        new = "".join(line + "\n" for line in lines)
+        if not sys.argv[1:]:
+            print(new)
+            continue
+        begin, end = f"<!-- {name}: by table.py -->\n", f"<!-- end of {name} -->\n"
+        path = here / page
+        before, rest = path.read_text(encoding="utf-8").split(begin)
+        old, after = rest.split(end)
+        if sys.argv[1] == "--write":
+            path.write_text(before + begin + new + end + after, encoding="utf-8")
+        elif old != new:
+            sys.exit(f"table.py: {page} has another table \"{name}\" than water.csv gives; expected what table.py --write writes")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -49,6 +49,10 @@ WaterRun follow(double duration, Fallen what, WaterTank<Real>& tank) {
     return tank.follow(duration, [&, start = height()] { return start - height(); });
 }
 
+/// s, before it is let go: without the damping that has brought it to rest, water first bobs up and down, three times a second, and
+/// a sphere that is free goes with it.
+constexpr double held = 1.5;
+
 /// Of the sphere, of the water's: lets it go.
 template <class Real>
 void set_density(double density, WaterTank<Real>& tank) {
@@ -62,6 +66,8 @@ WaterRun let_go(const Fall& fall, const WaterSetting& setting) {
     WaterTank<Real> tank(Eigen::Vector3i::Constant(setting.resolution), setting, [&](Model& model) {
         immerse_sphere(Eigen::Vector3d::Constant(water_length / 2), model);
     });
+    for (long k = 0; k < std::lround(held / tank.model().time_step); ++k)
+        if (!tank.frame()) return tank.run();
     set_density(fall.density, tank);
     return follow(fall.duration, fall.curve, tank);
 }
@@ -84,23 +90,6 @@ double acceleration(const std::vector<WaterSample>& curve) {
 }
 
 constexpr double added_mass = 0.5;  ///< of a sphere, of the mass that it displaces (Lamb, art. 92)
-
-/// The slope of a curve of speeds from `begin` on, s, by least squares.
-double acceleration_from(double begin, const std::vector<WaterSample>& curve) {
-    double n = 0, time = 0, speed = 0;
-    const auto each = [&](const auto& add) {
-        for (const WaterSample& sample : curve)
-            if (sample.time >= begin) add(sample);
-    };
-    each([&](const WaterSample& sample) { n += 1, time += sample.time, speed += sample.value; });
-    double numerator = 0, denominator = 0;
-    each([&](const WaterSample& sample) {
-        const double late = sample.time - time / n;
-        numerator += late * (sample.value - speed / n);
-        denominator += late * late;
-    });
-    return numerator / denominator;
-}
 
 /// A sphere in a tank 1.4 lengths wide and 1.8 high that is let go so much denser than its water, in parts of that.
 struct Release {
@@ -164,16 +153,14 @@ WaterRun run_neutral_sphere(const WaterSetting& setting) {
     return run;
 }
 
-/// Let go in water at rest, a sphere accelerates as if it had half of the displaced water's mass too: by what it is fast at
-/// the end, and by how its speed grows once the pressure has set in. By speeds, as ways are longer by half a substep.
+/// Let go in water at rest, a sphere accelerates as if it had half of the displaced water's mass too: by its speed, as its way is
+/// longer by half a substep, and before it has enough of that for a drag.
 WaterRun run_added_mass(const WaterSetting& setting) {
-    constexpr double set_in = 0.05;  // s
-    const Fall fall{.density = 2, .duration = 0.15, .curve = Fallen::speed};
+    const Fall fall{.density = 2, .duration = 0.05, .curve = Fallen::speed};
     WaterRun run = let_go(fall, setting);
     if (run.instability) return run;
-    const auto added = [&](double acceleration) { return (fall.density - 1) * gravity / acceleration - fall.density; };
-    run.figures = {figure_within(0.1, added(run.curve.back().value / fall.duration), added_mass),
-                   figure_within(0.1, added(acceleration_from(set_in, run.curve)), added_mass)};
+    const double acceleration = run.curve.back().value / fall.duration;
+    run.figures = {figure_within(0.1, (fall.density - 1) * gravity / acceleration - fall.density, added_mass)};
     return run;
 }
 

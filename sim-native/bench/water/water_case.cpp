@@ -21,7 +21,7 @@ std::vector<WaterCase> all_cases() {
         {"neutral-sphere", "depth fallen (length)", {"error of buoyancy (of the weight)"}, run_neutral_sphere},
         {"added-mass",
          "speed of the fall (length/s)",
-         {"added mass over 0.15 s (of the displaced)", "added mass after 0.05 s (of the displaced)"},
+         {"added mass (of the displaced)"},
          run_added_mass},
         {"heavier-sphere", "depth fallen (length)", {"terminal speed (length/s)"}, run_heavier_sphere, true},
         {"lighter-sphere", "depth fallen (length)", {"terminal speed (length/s)"}, run_lighter_sphere, true},
