@@ -58,8 +58,8 @@ struct WaterCase {
     std::string curve;                    ///< what the curve shows
     std::vector<std::string> quantities;  ///< what the figures are
     std::function<WaterRun(const WaterSetting&)> run;
-    bool held = false;  ///< needs the forces on held bodies or the pressures: runs only where they are known, in scheme
-                        ///< conserving; takes minutes
+    bool held = false;  ///< takes minutes, and most of these need the forces on held bodies or the pressures: runs only where
+                        ///< they are known, in scheme conserving
 };
 
 /// All cases.
