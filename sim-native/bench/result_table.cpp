@@ -1,12 +1,10 @@
 #include "result_table.h"
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
-#include <system_error>
 
 #include "io/strict_json.h"
 #include "io/whole_file.h"
@@ -43,7 +41,7 @@ ResultTable::ResultTable(const std::string& path, Row columns, std::size_t key_c
     if (whole_lines > 0) std::filesystem::resize_file(path, whole_lines);
     file_.open(path, whole_lines > 0 ? std::ios::app : std::ios::trunc);
     if (whole_lines == 0) file_ << text() << std::flush;
-    if (!file_) throw cannot_be_written(path, std::generic_category().message(errno));
+    if (!file_) throw cannot_be_written(path);
 }
 
 ResultTable::~ResultTable() {

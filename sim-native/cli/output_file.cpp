@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <system_error>
 
@@ -17,8 +16,7 @@ void require_writable(const std::string& path) {
     const bool exists = fs::exists(path, not_there);
     if (!fs::is_directory(folder, not_there)) throw cannot_be_written(path, "no such folder");
     if (fs::is_directory(path, not_there)) throw cannot_be_written(path, "is a folder");
-    if (::access(exists ? path.c_str() : folder.c_str(), W_OK) != 0)
-        throw cannot_be_written(path, std::generic_category().message(errno));
+    if (::access(exists ? path.c_str() : folder.c_str(), W_OK) != 0) throw cannot_be_written(path);
 }
 
 }  // namespace natator::cli

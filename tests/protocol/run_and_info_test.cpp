@@ -354,6 +354,14 @@ TEST(RunTest, ATrajectoryThatCannotBeWrittenIsAFailure) {
     }
 }
 
+// Of what is found out when the last of it is written, too.
+TEST(RunTest, AFullDiskIsTheReasonThatIsTold) {
+    for (const char* option : {"--trajectory", "--snapshot"}) {
+        const Outcome outcome = run_simulator({"run", "thesis/creature-1-vacuum", "--duration", "0.05", option, "/dev/full"});
+        EXPECT_EQ(outcome.err, "natator-sim: file \"/dev/full\": cannot be written: No space left on device\n") << option;
+    }
+}
+
 // What was computed before is not lost to a run that does not begin.
 TEST(RunTest, WhatIsRefusedLeavesTheFileAsItWas) {
     const TemporaryPath file("kept.csv");

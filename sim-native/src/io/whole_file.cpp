@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <system_error>
 
 #include "io/strict_json.h"
@@ -41,7 +42,11 @@ fs::path beside(fs::path file) {
 }  // namespace
 
 std::runtime_error cannot_be_written(const std::string& path, const std::string& why) {
-    return std::runtime_error("file " + quoted(path) + ": cannot be written" + (why.empty() ? "" : ": " + why));
+    return std::runtime_error("file " + quoted(path) + ": cannot be written: " + why);
+}
+
+std::runtime_error cannot_be_written(const std::string& path) {
+    return cannot_be_written(path, std::generic_category().message(errno));
 }
 
 WholeFile::WholeFile(const fs::path& path, std::ios::openmode mode)

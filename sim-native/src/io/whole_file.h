@@ -7,8 +7,10 @@
 
 namespace natator {
 
-/// To be thrown of a file that cannot be written; `why` if that is known.
-std::runtime_error cannot_be_written(const std::string& path, const std::string& why = "");
+/// To be thrown of a file that cannot be written, for this reason.
+std::runtime_error cannot_be_written(const std::string& path, const std::string& why);
+/// The same where the last call of the system, whose reason errno holds, was the write that failed.
+std::runtime_error cannot_be_written(const std::string& path);
 
 /// A file that is there whole or not at all: it is written beside its place, as `file.PID`, and takes it when it is finished.
 /// What stood there before stays until then. What is there and is no regular file, as a pipe, is written directly; so is a
