@@ -63,8 +63,9 @@ final class CompareCommand implements Callable<Integer> {
         // By whatever path, and an island beside the archipelago whose winner it is.
         EachOnce.checkFolders("RUN", runs.stream().map(StoredRun::directory).toList());
         if (starts > 0) {
+            Path simulator = executionOptions.execution(Backend.CPU).simulator();
             for (StoredRun run : runs) {
-                run.checkUnchanged(executionOptions.execution(Backend.CPU).simulator());
+                run.checkUnchanged(simulator);
             }
         }
         PrintWriter out = spec.commandLine().getOut();

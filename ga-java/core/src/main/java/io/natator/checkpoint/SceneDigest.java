@@ -48,12 +48,35 @@ public final class SceneDigest {
      */
     public static void check(Path directory, EvolutionSettings settings, String digest) {
         StoredRun.Begun begun = StoredRun.begun(directory);
-        boolean isKnown = isKnown(begun) && begun.settings().scene().equals(settings.scene())
-                && Objects.equals(begun.settings().overrides(), settings.overrides());
-        if (isKnown && !begun.sceneSha256().equals(digest)) {
-            throw new InvalidInputException("scene " + settings.scene() + " was changed after " + directory
+        if (isWith(begun, settings)) {
+            check(directory, begun, digest);
+        }
+    }
+
+    /**
+     * The same, by a digest that is worked out only of a run that can tell.
+     *
+     * @param simulator the native program
+     * @throws InterruptedException if the calling thread is interrupted
+     */
+    static void check(Path directory, EvolutionSettings settings, Path simulator) throws InterruptedException {
+        StoredRun.Begun begun = StoredRun.begun(directory);
+        if (isWith(begun, settings)) {
+            check(directory, begun, of(settings, simulator));
+        }
+    }
+
+    private static void check(Path directory, StoredRun.Begun begun, String digest) {
+        if (!begun.sceneSha256().equals(digest)) {
+            throw new InvalidInputException("scene " + begun.settings().scene() + " was changed after " + directory
                     + " was begun; expected the scene that it was begun with, or a new run");
         }
+    }
+
+    /** Whether it is known what these settings' scene was when the run was begun. */
+    private static boolean isWith(StoredRun.Begun begun, EvolutionSettings settings) {
+        return isKnown(begun) && begun.settings().scene().equals(settings.scene())
+                && Objects.equals(begun.settings().overrides(), settings.overrides());
     }
 
     /**

@@ -103,9 +103,7 @@ public record StoredRun(Path directory, EvolutionSettings settings, EvolutionSta
         if (edited != null) {
             throw new InvalidInputException(edited);
         }
-        if (SceneDigest.isChanged(directory, simulator)) {
-            SceneDigest.check(directory, settings, SceneDigest.of(settings, simulator));
-        }
+        SceneDigest.check(directory, settings, simulator);
     }
 
     /**
