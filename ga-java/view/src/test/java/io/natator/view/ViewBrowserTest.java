@@ -76,9 +76,18 @@ abstract class ViewBrowserTest extends BrowserTest {
     /** Without water, which is quick to draw, and paused at its start. */
     void openAtRest() {
         open(vacuum);
+        pauseAt(0);
+    }
+
+    /** Begins anew and pauses at a frame. After a pause in mid-swim some frames may still be under way; after this none is. */
+    void pauseAt(int frame) {
         get("run").click();
         get("reset").click();
         await("natator.frame() === 0");
+        for (int next = 1; next <= frame; next++) {
+            get("step").click();
+            await("natator.frame() === " + next);
+        }
     }
 
     /** Presses one of several buttons in a row; the radio button itself is hidden. */

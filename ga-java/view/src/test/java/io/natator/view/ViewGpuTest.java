@@ -54,7 +54,7 @@ class ViewGpuTest extends ViewBrowserTest {
     void itIsThatOfWebGl() {
         useSmallWindow();
         open(water, FEW_PIXELS);
-        get("run").click();
+        pauseAt(3);
         for (String shown : new String[] {"surface", "spheres"}) {
             choose("water-" + shown);
             BufferedImage webGl = refined("webgl", "WebGL");

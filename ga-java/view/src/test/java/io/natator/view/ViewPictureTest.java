@@ -41,7 +41,7 @@ class ViewPictureTest extends ViewBrowserTest {
     void bothWaysOfDrawingShowIt(String drawing, String name) {
         useSmallWindow();
         open(water, FEW_PIXELS);
-        get("run").click();
+        pauseAt(3);
         get("drawing").selectOption(drawing);
         choose("water-none");
         BufferedImage without = restingPicture();
