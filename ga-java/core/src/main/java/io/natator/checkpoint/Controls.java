@@ -31,7 +31,7 @@ import java.util.Objects;
 @JsonInclude(JsonInclude.Include.NON_NULL)
 public record Controls(Gait gait, JsonNode body, String scheme, double duration, Double bodyLength, SwimSample water, SwimSample resting,
         SwimSample vacuum, SwimSample clampOff, SwimSample halfStep, SwimSample mirrored, SwimSample otherBackend,
-        String backend, Double underWater) {
+        String backend, Double underWater) implements AboutWinner {
 
     /** Has to have the gait, and the swims that there are of every winner. */
     public Controls {
@@ -67,12 +67,11 @@ public record Controls(Gait gait, JsonNode body, String scheme, double duration,
     }
 
     /**
-     * Those of a run folder, if they are of its winner. They can be run again, so a damaged file is but warned of.
+     * Those of a run folder, if they are of its winner.
      *
      * @return null if there are none
      */
     public static Controls of(Path run, Swimmer best) {
-        Controls found = StoredRun.readable(run, RunFolder.CONTROLS, Controls.class);
-        return found == null || !new Swimmer(found.gait, found.body).equals(best) ? null : found;
+        return AboutWinner.in(run, RunFolder.CONTROLS, Controls.class, best);
     }
 }

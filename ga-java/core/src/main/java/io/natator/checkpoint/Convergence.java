@@ -25,7 +25,8 @@ import java.util.Objects;
  */
 @JsonInclude(JsonInclude.Include.NON_NULL)
 @JsonIgnoreProperties(ignoreUnknown = true)
-public record Convergence(Gait gait, JsonNode body, Double bodyLength, List<Level> levels, Estimate estimate) {
+public record Convergence(Gait gait, JsonNode body, Double bodyLength, List<Level> levels, Estimate estimate)
+        implements AboutWinner {
 
     /**
      * The swim at one size of steps.
@@ -79,12 +80,11 @@ public record Convergence(Gait gait, JsonNode body, Double bodyLength, List<Leve
     }
 
     /**
-     * That of a run folder, if it is of its winner. It can be measured again, so a damaged file is but warned of.
+     * That of a run folder, if it is of its winner.
      *
      * @return null if there is none
      */
     public static Convergence of(Path run, Swimmer best) {
-        Convergence found = StoredRun.readable(run, RunFolder.CONVERGENCE, Convergence.class);
-        return found == null || !new Swimmer(found.gait, found.body).equals(best) ? null : found;
+        return AboutWinner.in(run, RunFolder.CONVERGENCE, Convergence.class, best);
     }
 }

@@ -1,0 +1,22 @@
+package io.natator.checkpoint;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import io.natator.body.Swimmer;
+import io.natator.encoding.Gait;
+import java.nio.file.Path;
+
+/** What was measured of a run's winner afterwards. It can be measured again, so a damaged file is but warned of. */
+interface AboutWinner {
+
+    /** Of the winner. */
+    Gait gait();
+
+    /** Of the winner, or null. */
+    JsonNode body();
+
+    /** What a file of a run folder tells of its winner; null if there is none, or it is about another swimmer. */
+    static <T extends AboutWinner> T in(Path run, String name, Class<T> type, Swimmer best) {
+        T found = StoredRun.readable(run, name, type);
+        return found == null || !new Swimmer(found.gait(), found.body()).equals(best) ? null : found;
+    }
+}
