@@ -268,6 +268,20 @@ class ExportCommandTest {
     }
 
     @Test
+    void aSurfaceNeedsWater() throws IOException {
+        Path python = Files.writeString(folder.resolve("python"), "#!/bin/sh\n");
+        assertThat(python.toFile().setExecutable(true)).isTrue();
+        ObjectNode scene = StreamBytes.scene();
+        scene.putArray("fluid").add(0).add(0);
+        StreamBytes stream = new StreamBytes().json("SCEN", scene).frame(1, 0).json("STOP", "{\"reason\":\"until\"}");
+
+        assertThat(export(simulator(stream, "exit 0"), "test/pool", "--format", "usd", "--duration", "1", "--water-surface",
+                "--python", python.toString())).isEqualTo(2);
+        assertThat(err.toString()).contains("--water-surface: test/pool has no water; expected some").hasLineCount(1);
+        assertThat(folder.resolve("out")).doesNotExist();
+    }
+
+    @Test
     void aRefusedSceneIsToldInTheSimulatorsWords() throws IOException {
         Path simulator = simulator(new StreamBytes(), "echo 'scene test/pool is not known' >&2; exit 2");
 

@@ -1,5 +1,6 @@
 package io.natator.export;
 
+import io.natator.config.InvalidInputException;
 import io.natator.stream.StreamField;
 import io.natator.stream.StreamFrame;
 import io.natator.stream.StreamScene;
@@ -27,16 +28,20 @@ record ExportContext(StreamScene scene, ParticleSet shown, ParticleSet water, Pa
      * A scene whose settled start is known.
      *
      * @param content what of it is exported
+     * @throws InvalidInputException if it does not have that
      */
     static ExportContext of(StreamScene scene, StreamFrame start, ExportContent content, Python python)
             throws IOException {
+        if (content.waterSurface() && scene.fluidCount() == 0) {
+            throw new InvalidInputException("--water-surface: " + scene.scene() + " has no water; expected some");
+        }
         ParticleSet solids = ParticleSet.of(scene, false);
         boolean water = content.water();
         List<BodySurface> surfaces = new ArrayList<>(List.of(BodySurface.of(scene, start.position())));
         scene.companions().forEach(one -> surfaces.add(BodySurface.of(scene, one.slices(), start.position())));
         return new ExportContext(scene, water ? ParticleSet.of(scene, true) : solids,
                 water ? ParticleSet.water(scene) : null, solids, surfaces, BodySurface.joined(surfaces),
-                content.waterSurface() && scene.fluidCount() > 0 ? new WaterSurface(scene, python) : null, python);
+                content.waterSurface() ? new WaterSurface(scene, python) : null, python);
     }
 
     boolean hasWaterSurface() {
