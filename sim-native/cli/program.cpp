@@ -12,6 +12,7 @@
 #include <sstream>
 #include <vector>
 
+#include "io/unfinished_file.h"
 #include "natator/error.h"
 #include "options.h"
 #include "scene/field.h"
@@ -101,6 +102,21 @@ void hold_closed_streams() {
         if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) ::open("/dev/null", mode);  // has the lowest number that is free
 }
 
+extern "C" void remove_unfinished_and_end(int signal) {
+    remove_unfinished_files();
+    std::raise(signal);  // which ends the program as if there were no handler
+}
+
+/// Lets a program that is told to end leave no file that it has begun. A signal that is ignored stays so, as under nohup.
+void leave_nothing_unfinished() {
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+        struct sigaction before {}, handler {};
+        handler.sa_handler = remove_unfinished_and_end;
+        handler.sa_flags = SA_RESETHAND;
+        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) ::sigaction(signal, &handler, nullptr);
+    }
+}
+
 }  // namespace
 
 int run_program(CLI::App& app, const int& status, int argc, char** argv) {
@@ -126,6 +142,7 @@ int run_program(CLI::App& app, const int& status, int argc, char** argv) {
 int complaining(const std::string& program, const std::function<int()>& work) {
     hold_closed_streams();
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print, not a death
+    leave_nothing_unfinished();
     try {
         return work();
     } catch (const InputError& error) {

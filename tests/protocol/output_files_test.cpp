@@ -53,6 +53,22 @@ TEST_F(OutputFilesTest, ARunThatIsKilledLeavesTheFileAsItWas) {
     }
 }
 
+/// The signal comes as soon as something stands beside the file; the run would take much longer.
+TEST_F(OutputFilesTest, ARunThatIsToldToEndLeavesTheFileAsItWasAndNothingBesideIt) {
+    std::vector<std::string> arguments = run_writing("--trajectory", file);
+    arguments[3] = "1000";
+    arguments.insert(arguments.end(), {"--overrides", R"({"stopping":{"planeContact":false,"noProgressAfter":0}})"});
+    for (const char* signal : {"TERM", "INT", "HUP"}) {
+        std::ofstream(file) << "computed before\n";
+        const std::string beside = "'" + file + "'.$$";
+        const Outcome outcome = run_limited("(while kill -0 $$ && ! [ -s " + beside + " ]; do sleep 0.01; done; kill -" + signal +
+                                            " $$) 2> /dev/null & true", arguments);
+        EXPECT_EQ(outcome.exit_code, -1) << signal;
+        EXPECT_EQ(first_line(file), "computed before") << signal;
+        EXPECT_EQ(files(), 1u) << signal;
+    }
+}
+
 TEST_F(OutputFilesTest, AFullDiskLeavesTheFileAsItWasAndNothingBesideIt) {
     for (const char* option : {"--trajectory", "--snapshot"}) {
         std::ofstream(file) << "computed before\n";

@@ -51,8 +51,9 @@ std::runtime_error cannot_be_written(const std::string& path) {
 
 WholeFile::WholeFile(const fs::path& path, std::ios::openmode mode)
     : target_(place_of(path)),
-      written_(can_be_replaced(target_) ? beside(target_) : target_),
-      stream_(written_, mode | std::ios::out) {
+      written_(can_be_replaced(target_) ? beside(target_) : target_) {
+    if (written_ != target_) unfinished_.emplace(written_);
+    stream_.open(written_, mode | std::ios::out);
     std::error_code failed;
     if (!stream_ || written_ == target_) return;
     if (const fs::file_status there = fs::status(target_, failed); fs::exists(there))

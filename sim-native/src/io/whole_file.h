@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "io/unfinished_file.h"
 
 namespace natator {
 
@@ -28,6 +31,7 @@ public:
 
 private:
     std::filesystem::path target_, written_;
+    std::optional<UnfinishedFile> unfinished_;  ///< where it is written beside its place; known before it is opened
     std::ofstream stream_;
     bool finished_ = false;
 };
