@@ -1,12 +1,13 @@
 #include "options.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string_view>
 
+#include "io/decimal_number.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
 
@@ -36,11 +37,12 @@ CLI::Validator in_words(CLI::Validator check, const std::string& must_be) {
     });
 }
 
+/// What is in another base has another check.
 CLI::Validator within(double low, double high, const std::string& must_be, const std::string& type) {
     const auto check = [low, high](const std::string& text) {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        return std::string(*end == '\0' && low <= value && value <= high ? "" : "beyond");
+        const std::optional<double> value = decimal_number(text);
+        const bool passes = value ? low <= *value && *value <= high : !fault_of_base(text, false).empty();
+        return std::string(passes ? "" : "beyond");
     };
     return in_words(CLI::Validator(check, type), must_be);
 }
