@@ -197,7 +197,7 @@ void add_run(CLI::App& app, int& status) {
     command->add_option("--gait", options->gait,
                         R"(File or JSON text: {"frequency":1.861,"amplitude":[0.973,0.69],"phase":[0,0.648]}. )"
                         "Default: muscles at rest.");
-    command->add_option("--duration", options->duration, "Simulated time, s. Default: the scene's.");
+    command->add_option("--duration", options->duration, "Simulated time, s, to the nearest whole number of frames. Default: the scene's.");
     command->add_option("--scheme", options->scheme, "Update rule: flex or conserving. Default: the scene's.");
     command->add_option("--precision", options->precision, "float or double.")
         ->check(precision_name())

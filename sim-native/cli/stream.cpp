@@ -97,7 +97,7 @@ void add_stream(CLI::App& app, int& status) {
         ->add_option("--rate", settings.rate,
                      "Simulated seconds per second of wall time, at most; 0: as fast as possible.")
         ->capture_default_str();
-    command->add_option("--until", settings.until, "End at this time, s.")->check(seconds());
+    command->add_option("--until", settings.until, "End at this time, s: after the nearest whole number of frames, at least one.")->check(seconds());
     command->add_flag("--lossless", settings.lossless, "Wait for credit instead of dropping frames.");
     command->add_flag("--paused", settings.paused, "Begin paused.");
     add_execution_options(command, options->execution);

@@ -1,5 +1,8 @@
 #include "stream_session.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "commands.h"
 #include "io/protocol.h"
 #include "io/strict_json.h"
@@ -253,10 +256,13 @@ void StreamSession<Real>::refuse_if(bool over) const {
     if (over) throw InputError("the stream has reached its end, --until " + number_text(*settings_.until) + " s");
 }
 
+/// After as many frames as `natator-sim run` simulates in that time, the nearest whole number; in no other than no time at least one.
 template <class Real>
 bool StreamSession<Real>::at_end() const {
+    if (!settings_.until) return false;
     const double step = simulation_.scene().time_step;
-    return settings_.until && simulation_.state().time > *settings_.until - step / 1000;
+    const double last = *settings_.until > 0 ? std::max(1.0, std::round(*settings_.until / step)) : 0;
+    return std::round(simulation_.state().time / step) >= last;
 }
 
 template class StreamSession<float>;

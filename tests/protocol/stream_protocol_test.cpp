@@ -190,6 +190,22 @@ TEST(StreamTest, FramesAreThoseOfEvaluateBitByBit) {
     EXPECT_EQ(client.wait(), 0);  // with its input still open
 }
 
+/// The end is after the nearest frame, as that of an evaluation; but for no time at all after one at least.
+TEST(StreamTest, AnEndBetweenTwoFramesIsTheNearer) {
+    for (const auto& [until, frames] : {std::pair("0", 0), {"0.001", 1}, {"0.02", 1}, {"0.03", 2}, {"0.0249", 1}, {"0.0251", 2}}) {
+        StreamClient client({vacuum, "--rate", "0", "--lossless", "--until", until});
+        client.expect("SCEN");
+        client.send({{"do", "credit"}, {"frames", 10}});
+        int last = -1;
+        for (auto message = client.next(); message; message = client.next())
+            if (message->letters == "FRAM") last = static_cast<int>(StreamFrame(message->body, client.scene()).number);
+        EXPECT_EQ(last, frames) << until;
+        if (frames == 0 || until == std::string("0.001")) continue;
+        const json request{{"id", 1}, {"scene", vacuum}, {"gait", json::parse(gait)}, {"duration", json::parse(until)}};
+        EXPECT_EQ(json::parse(run_simulator({"evaluate"}, request.dump()).out)["frames"], frames) << until;
+    }
+}
+
 TEST(StreamTest, CreditIsSpentFrameByFrameAndDropsAreCounted) {
     StreamClient client({vacuum, "--gait", gait, "--rate", "0"});
     client.expect("SCEN");

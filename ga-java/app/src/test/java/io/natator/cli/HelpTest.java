@@ -59,14 +59,14 @@ class HelpTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "evolve|a GPU where there is one). Default: cpu; of a run that is resumed, its own.",
-        "evolve|Simulated time. Default: the preset's, else the scene's (4 for the thesis scenes).",
+        "evolve|Simulated time, to the nearest frame. Default: the preset's, else the scene's (4 for the thesis scenes).",
         "evolve|How to solve: flex or conserving. Default: the scene's.",
         "resume|a GPU where there is one). Default: the run's.", "check|a GPU where there is one). Default: the run's.",
         "evaluate|a GPU where there is one). Default: cpu.", "compare-flex|a GPU where there is one). Default: cpu.",
         "compare|a GPU where there is one). Default: that of the runs, cpu if they have several.",
-        "evaluate|Simulated time. Default: the scene's (4 for the thesis scenes).",
+        "evaluate|Simulated time, to the nearest frame. Default: the scene's (4 for the thesis scenes).",
         "evaluate|How to solve: flex or conserving. Default: the scene's.",
-        "page|Simulated time. Default: the run's, else the scene's (4 for the thesis scenes).",
+        "page|Simulated time, to the nearest frame. Default: the run's, else the scene's (4 for the thesis scenes).",
         "page|How to solve: flex or conserving. Default: the run's, else the scene's."})
     void sharedOptionsHaveEachCommandsDefault(String command, String text) {
         String help = Main.commandLine().getSubcommands().get(command).getUsageMessage();
