@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "commands.h"
+#include "gait_argument.h"
 #include "io/protocol.h"
 #include "io/strict_json.h"
 #include "job.h"
@@ -53,8 +54,7 @@ Scene load(const RunOptions& options) {
 
 /// The gait asked for; without one the muscles rest.
 Gait load_gait(const RunOptions& options, int actuators) {
-    if (!options.gait.empty()) return parse_gait(read_json_argument(options.gait, "--gait"), json_argument_name(options.gait, "--gait"));
-    return resting_gait(actuators);
+    return options.gait.empty() ? resting_gait(actuators) : read_gait_argument(options.gait);
 }
 
 /// Within the limits of a request's.

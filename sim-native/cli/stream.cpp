@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "gait_argument.h"
 #include "io/strict_json.h"
 #include "job.h"
 #include "json_argument.h"
@@ -35,7 +36,7 @@ LiveSetup read_setup(const StreamOptions& options) {
     if (!options.scheme.empty()) overrides["scheme"] = options.scheme;
     setup.overrides = overrides.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     setup.start = options.start;
-    if (!options.gait.empty()) setup.gait = parse_gait(read_json_argument(options.gait, "--gait"), json_argument_name(options.gait, "--gait"));
+    if (!options.gait.empty()) setup.gait = read_gait_argument(options.gait);
     return setup;
 }
 
