@@ -94,6 +94,15 @@ def shown(value, digits=2, sign=False):
     return text if sign or float(text) != 0 else text.lstrip("-")
 
 
+def decimals(error, digits=2):
+    """How many an error bar needs: up to two more than these where it would be rounded to nothing."""
+    return next((enough for enough in range(digits, digits + 3) if error >= 0.5 * 10 ** -enough), digits)
+
+
+def with_error(value, error, digits=2):
+    return f"{shown(value, decimals(error, digits))} ± {shown(error, decimals(error, digits))}"
+
+
 def speeds(study):
     """(where, what it should be) of the tables of speeds."""
     for water in STOPPING:
@@ -110,8 +119,8 @@ def speeds(study):
             spacing = levels["spacing/2"] - levels["base"] if "spacing/2" in levels else None
             error = max(scatter, abs(step), abs(spacing or 0))
             where = (water, str(creature), label)
-            yield where + (2,), f"{shown(mean / length)} ± {shown(error / length)}"
-            yield where + (3,), f"± {shown(scatter / length)}"
+            yield where + (2,), with_error(mean / length, error / length)
+            yield where + (3,), f"± {shown(scatter / length, decimals(scatter / length))}"
             yield where + (4,), shown(step / length, sign=True)
             yield where + (5,), "–" if spacing is None else shown(spacing / length, sign=True)
             yield where + (6,), shown(mean / length / gait["frequency"])

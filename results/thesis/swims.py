@@ -5,6 +5,8 @@ import pathlib
 import statistics
 import sys
 
+import recompute
+
 
 def tank(length, height, width, rear):
     """Overrides: a tank of water, the swimmer in its middle, its rear so far from the wall behind."""
@@ -29,7 +31,7 @@ def standard_error(values):
 
 def with_error(values, digits):
     """Mean ± standard error."""
-    return f"{statistics.mean(values):.{digits}f} ± {standard_error(values):.{digits}f}"
+    return recompute.with_error(statistics.mean(values), standard_error(values), digits)
 
 
 def spread(values, digits, unit=""):

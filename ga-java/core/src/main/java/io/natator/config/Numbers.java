@@ -39,12 +39,20 @@ public final class Numbers {
      * of 0 says that a number is exact.
      */
     public static String withError(double value, double error, int decimals) {
+        return fixed(value, decimalsOf(error, decimals)) + " " + error(error, decimals);
+    }
+
+    /** The same without the value. */
+    public static String error(double error, int decimals) {
+        return "± " + fixed(error, decimalsOf(error, decimals));
+    }
+
+    private static int decimalsOf(double error, int decimals) {
         int enough = decimals;
         while (enough < decimals + MORE_DECIMALS && roundsToNothing(error, enough)) {
             enough++;
         }
-        int shown = roundsToNothing(error, enough) ? decimals : enough;
-        return fixed(value, shown) + " ± " + fixed(error, shown);
+        return roundsToNothing(error, enough) ? decimals : enough;
     }
 
     private static boolean roundsToNothing(double error, int decimals) {

@@ -41,6 +41,11 @@ record Speed(double mean, double scatter, double halfStep, double halfSpacing) {
 
     /** Mean ± error, in a unit of this size. */
     String text(double unit) {
-        return TableFormat.shortNumber(mean / unit) + " ± " + TableFormat.shortNumber(error() / unit);
+        return TableFormat.withError(mean / unit, error() / unit);
+    }
+
+    /** ± scatter, in a unit of this size. */
+    String scatterText(double unit) {
+        return TableFormat.error(scatter / unit);
     }
 }

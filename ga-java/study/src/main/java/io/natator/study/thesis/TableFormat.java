@@ -1,5 +1,6 @@
 package io.natator.study.thesis;
 
+import io.natator.config.Numbers;
 import io.natator.config.Scheme;
 import io.natator.study.Sample;
 import java.math.BigDecimal;
@@ -11,6 +12,7 @@ import java.util.stream.Collectors;
 final class TableFormat {
 
     static final String NOTHING = "–";
+    private static final int SHORT = 2;
 
     private TableFormat() {
     }
@@ -28,6 +30,16 @@ final class TableFormat {
 
     static String shortNumber(double value) {
         return rounded("%.2f", value);
+    }
+
+    /** A short number and its error bar, which is not rounded to nothing. */
+    static String withError(double value, double error) {
+        return Double.isFinite(value) ? Numbers.withError(value, error, SHORT) : NOTHING;
+    }
+
+    /** The error bar alone. */
+    static String error(double error) {
+        return Double.isFinite(error) ? Numbers.error(error, SHORT) : NOTHING;
     }
 
     /** Without the sign of a negative number that is rounded to 0. */

@@ -87,7 +87,7 @@ final class WinnersSection {
         Speed speed = results.speed(subject).orElseThrow();
         double length = results.bodyLength(subject.creature());
         List<String> row = new ArrayList<>(List.of("" + subject.creature(), subject.label(), speed.text(length),
-                "± " + TableFormat.shortNumber(speed.scatter() / length), signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
+                speed.scatterText(length), signed(speed.halfStep() / length), signed(speed.halfSpacing() / length),
                 TableFormat.shortNumber(speed.mean() / length / subject.gait().frequency()),
                 String.format(Locale.ROOT, "%.1f", results.lasted(subject).mean())));
         if (subject.water() == Water.OPEN_WATER) {
