@@ -1,7 +1,7 @@
 #!/bin/bash
 # Stands for natator-sim in tests: speaks its protocol, but swims by a formula. The scene says what goes wrong:
-# thesis/… and pool/… nothing; fault/NAME the fault below; fault/mixed and fault/chaos one of many faults for some ids. Made of
-# shell builtins, so that it starts and answers in a few milliseconds.
+# thesis/… and pool/… nothing; fault/NAME the fault below; fault/mixed, fault/idle and fault/chaos one of many faults for
+# some ids. Made of shell builtins, so that it starts and answers in a few milliseconds.
 here=${0%/*}
 
 # ok ID DISTANCE, by the scheme that $request asks for, else the scene's
@@ -70,13 +70,18 @@ choose_fault() {
         *) fault=none ;;
         esac
         ;;
+    idle)
+        # These cost the caller its time limit and its patience.
+        case $2 in
+        17) fault=hang ;;
+        18) fault=deaf ;;
+        *) fault=none ;;
+        esac
+        ;;
     chaos)
         # Most fail at the first attempt, one in eight of these also at the second.
         local faults=(none crash garbage half exit silent wrong-id nan killed crash half garbage killed)
         fault=${faults[$(($2 * 7919 % 13))]}
-        # These cost the caller its time limit and its patience.
-        (($2 % 1000 == 75)) && fault=hang
-        (($2 % 1000 == 250)) && fault=deaf
         if [[ $fault != none ]]; then
             if first "$2"; then
                 : >"$here/fault-$2"

@@ -25,11 +25,11 @@ import java.util.concurrent.TimeUnit;
 import java.util.function.IntConsumer;
 import java.util.stream.LongStream;
 import java.util.stream.Stream;
-import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.EnumSource;
 
 /** Evolutions whose simulator fails all the time. */
 @Timeout(value = 30, unit = TimeUnit.MINUTES)
@@ -72,7 +72,7 @@ class FaultInjectionTest {
         EvolutionSettings settings = EvolutionSettings.of("fault/chaos", EncodingKind.DENSE, 2)
                 .withSize(100, EvolutionSettings.NO_LIMIT).withEvaluations(count);
         ExecutionSettings execution =
-                new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(10)).withMode(mode);
+                new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofMinutes(5)).withMode(mode);
         long filesBefore = openFiles();
 
         List<EvaluationRecord> evaluations = evolve(settings, execution, done -> { });
@@ -100,5 +100,22 @@ class FaultInjectionTest {
         }
         assertThatNoChildIsLeft();
         assertThatOpenFilesAreAtMost(filesBefore + 4);
+    }
+
+    /** What else is late by more than the limit, on a machine that has other work, has a second attempt. */
+    @ParameterizedTest
+    @EnumSource(value = SimulatorMode.class, names = {"RESIDENT", "PROCESS"})
+    void programsThatNeverAnswerCostOnlyTheirOwnEvaluations(SimulatorMode mode) throws InterruptedException {
+        EvolutionSettings settings = EvolutionSettings.of("fault/idle", EncodingKind.DENSE, 2)
+                .withSize(20, EvolutionSettings.NO_LIMIT).withEvaluations(40L);
+        ExecutionSettings execution =
+                new ExecutionSettings(FakeSimulator.in(folder), 2, Duration.ofSeconds(5)).withMode(mode);
+
+        assertThat(evolve(settings, execution, done -> { })).hasSize(40).allSatisfy(evaluation -> {
+            SimulationResult result = evaluation.result();
+            boolean idle = List.of(17L, 18L).contains(result.id());
+            assertThat(result.status()).as("evaluation %d: %s", result.id(), result.error()).isEqualTo(idle ? Status.FAILED : Status.OK);
+        });
+        assertThatNoChildIsLeft();
     }
 }
