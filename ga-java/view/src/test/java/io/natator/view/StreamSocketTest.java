@@ -44,6 +44,7 @@ class StreamSocketTest {
         clients.forEach(StreamClient::close);
         ViewFixture.await("end of all simulators",
                 () -> ViewFixture.simulators(ProcessHandle.current()).isEmpty());
+        ViewFixture.await("end of all sessions", () -> server.sessions().isEmpty());
         Processes.assertThatNoChildIsLeft();
     }
 
