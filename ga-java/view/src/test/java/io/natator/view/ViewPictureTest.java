@@ -26,7 +26,7 @@ class ViewPictureTest extends ViewBrowserTest {
 
         BufferedImage before = picture(get("picture-a"));
         assertThat(colours(before)).isGreaterThan(LEAST_COLOURS);
-        await("natator.frame() > 60");
+        await("natator.frame() > " + (number("natator.frame()") + 60));
         assertThat(difference(before, picture(get("picture-a")))).as("what has moved").isGreaterThan(0.005);
         assertThat(get("time-a")).containsText("s");
         assertThat(get("dropped-a")).hasText(Pattern.compile("\\d+"));
