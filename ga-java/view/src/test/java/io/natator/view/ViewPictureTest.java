@@ -96,12 +96,15 @@ class ViewPictureTest extends ViewBrowserTest {
               requestAnimationFrame(next);
             }""";
 
+    /** All detail at first, however slow: what is drawn with less is watched. */
     @Test
     void lessDetailIsNoBlackFlash() {
         open(water);
+        get("quality").selectOption("1");
         get("drawing").selectOption("webgl");
         awaitDrawings(3);
         page.evaluate(SLOW_AND_WATCHED);
+        get("quality").selectOption("auto");
 
         await("natator.share() < 0.8");
 
