@@ -122,6 +122,7 @@ class ViewPictureTest extends ViewBrowserTest {
 
         get("run").click();
 
+        assertThat(get("run")).hasText("Run");
         await("natator.share() === 1");
         page.evaluate("() => { window.isQuick = true; }");
         await("natator.samples() >= 4");
