@@ -45,6 +45,7 @@ class ViewRunsTest extends ViewBrowserTest {
     void theGenerationsOfARunAreWatched() throws IOException {
         useSmallWindow();
         open(vacuum);
+        assertThat(get("run-chosen")).containsText("What swims is not of this run");
 
         get("chart-fitness").focus();
         page.keyboard().press("Home");
