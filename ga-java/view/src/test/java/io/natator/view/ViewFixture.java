@@ -34,7 +34,7 @@ final class ViewFixture {
     /** Gaits that the page is given to offer. */
     static final Map<String, Gait> KNOWN = Map.of("thesis/creature-3",
             new Gait(1.2, List.of(0.1, 0.2, 0.3, 0.4, 0.5), List.of(0.0, 0.1, 0.2, 0.3, 0.4)));
-    private static final int PATIENCE_SECONDS = 600;
+    static final int PATIENCE_SECONDS = 600;
 
     private ViewFixture() {
     }

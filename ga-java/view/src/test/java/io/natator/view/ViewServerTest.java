@@ -63,7 +63,7 @@ class ViewServerTest {
     private static String raw(String... lines) throws IOException {
         URI address = server.address();
         try (Socket socket = new Socket(address.getHost(), address.getPort())) {
-            socket.setSoTimeout(10_000);
+            socket.setSoTimeout(1000 * ViewFixture.PATIENCE_SECONDS);
             socket.getOutputStream().write((String.join("\r\n", lines) + "\r\n\r\n")
                     .getBytes(StandardCharsets.ISO_8859_1));
             byte[] buffer = new byte[1 << 16];
