@@ -42,7 +42,12 @@ class ServeCommandsTest {
 
     /** A command that leaves a line in the file `name` when it is started. */
     private String marked(String name) {
-        return "echo started >>" + folder.resolve(name) + "; exec " + fake + " serve";
+        return marked(name, "");
+    }
+
+    /** One that then does something else first. */
+    private String marked(String name, String first) {
+        return "echo started >>" + folder.resolve(name) + "; " + first + "exec " + fake + " serve";
     }
 
     private static List<SimulationResult> evaluate(ExecutionSettings settings, int requests)
@@ -56,11 +61,12 @@ class ServeCommandsTest {
         return results;
     }
 
+    /** Each waits for the other to be started, so that none is left idle before. */
     @Test
     void commandsShareTheEvaluations() throws InterruptedException, IOException {
-        Files.writeString(folder.resolve("slow"), "0.2");  // so that one is still at work when the next request comes
+        String both = "until [ -e " + folder.resolve("a") + " ] && [ -e " + folder.resolve("b") + " ]; do sleep 0.01; done; ";
 
-        List<SimulationResult> results = evaluate(settings(SimulatorMode.RESIDENT, marked("a"), marked("b")), 6);
+        List<SimulationResult> results = evaluate(settings(SimulatorMode.RESIDENT, marked("a", both), marked("b", both)), 6);
 
         assertThat(results).allSatisfy(result -> assertThat(result.distance()).isEqualTo(-1.3925)).hasSize(6);
         assertThat(Files.readAllLines(folder.resolve("a"))).hasSize(1);
