@@ -30,10 +30,14 @@ import org.slf4j.LoggerFactory;
 /** {@code natator resume}: a run that was stopped, moved or damaged goes on. */
 class ResumeCommandTest extends FakeSimulatorTest {
 
+    /** Within a generation; where the machine stood still all the time, once more. */
     @Test
     void stopsInTimeAndContinues() throws IOException {
         Files.writeString(folder.resolve("slow"), "0.4");
         assertThat(evolve("run", "--workers", "1", "--stop-after", "5")).isZero();
+        for (int i = 0; i < 100 && !Files.exists(folder.resolve("run/evaluations.jsonl")); i++) {
+            assertThat(natator("resume", folder.resolve("run").toString(), "--workers", "1", "--stop-after", "5")).isZero();
+        }
         assertThat(err.toString()).endsWith("time is up; continue by: natator resume " + folder.resolve("run") + "\n");
         assertThat(file("run", "evaluations.jsonl").lines()).hasSizeBetween(1, 20);
         Files.delete(folder.resolve("slow"));
