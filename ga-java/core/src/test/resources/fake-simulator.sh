@@ -95,12 +95,28 @@ choose_fault() {
     esac
 }
 
+# Waits for one of as many turns as the file "turns" says, if there is one.
+turn() {
+    local turns=0
+    while [[ -e $here/turns ]]; do
+        { read -r turns <"$here/turns"; } 2>/dev/null
+        if ((next_turn >= turns)); then
+            sleep 0.01
+        elif [[ ! -e $here/seen-turn-$next_turn ]] && first "turn-$next_turn"; then
+            return
+        else
+            ((++next_turn))
+        fi
+    done
+}
+
 # answer REQUEST
 answer() {
     local request=$1 id scene
     [[ $request =~ ^\{\"id\":([0-9]+) ]] && id=${BASH_REMATCH[1]}
     [[ $request =~ \"scene\":\"([^\"]*)\" ]] && scene=${BASH_REMATCH[1]}
     [[ -z $slow ]] || sleep "$slow"
+    turn
     choose_fault "$scene" "$id"
     measure "$request"
     case $fault in
@@ -164,6 +180,7 @@ describe() {
 }
 
 mode=$1
+next_turn=0
 [[ -e $here/slow ]] && slow=$(<"$here/slow")
 [[ -e $here/most ]] && most=$(<"$here/most")
 case $mode in

@@ -41,6 +41,7 @@ class ClusterJarCheck {
     private Path folder;
     private Path log;
     private Path fake;
+    private long turns;
 
     @BeforeAll
     static void startCluster() throws IOException, InterruptedException {
@@ -137,20 +138,19 @@ class ClusterJarCheck {
     void killedExecutorsAndAKilledDriverChangeNothing() throws IOException, InterruptedException {
         String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "40", "--generations", "4", "--seed", "3"};
         alone(fake, folder.resolve("alone"), settings);
-        Files.writeString(folder.resolve("slow"), "0.03");
+        inTurns();
         Path run = folder.resolve("run");
         Process driver = evolve(fake, run, List.of(), settings);
         long before = 0;
         for (int kill = 0; kill < 2; kill++) {
             before = killAnExecutor(run, before + 10, kill);
         }
-        long last = before + 5;
-        TestCluster.await("evaluations after the kills", () -> evaluations(run) >= last);
+        awaitEvaluations(run, before + 5);
         assertThat(driver.isAlive()).as(Files.readString(log)).isTrue();
         driver.destroyForcibly().waitFor();
         long logged = evaluations(run);
         assertThat(logged).isLessThan(evaluations(folder.resolve("alone")));
-        Files.delete(folder.resolve("slow"));
+        Files.delete(folder.resolve("turns"));
 
         assertSucceeds(cluster.submit(log, List.of(), "resume", "--no-cache", "--simulator-path", fake.toString(), run.toString()));
 
@@ -163,14 +163,14 @@ class ClusterJarCheck {
         String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "16", "--generations", "4", "--seed", "3",
             "--islands", "2", "--migrate-every", "1", "--migrants", "3"};
         alone(fake, folder.resolve("alone"), settings);
-        Files.writeString(folder.resolve("slow"), "0.03");
+        inTurns();
         Path run = folder.resolve("run");
         Process driver = evolve(fake, run, List.of(), settings);
         killAnExecutor(run.resolve("island-1"), 30, 0);
-        TestCluster.await("evaluations after the kill", () -> evaluations(run.resolve("island-2")) >= 60);
+        awaitEvaluations(run.resolve("island-2"), 60);
         assertThat(driver.isAlive()).as(Files.readString(log)).isTrue();
         driver.destroyForcibly().waitFor();
-        Files.delete(folder.resolve("slow"));
+        Files.delete(folder.resolve("turns"));
 
         assertSucceeds(cluster.submit(log, List.of(), "resume", "--no-cache", "--simulator-path", fake.toString(), run.toString()));
 
@@ -181,8 +181,22 @@ class ClusterJarCheck {
         }
     }
 
-    private static long killAnExecutor(Path run, long after, int which) throws IOException, InterruptedException {
-        TestCluster.await(after + " evaluations", () -> evaluations(run) >= after);
+    /** From here on there are evaluations only while they are waited for: no run gets to its end before it is looked at. */
+    private void inTurns() throws IOException {
+        Files.writeString(folder.resolve("turns"), "0\n");
+    }
+
+    private void awaitEvaluations(Path run, long count) throws IOException, InterruptedException {
+        TestCluster.await(count + " evaluations", () -> {
+            if (turns == 0 || Files.exists(folder.resolve("seen-turn-" + (turns - 1)))) {
+                Files.writeString(folder.resolve("turns"), ++turns + "\n");
+            }
+            return evaluations(run) >= count;
+        });
+    }
+
+    private long killAnExecutor(Path run, long after, int which) throws IOException, InterruptedException {
+        awaitEvaluations(run, after);
         TestCluster.await("executors", () -> !cluster.executors().isEmpty());
         List<ProcessHandle> executors = cluster.executors();
         assertThat(executors.get(which % executors.size()).destroyForcibly()).isTrue();
@@ -195,7 +209,7 @@ class ClusterJarCheck {
     void fiftyKillsChangeNothing() throws IOException, InterruptedException {
         String[] settings = {"--scene", "thesis/creature-1", "--starts", "1", "--population", "150", "--generations", "12", "--seed", "3"};
         alone(fake, folder.resolve("alone"), settings);
-        Files.writeString(folder.resolve("slow"), "0.05");
+        inTurns();
         Path run = folder.resolve("run");
         Process driver = evolve(fake, run, List.of(), settings);
         long before = 0;
@@ -209,7 +223,7 @@ class ClusterJarCheck {
                         fake.toString(), run.toString());
             }
         }
-        Files.delete(folder.resolve("slow"));
+        Files.delete(folder.resolve("turns"));
         assertSucceeds(driver);
 
         assertSame(run, folder.resolve("alone"));

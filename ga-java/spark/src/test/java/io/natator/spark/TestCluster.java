@@ -19,7 +19,7 @@ final class TestCluster implements AutoCloseable {
     private static final Path HOME = Path.of(System.getProperty("natator.sparkHome")).toAbsolutePath().normalize();
     private static final Path JAR = Path.of(System.getProperty("natator.jar")).toAbsolutePath().normalize();
     private static final Pattern MASTER = Pattern.compile("Starting Spark master at (spark://\\S+)");
-    private static final long PATIENCE_MILLISECONDS = 180_000;
+    private static final long PATIENCE_MILLISECONDS = 600_000;
 
     private final Path folder;
     private final String master;
