@@ -289,8 +289,8 @@ export class View {
     }
     const name = file.split('/').at(-1);
     let error = await this.setScene(scene, overrides, gait);
-    if (error !== null && gait !== null) {
-      error = await this.setScene(scene, overrides, null);  // it may have other muscles now
+    if (gait !== null && error?.startsWith('gait.')) {
+      error = await this.setScene(scene, overrides, null);  // it has other muscles now
       if (error === null && this.scene.actuators > 0) {
         error = await this.setGait(waveGait(this.scene.actuators));
       }
