@@ -42,7 +42,11 @@ class ViewReloadTest extends BrowserTest {
 
     /** A scene in vacuum whose creature is a file too. */
     private Path scene(String solver) throws IOException {
-        return Files.writeString(folder.resolve("mine.json"), "{\"solver\":{\"gravity\":[0,0,0]," + solver
+        return scene("mine.json", solver);
+    }
+
+    private Path scene(String name, String solver) throws IOException {
+        return Files.writeString(folder.resolve(name), "{\"solver\":{\"gravity\":[0,0,0]," + solver
                 + "},\"creature\":{\"name\":\"body.json\"}}");
     }
 
@@ -80,8 +84,7 @@ class ViewReloadTest extends BrowserTest {
         await("natator.frame() > " + number("natator.frame()"));
         assertThat(number("natator.scene().definition.solver.damping")).isEqualTo(3);
 
-        Path fresh = Files.copy(scene("\"damping\":2"), folder.resolve("fresh"));
-        Files.move(fresh, file, StandardCopyOption.REPLACE_EXISTING);  // as some editors do
+        Files.move(scene("fresh", "\"damping\":2"), file, StandardCopyOption.REPLACE_EXISTING);  // as some editors do
         await("natator.scene().definition.solver.damping === 2");
         assertThat(get("banner")).containsText("mine.json was read again.");
 
