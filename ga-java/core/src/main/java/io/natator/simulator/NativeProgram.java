@@ -25,7 +25,7 @@ final class NativeProgram implements AutoCloseable {
 
     /** A result is some 300 bytes; a scene's info a few kilobytes. */
     static final int MAX_OUTPUT_BYTES = 1 << 20;
-    /** How long pipes may stay open after the program has ended, held by a descendant of it. */
+    /** How long pipes may stay open after the program has ended, where a descendant of it holds them; they may be read for longer. */
     private static final long PIPE_GRACE_SECONDS = 2;
 
     private final Path program;
@@ -104,26 +104,32 @@ final class NativeProgram implements AutoCloseable {
     }
 
     private Output converse(Process process, String input, Consumer<String> errorLines) throws SimulatorFailure, InterruptedException {
+        long begin = System.nanoTime();
         pipes.submit(() -> write(process, input));
         Future<byte[]> output = pipes.submit(() -> readLimited(process));
         Future<String> errors = pipes.submit(() -> ErrorTail.read(process.getErrorStream(), errorLines));
         if (!process.waitFor(timeout.toMillis(), TimeUnit.MILLISECONDS)) {
             throw new SimulatorFailure("no answer within " + timeout.toMillis() / 1000.0 + " s");
         }
-        byte[] text = await(output);
+        byte[] text = await(output, process, begin);
         if (text.length > MAX_OUTPUT_BYTES) {
             throw new SimulatorFailure("more than " + MAX_OUTPUT_BYTES + " bytes of output");
         }
-        return new Output(process.exitValue(), new String(text, StandardCharsets.UTF_8), await(errors));
+        return new Output(process.exitValue(), new String(text, StandardCharsets.UTF_8), await(errors, process, begin));
     }
 
-    private static <T> T await(Future<T> read) throws SimulatorFailure, InterruptedException {
-        try {
-            return read.get(PIPE_GRACE_SECONDS, TimeUnit.SECONDS);
-        } catch (TimeoutException e) {
-            throw new SimulatorFailure("output still open after the program ended", e);
-        } catch (ExecutionException e) {
-            throw new SimulatorFailure("output not readable: " + e.getCause().getMessage(), e);
+    /** What was read of a program that began then and has ended. */
+    private <T> T await(Future<T> read, Process process, long begin) throws SimulatorFailure, InterruptedException {
+        while (true) {
+            try {
+                return read.get(PIPE_GRACE_SECONDS, TimeUnit.SECONDS);
+            } catch (TimeoutException e) {
+                if (processes.hasLeft(process) || System.nanoTime() - begin > timeout.toNanos()) {
+                    throw new SimulatorFailure("output still open after the program ended", e);
+                }
+            } catch (ExecutionException e) {
+                throw new SimulatorFailure("output not readable: " + e.getCause().getMessage(), e);
+            }
         }
     }
 

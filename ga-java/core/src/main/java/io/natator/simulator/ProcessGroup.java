@@ -6,6 +6,7 @@ import java.nio.file.DirectoryIteratorException;
 import java.nio.file.DirectoryStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.UUID;
@@ -74,6 +75,15 @@ public final class ProcessGroup implements AutoCloseable {
         }
     }
 
+    /** Whether what a process has started runs on, now that it has ended, and may hold its pipes open; where there is no /proc, yes. */
+    boolean hasLeft(Process process) {
+        try {
+            return !marked(running.get(process)).isEmpty();
+        } catch (IOException | DirectoryIteratorException e) {
+            return true;
+        }
+    }
+
     /** Kills a process, should it still run, with all its descendants, and waits until it is gone. */
     public void end(Process process) {
         kill(process);
@@ -119,17 +129,26 @@ public final class ProcessGroup implements AutoCloseable {
     /** Whether there was any. */
     private static boolean killMarked(String mark) {
         boolean any = false;
-        try (DirectoryStream<Path> folders = Files.newDirectoryStream(PROCESSES, "[0-9]*")) {
-            for (Path folder : folders) {
-                if (isMarked(folder, mark)) {
-                    any |= ProcessHandle.of(Long.parseLong(folder.getFileName().toString()))
-                            .map(ProcessHandle::destroyForcibly).orElse(false);
-                }
+        try {
+            for (ProcessHandle each : marked(mark)) {
+                any |= each.destroyForcibly();
             }
         } catch (IOException | DirectoryIteratorException e) {
             return false;
         }
         return any;
+    }
+
+    private static List<ProcessHandle> marked(String mark) throws IOException {
+        List<ProcessHandle> found = new ArrayList<>();
+        try (DirectoryStream<Path> folders = Files.newDirectoryStream(PROCESSES, "[0-9]*")) {
+            for (Path folder : folders) {
+                if (isMarked(folder, mark)) {
+                    ProcessHandle.of(Long.parseLong(folder.getFileName().toString())).ifPresent(found::add);
+                }
+            }
+        }
+        return found;
     }
 
     private static boolean isMarked(Path process, String mark) {

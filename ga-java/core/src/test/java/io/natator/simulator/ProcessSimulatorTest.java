@@ -14,6 +14,7 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.List;
 import java.util.concurrent.TimeUnit;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -115,6 +116,26 @@ class ProcessSimulatorTest {
     @Test
     void drainsWhatTheProgramLogs() throws InterruptedException {
         assertThat(evaluate("fault/loud-errors", PATIENCE).distance()).isEqualTo(0.5);
+    }
+
+    /** As on a machine that has other work; nobody holds the pipes open any more. */
+    @Test
+    void whatIsReadLateIsReadWhole() throws Exception {
+        Path program = Files.writeString(folder.resolve("program.sh"), "#!/bin/sh\necho told\necho why >&2\n");
+        assertThat(program.toFile().setExecutable(true)).isTrue();
+        try (NativeProgram late = new NativeProgram(program, Duration.ofMinutes(5))) {
+            NativeProgram.Output output = late.call(List.of(), "", line -> sleep(3));
+
+            assertThat(output).isEqualTo(new NativeProgram.Output(0, "told\n", "why"));
+        }
+    }
+
+    private static void sleep(int seconds) {
+        try {
+            TimeUnit.SECONDS.sleep(seconds);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
     }
 
     @Test
