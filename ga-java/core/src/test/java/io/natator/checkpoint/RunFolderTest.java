@@ -71,7 +71,7 @@ class RunFolderTest {
     /** Whoever reads it would wait for ever. */
     @ParameterizedTest
     @ValueSource(strings = {"checkpoint.json", "checkpoint.json.gz", "savings.json", "check.json", "evaluations.jsonl", "timings.csv"})
-    @Timeout(value = 1, unit = TimeUnit.MINUTES, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
+    @Timeout(value = 10, unit = TimeUnit.MINUTES, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
     void aPipeInPlaceOfAFileIsRefused(String name) throws IOException, InterruptedException {
         RunFolder.create(run, settings(OperatorSet.CORRECTED)).close();
         assertThat(new ProcessBuilder("mkfifo", run.resolve(name).toString()).start().waitFor()).isZero();
