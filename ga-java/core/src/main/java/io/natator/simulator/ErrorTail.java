@@ -34,7 +34,7 @@ public final class ErrorTail implements Runnable {
     }
 
     /**
-     * What was written in the end; empty if it cannot be read, or does not end within a second.
+     * What was written in the end; empty if it cannot be read, or does not end within five seconds.
      *
      * @throws InterruptedException if the calling thread is interrupted
      */
