@@ -11,6 +11,7 @@ import io.natator.config.Evolved;
 import io.natator.config.FitnessKind;
 import io.natator.config.Numbers;
 import io.natator.config.OptimizerKind;
+import io.natator.config.WeightedObjective;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.GenerationSummary;
 import io.natator.evolution.Individual;
@@ -102,9 +103,7 @@ final class ShowCommand implements Callable<Integer> {
         }
         text.append(settings.starts() == 1 ? "" : ", " + EnumNames.of(settings.judge()) + " of " + settings.starts()
                 + " starts");
-        text.append(settings.objectives() == null ? "" : ", objectives " + settings.objectives().stream()
-                .map(one -> EnumNames.of(one.objective()) + (one.weight() == null ? "" : "=" + one.weight()))
-                .collect(Collectors.joining(",")));
+        text.append(settings.objectives() == null ? "" : ", objectives " + WeightedObjective.text(settings.objectives()));
         text.append(settings.fitness() == FitnessKind.NET ? ", net fitness" : "");
         text.append(", backend ").append(settings.backend().argument());
         text.append(settings.scheme() == null ? "" : ", scheme " + settings.scheme().name().toLowerCase(Locale.ROOT));

@@ -133,6 +133,27 @@ class CompareCommandTest extends FakeSimulatorTest {
                 .startsWith(String.format(Locale.ROOT, "         16%12.4f", Double.parseDouble(last.split(",")[1]))).contains("-0.");
     }
 
+    /** By what both were evolved for; where that differs, by distance. */
+    @Test
+    void comparesByWhatRunsWereEvolvedFor() throws IOException {
+        List<String> arguments = new ArrayList<>(List.of("compare", "--starts", "2"));
+        for (String optimizer : List.of("random", "cma-es")) {
+            assertThat(evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.5", "--evaluations", "16"))
+                    .as(err.toString()).isZero();
+            arguments.add(folder.resolve(optimizer).toString());
+        }
+        out.getBuffer().setLength(0);
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("from 2 fresh starts: median worth by work=0.5 [95 % bootstrap interval]\n   run 1  -")
+                .doesNotContain("median distance");
+
+        assertThat(evolve("far", "--evaluations", "16")).as(err.toString()).isZero();
+        arguments.add(folder.resolve("far").toString());
+        out.getBuffer().setLength(0);
+        assertThat(natator(arguments.toArray(String[]::new))).as(err.toString()).isZero();
+        assertThat(out.toString()).contains("from 2 fresh starts: median distance [").doesNotContain("median worth");
+    }
+
     @Test
     void steeredGaitsAreToldWithTheirOffsets() throws IOException {
         assertThat(evolve("dense", "--encoding", "dense-steered")).isZero();

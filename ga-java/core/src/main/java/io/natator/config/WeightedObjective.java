@@ -4,6 +4,7 @@ import com.fasterxml.jackson.annotation.JsonInclude;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
+import java.util.stream.Collectors;
 
 /**
  * An objective, and its weight in a sum.
@@ -30,6 +31,12 @@ public record WeightedObjective(Objective objective, Double weight) {
             all.add(new WeightedObjective(objective, sides.length == 1 ? null : weight(sides, part)));
         }
         return all;
+    }
+
+    /** Some as text, as {@link #parse} reads it. */
+    public static String text(List<WeightedObjective> objectives) {
+        return objectives.stream().map(one -> one.objective.name().toLowerCase(Locale.ROOT)
+                + (one.weight == null ? "" : "=" + one.weight)).collect(Collectors.joining(","));
     }
 
     private static Objective objective(String name, String part) {

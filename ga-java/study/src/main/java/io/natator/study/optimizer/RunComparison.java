@@ -18,14 +18,15 @@ import java.util.stream.Collectors;
 
 /**
  * Some runs side by side by what their best gaits do from fresh starts, after equal numbers of evaluations and after equal
- * simulated time. Runs that differ in nothing but their seeds stand together where all have such company: then each run
- * counts as one value, its mean; else each start of a run does.
+ * simulated time: by what all of them were evolved for, or by distance where that differs. Runs that differ in nothing but
+ * their seeds stand together where all have such company: then each run counts as one value, its mean; else each start of a
+ * run does.
  */
 public final class RunComparison {
 
     private final List<RunSummary> runs;
     private final int starts;
-    private final List<Map<List<Double>, List<Double>>> distances = new ArrayList<>();
+    private final List<Map<List<Double>, List<SimulationResult>>> swims = new ArrayList<>();
 
     /**
      * Runs that may still be under way.
@@ -48,11 +49,11 @@ public final class RunComparison {
         for (RunSummary run : runs) {
             List<List<Double>> genomes = genomes(run);
             List<List<SimulationResult>> again = new FreshStarts(run.settings(), evaluator, simulator).each(genomes, starts);
-            Map<List<Double>, List<Double>> own = new HashMap<>();
+            Map<List<Double>, List<SimulationResult>> own = new HashMap<>();
             for (int i = 0; i < genomes.size(); i++) {
-                own.put(genomes.get(i), again.get(i).stream().map(SimulationResult::distanceOrZero).toList());
+                own.put(genomes.get(i), List.copyOf(again.get(i)));
             }
-            distances.add(own);
+            swims.add(own);
         }
     }
 
@@ -65,6 +66,7 @@ public final class RunComparison {
         List<String> lines = new ArrayList<>();
         List<List<Integer>> groups = groups();
         boolean byRun = groups.get(0).size() > 1;
+        Rewarded rewarded = Rewarded.of(runs.stream().map(RunSummary::settings).toList(), swims);
         for (EqualBudget budget : EqualBudget.values()) {
             double place = budget.at(1, runs);
             if (Double.isNaN(place)) {
@@ -72,13 +74,14 @@ public final class RunComparison {
                 continue;
             }
             lines.add("at equal " + budget.label() + " (" + budget.text(place) + "), from " + starts
-                    + " fresh starts: median distance" + (byRun ? " of the runs' means" : "") + " [95 % bootstrap interval]");
+                    + " fresh starts: median " + rewarded.name() + (byRun ? " of the runs' means" : "")
+                    + " [95 % bootstrap interval]");
             Map<String, double[]> samples = new LinkedHashMap<>();
-            groups.forEach(group -> samples.put(name(group), sample(group, byRun, budget, place)));
+            groups.forEach(group -> samples.put(name(group), sample(group, byRun, rewarded, budget, place)));
             samples.forEach((name, sample) -> lines.add("   " + name + "  "
                     + (sample.length == 0 ? "no gait" : MedianInterval.of(sample).text(1, 4))));
             PairTest.all(samples).forEach(pair -> lines.add("   " + pair.first() + " less " + pair.second() + "  "
-                    + pair.difference().text(1, 4) + ": " + pair.verdict()));
+                    + pair.difference().text(1, 4) + ": " + pair.verdict(rewarded.greater())));
         }
         return lines;
     }
@@ -102,12 +105,12 @@ public final class RunComparison {
                 + group.stream().map(i -> Integer.toString(i + 1)).collect(Collectors.joining("+"));
     }
 
-    private double[] sample(List<Integer> group, boolean byRun, EqualBudget budget, double place) {
+    private double[] sample(List<Integer> group, boolean byRun, Rewarded rewarded, EqualBudget budget, double place) {
         List<Double> sample = new ArrayList<>();
         for (int i : group) {
             List<Double> leader = runs.get(i).leader(budget, place);
             if (leader != null) {
-                List<Double> own = distances.get(i).get(leader);
+                List<Double> own = swims.get(i).get(leader).stream().map(rewarded.value()).toList();
                 sample.addAll(byRun ? List.of(Spread.of(own).mean()) : own);
             }
         }

@@ -52,12 +52,21 @@ public record PairTest(String first, String second, MedianInterval difference, R
         return p < LEVEL && difference.excludesZero();
     }
 
-    /** In words, no more than test and interval support. */
+    /** In words, no more than test and interval support, of samples of distances. */
     public String verdict() {
+        return verdict("further than");
+    }
+
+    /**
+     * The same of samples of anything.
+     *
+     * @param greater how the greater one is said to stand to the other: {@code better than}
+     */
+    public String verdict(String greater) {
         String why = " (p " + chance(p) + ", A = " + Numbers.fixed(test.a(), 2) + ")";
         if (isSeen()) {
-            boolean greater = difference.median() > 0;
-            return (greater ? first : second) + " further than " + (greater ? second : first) + why;
+            boolean isFirst = difference.median() > 0;
+            return (isFirst ? first : second) + " " + greater + " " + (isFirst ? second : first) + why;
         }
         return enough ? "no difference seen" + why : "too few to tell";
     }

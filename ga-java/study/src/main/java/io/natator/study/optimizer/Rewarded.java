@@ -1,0 +1,55 @@
+package io.natator.study.optimizer;
+
+import io.natator.config.EvolutionSettings;
+import io.natator.config.FitnessKind;
+import io.natator.config.WeightedObjective;
+import io.natator.simulator.SimulationResult;
+import java.util.Collection;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.function.Function;
+
+/**
+ * What runs are compared by.
+ *
+ * @param name    of it
+ * @param greater how what has more of it is said to stand to what has less
+ * @param value   what a swim has of it
+ */
+record Rewarded(String name, String greater, Function<SimulationResult, Double> value) {
+
+    private static final Function<SimulationResult, Double> SCORE = SimulationResult::score;
+    private static final Rewarded DISTANCE = new Rewarded("distance", "further than", SimulationResult::distanceOrZero);
+
+    /**
+     * What all runs were evolved for, or distance where that differs.
+     *
+     * @param runs  their settings
+     * @param swims of each, by genes
+     */
+    static Rewarded of(List<EvolutionSettings> runs, List<Map<List<Double>, List<SimulationResult>>> swims) {
+        Set<Rewarded> all = new HashSet<>();
+        for (int i = 0; i < runs.size(); i++) {
+            all.add(of(runs.get(i), swims.get(i).values()));
+        }
+        return all.size() == 1 ? all.iterator().next() : DISTANCE;
+    }
+
+    private static Rewarded of(EvolutionSettings run, Collection<List<SimulationResult>> swims) {
+        if (run.objectives() != null) {
+            // Of several without weights the first is the one that winners are told by.
+            boolean isSum = run.objectives().get(0).weight() != null;
+            return worth("worth by " + WeightedObjective.text(isSum ? run.objectives() : run.objectives().subList(0, 1)));
+        }
+        if (swims.stream().flatMap(List::stream).anyMatch(swim -> swim.goals() != null)) {
+            return worth("score by the goals of " + run.scene());
+        }
+        return run.fitness() == FitnessKind.NET ? worth("distance less the drift in vacuum") : DISTANCE;
+    }
+
+    private static Rewarded worth(String name) {
+        return new Rewarded(name, "better than", SCORE);
+    }
+}
