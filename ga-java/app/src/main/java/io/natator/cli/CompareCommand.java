@@ -8,6 +8,7 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
+import io.natator.config.Numbers;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
 import io.natator.study.optimizer.RunComparison;
@@ -119,7 +120,7 @@ final class CompareCommand implements Callable<Integer> {
     private static void printRow(int place, List<double[]> curves, PrintWriter out) {
         out.printf("%11d", place);
         for (double[] curve : curves) {
-            out.printf("%12s", curve.length < place || Double.isNaN(curve[place - 1]) ? "" : RunReport.number(curve[place - 1]));
+            out.printf("%12s", curve.length < place || Double.isNaN(curve[place - 1]) ? "" : Numbers.worth(curve[place - 1]));
         }
         out.println();
     }

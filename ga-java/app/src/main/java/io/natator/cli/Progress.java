@@ -91,7 +91,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
         }
         if (bar == null) {
             GenerationSummary last = state.history().get(state.history().size() - 1);
-            say(generation() + ", mean " + Numbers.fixed(last.mean(), 4) + ", " + counts());
+            say(generation() + ", mean " + Numbers.worth(last.mean()) + ", " + counts());
         }
     }
 
@@ -115,7 +115,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
 
     private String counts() {
         return String.format(Locale.ROOT, "best %s, evaluations %d of %s, elapsed %s, left %s",
-                best == null ? "-" : Numbers.fixed(best, 4), estimate.done(), estimate.total(), estimate.elapsed(),
+                best == null ? "-" : Numbers.worth(best), estimate.done(), estimate.total(), estimate.elapsed(),
                 estimate.left());
     }
 

@@ -122,7 +122,7 @@ final class ShowCommand implements Callable<Integer> {
         GenerationSummary last = run.state().history().get(run.state().generation());
         long more = Math.max(run.recorded().end() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
-                RunReport.number(last.best()), RunReport.number(last.mean()), RunReport.number(last.median()),
+                Numbers.worth(last.best()), Numbers.worth(last.mean()), Numbers.worth(last.median()),
                 run.state().isLastOf(run.settings()) ? "finished" : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
     }
 
@@ -143,7 +143,7 @@ final class ShowCommand implements Callable<Integer> {
         out.println("  " + run.settings().objectives().stream().map(one -> String.format("%-14s", EnumNames.of(one.objective())))
                 .collect(Collectors.joining()) + "runs  genes");
         for (Individual one : front) {
-            out.println("  " + one.objectives().stream().map(value -> String.format("%-14s", RunReport.number(value)))
+            out.println("  " + one.objectives().stream().map(value -> String.format("%-14s", Numbers.worth(value)))
                     .collect(Collectors.joining()) + String.format("%-6d", one.runs()) + RunReport.row(one.genes()));
         }
     }

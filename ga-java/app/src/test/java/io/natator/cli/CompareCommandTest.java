@@ -155,6 +155,22 @@ class CompareCommandTest extends FakeSimulatorTest {
     }
 
     @Test
+    void aSmallWorthIsNotNothing() throws IOException {
+        for (String optimizer : List.of("random", "cma-es")) {
+            assertThat(evolve(optimizer, "--optimizer", optimizer, "--objectives", "work=0.00001", "--evaluations", "16"))
+                    .as(err.toString()).isZero();
+        }
+        assertThat(out.toString()).containsPattern("selected +-0\\.0{4,}[1-9]\\d\\d by one run, -0\\.0{4,}[1-9]\\d\\d again");
+        out.getBuffer().setLength(0);
+        assertThat(natator("show", folder.resolve("random").toString())).isZero();
+        assertThat(out.toString()).containsPattern("best -0\\.0{4,}[1-9]\\d\\d, mean -0\\.0{4,}[1-9]\\d\\d, median -0\\.0{4,}[1-9]\\d\\d;");
+        out.getBuffer().setLength(0);
+        assertThat(natator("compare", "--starts", "2", folder.resolve("random").toString(), folder.resolve("cma-es").toString()))
+                .isZero();
+        assertThat(out.toString()).containsPattern("\n +16 +-0\\.0{4,}[1-9]\\d\\d").containsPattern("\n   run 1  -0\\.0{4,}[1-9]");
+    }
+
+    @Test
     void steeredGaitsAreToldWithTheirOffsets() throws IOException {
         assertThat(evolve("dense", "--encoding", "dense-steered")).isZero();
         assertThat(evolve("sparse", "--encoding", "sparse-steered")).isZero();

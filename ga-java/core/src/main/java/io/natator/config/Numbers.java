@@ -12,6 +12,9 @@ public final class Numbers {
 
     private static final int MORE_DECIMALS = 2;
 
+    private static final int WORTH_DECIMALS = 4;
+    private static final int WORTH_DIGITS = 3;
+
     private Numbers() {
     }
 
@@ -57,6 +60,18 @@ public final class Numbers {
 
     private static boolean roundsToNothing(double error, int decimals) {
         return Math.abs(error) < 0.5 * Math.pow(10, -decimals);
+    }
+
+    /** What a gait is worth: with four decimals, or as many as show three digits of what is less than 0.001, such as an efficiency. */
+    public static String worth(double value) {
+        return fixed(value, worthDecimals(value));
+    }
+
+    /** The decimals that {@link #worth} shows of a value; of several they are those of the one that is furthest from 0. */
+    public static int worthDecimals(double value) {
+        double size = Math.abs(value);
+        return size == 0 || size >= Math.pow(10, 1 - WORTH_DECIMALS) ? WORTH_DECIMALS
+                : WORTH_DIGITS - 1 - (int) Math.floor(Math.log10(size));
     }
 
     /** So many of what a word stands for that has its plural by an s: 1 gait, 2 gaits. */

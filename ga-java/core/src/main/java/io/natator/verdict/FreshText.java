@@ -39,9 +39,9 @@ public final class FreshText {
         }
         lines.put("speed", spread(base.speed(), 4) + " units/s" + (base.bodyLengths() == null ? ""
                 : ", " + spread(base.bodyLengths(), 3) + " body lengths/s, " + spread(base.perBeat(), 3) + " per beat"));
-        lines.put("selected", Numbers.fixed(fresh.selected(), 4) + " by " + (fresh.selectedRuns() == 1 ? "one run"
+        lines.put("selected", Numbers.worth(fresh.selected()) + " by " + (fresh.selectedRuns() == 1 ? "one run"
                 : judge(fresh.judge()) + " of " + fresh.selectedRuns() + " runs") + ", "
-                + (fresh.judge() == Judge.MEAN ? "" : judge(fresh.judge()) + " ") + Numbers.fixed(fresh.again(), 4) + " again"
+                + (fresh.judge() == Judge.MEAN ? "" : judge(fresh.judge()) + " ") + Numbers.worth(fresh.again()) + " again"
                 + (fresh.selectionLoss() == null ? "" : ": selection loss " + Numbers.fixed(100 * fresh.selectionLoss(), 1) + " %"));
         return lines;
     }

@@ -35,6 +35,14 @@ class NumbersTest {
         assertThatThrownBy(() -> Numbers.parse(text)).isInstanceOf(NumberFormatException.class);
     }
 
+    /** An efficiency, distance by work, is far below a ten-thousandth. */
+    @ParameterizedTest
+    @CsvSource({"0.81234,0.8123", "-5600.5,-5600.5000", "0,0.0000", "-0.0,0.0000", "0.001,0.0010", "0.00099949,0.000999",
+        "1.3199e-5,0.0000132", "-4.9951e-6,-0.00000500"})
+    void aSmallWorthKeepsItsDigits(double value, String text) {
+        assertThat(Numbers.worth(value)).isEqualTo(text);
+    }
+
     @ParameterizedTest
     @CsvSource({"0,0 gaits", "1,1 gait", "2,2 gaits"})
     void oneIsNotSeveral(long count, String text) {

@@ -10,6 +10,7 @@ import io.natator.study.statistics.MedianInterval;
 import io.natator.study.statistics.PairTest;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -78,10 +79,12 @@ public final class RunComparison {
                     + " [95 % bootstrap interval]");
             Map<String, double[]> samples = new LinkedHashMap<>();
             groups.forEach(group -> samples.put(name(group), sample(group, byRun, rewarded, budget, place)));
+            int decimals = Numbers.worthDecimals(
+                    samples.values().stream().flatMapToDouble(Arrays::stream).map(Math::abs).max().orElse(0));
             samples.forEach((name, sample) -> lines.add("   " + name + "  "
-                    + (sample.length == 0 ? "no gait" : MedianInterval.of(sample).text(1, 4))));
+                    + (sample.length == 0 ? "no gait" : MedianInterval.of(sample).text(1, decimals))));
             PairTest.all(samples).forEach(pair -> lines.add("   " + pair.first() + " less " + pair.second() + "  "
-                    + pair.difference().text(1, 4) + ": " + pair.verdict(rewarded.greater())));
+                    + pair.difference().text(1, decimals) + ": " + pair.verdict(rewarded.greater())));
         }
         return lines;
     }
