@@ -33,6 +33,11 @@ public record WeightedObjective(Objective objective, Double weight) {
         return all;
     }
 
+    /** What generations and winners are told by: a sum, or of several without weights the first. */
+    public static List<WeightedObjective> leading(List<WeightedObjective> objectives) {
+        return objectives.get(0).weight == null ? objectives.subList(0, 1) : objectives;
+    }
+
     /** Some as text, as {@link #parse} reads it. */
     public static String text(List<WeightedObjective> objectives) {
         return objectives.stream().map(one -> one.objective.name().toLowerCase(Locale.ROOT)

@@ -125,9 +125,8 @@ public final class Evolution {
                 }
             }
         }
-        double[] scores = population.stream().mapToDouble(Individual::score).toArray();
         List<GenerationSummary> history = new ArrayList<>(before == null ? List.of() : before.history());
-        history.add(GenerationSummary.of(generation, scores, simulated.size(),
+        history.add(GenerationSummary.of(generation, population, simulated.size(),
                 count(SimulationResult.Status.UNSTABLE), count(SimulationResult.Status.FAILED)).withUnchanged(unchanged(population)));
         EvolutionState state = new EvolutionState(generation, evaluations, population, best, history, champions);
         listeners.forEach(listener -> listener.generationFinished(state));

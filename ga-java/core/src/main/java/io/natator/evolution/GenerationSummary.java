@@ -3,16 +3,18 @@ package io.natator.evolution;
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.annotation.JsonPropertyOrder;
 import java.util.Arrays;
+import java.util.List;
 
 /**
  * Figures of one generation. Distances are in scene units, negative is backwards, and a chromosome whose evaluation was
- * unstable or failed counts as 0.
+ * unstable or failed counts as 0. Where gaits are worth something else it is left out of best, mean, median and worst: what it is
+ * worth by a run's objectives is none of their values, and by goals others may be worth less than 0.
  *
  * @param generation  0 is the random one
- * @param best        greatest distance
- * @param mean        mean distance
- * @param median      median distance
- * @param worst       least distance
+ * @param best        greatest distance, or worth by the run's objectives or the scene's goals
+ * @param mean        mean of them
+ * @param median      median of them
+ * @param worst       the least
  * @param population  chromosomes in the generation
  * @param evaluations simulations for it
  * @param unstable    simulations that became unstable
@@ -31,6 +33,14 @@ public record GenerationSummary(int generation, double best, double mean, double
         this(generation, best, mean, median, worst, population, evaluations, unstable, failed, null);
     }
 
+    /** Summarises a population, at least one. */
+    static GenerationSummary of(int generation, List<Individual> population, int evaluations, int unstable, int failed) {
+        List<Individual> measured = population.stream().filter(Individual::isMeasured).toList();
+        boolean distances = measured.stream().allMatch(one -> one.objectives() == null && one.result().goals() == null);
+        double[] scores = (distances ? population : measured).stream().mapToDouble(Individual::score).toArray();
+        return of(generation, scores, evaluations, unstable, failed).withPopulation(population.size());
+    }
+
     /**
      * Summarises the distances of all chromosomes of a generation.
      *
@@ -47,6 +57,10 @@ public record GenerationSummary(int generation, double best, double mean, double
         double mean = Arrays.stream(sorted).sum() / count;
         return new GenerationSummary(generation, sorted[count - 1], mean, median, sorted[0], count, evaluations,
                 unstable, failed);
+    }
+
+    private GenerationSummary withPopulation(int count) {
+        return new GenerationSummary(generation, best, mean, median, worst, count, evaluations, unstable, failed, unchanged);
     }
 
     /** The same with a count of the chromosomes that were not newly simulated. */

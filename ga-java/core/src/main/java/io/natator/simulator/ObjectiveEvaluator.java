@@ -10,8 +10,10 @@ import java.util.function.Consumer;
 /** Tells what each result is worth by a run's objectives. */
 public final class ObjectiveEvaluator implements Evaluator {
 
-    /** A run that did not come to its end turned and worked more than any that did. */
-    private static final double FAILED = -1e6;
+    /** Yaw and roll of a run that did not come to its end: no other can have turned more. */
+    private static final double LEAST_STRAIGHT = -2 * Math.PI;
+    /** Its work, more than that of one that did. */
+    private static final double MOST_WORK = -1e6;
 
     private final Evaluator evaluator;
     private final List<WeightedObjective> objectives;
@@ -46,7 +48,7 @@ public final class ObjectiveEvaluator implements Evaluator {
 
     private static double value(Objective objective, SimulationResult result) {
         if (result.status() != SimulationResult.Status.OK) {
-            return objective == Objective.STRAIGHT || objective == Objective.WORK ? FAILED : 0;
+            return objective == Objective.STRAIGHT ? LEAST_STRAIGHT : objective == Objective.WORK ? MOST_WORK : 0;
         }
         return switch (objective) {
             case DISTANCE -> result.distance();

@@ -4,6 +4,7 @@ import io.natator.checkpoint.CompactRun;
 import io.natator.checkpoint.RunFolder;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.EvolutionSettings;
+import io.natator.config.WeightedObjective;
 import io.natator.evolution.GenerationSummary;
 import io.natator.plot.Drawing;
 import io.natator.plot.Picture;
@@ -16,7 +17,7 @@ import org.knowm.xchart.XYChart;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** The fitness curve: best, mean and median distance against the generation. */
+/** The fitness curve: best, mean and median distance, or worth by the run's objectives, against the generation. */
 public final class FitnessPlot {
 
     private static final Logger LOG = LoggerFactory.getLogger(FitnessPlot.class);
@@ -27,7 +28,7 @@ public final class FitnessPlot {
 
     /** Draws the curve of a finished run into its folder; where Java cannot draw, a warning says so. */
     public static void draw(RunFolder run, List<GenerationSummary> history) {
-        draw(run.settings(), history, run.plots());
+        drawOrWarn(run.settings(), history, run.plots());
     }
 
     /**
@@ -37,14 +38,14 @@ public final class FitnessPlot {
     public static void drawIfMissing(Path run) {
         Path plots = RunFolder.plots(run);
         if (!CompactRun.isCompact(run) && !Files.exists(plots.resolve(NAME + ".png"))) {
-            draw(StoredRun.settings(run), StoredRun.state(run).history(), plots);
+            drawOrWarn(StoredRun.settings(run), StoredRun.state(run).history(), plots);
         }
     }
 
-    private static void draw(EvolutionSettings settings, List<GenerationSummary> history, Path folder) {
+    private static void drawOrWarn(EvolutionSettings settings, List<GenerationSummary> history, Path folder) {
         try {
             // A Java without fonts still has the curve in generations.csv.
-            Drawing.orWarn("fitness curve", () -> draw(settings.scene() + ", seed " + settings.seed(), history, folder));
+            Drawing.orWarn("fitness curve", () -> draw(settings, history, folder));
         } catch (IOException e) {
             LOG.warn("fitness curve not drawn: {}", e.toString());
         }
@@ -53,16 +54,21 @@ public final class FitnessPlot {
     /**
      * Draws {@code fitness.png} into a folder.
      *
-     * @param title   what the curve shows
-     * @param history at least one generation
+     * @param settings of the run
+     * @param history  at least one generation
      * @throws IOException if a file cannot be written
      */
-    public static void draw(String title, List<GenerationSummary> history, Path folder) throws IOException {
-        XYChart chart = Charts.lines(title, "generation", "distance (scene units)");
+    public static void draw(EvolutionSettings settings, List<GenerationSummary> history, Path folder) throws IOException {
+        Picture.save(chart(settings, history), folder.resolve(NAME));
+    }
+
+    static XYChart chart(EvolutionSettings settings, List<GenerationSummary> history) {
+        XYChart chart = Charts.lines(settings.scene() + ", seed " + settings.seed(), "generation", settings.objectives() == null
+                ? "distance (scene units)" : "worth by " + WeightedObjective.text(WeightedObjective.leading(settings.objectives())));
         add(chart, "best", history, GenerationSummary::best, 0);
         add(chart, "mean", history, GenerationSummary::mean, 1);
         add(chart, "median", history, GenerationSummary::median, 2);
-        Picture.save(chart, folder.resolve(NAME));
+        return chart;
     }
 
     private static void add(XYChart chart, String name, List<GenerationSummary> history,

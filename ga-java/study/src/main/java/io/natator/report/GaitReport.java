@@ -155,7 +155,7 @@ public final class GaitReport {
 
     private void course(ReportDocument page) throws IOException {
         page.heading(2, "Course of the run");
-        FitnessPlot.draw(run.settings().scene() + ", seed " + run.settings().seed(), run.state().history(), folder);
+        FitnessPlot.draw(run.settings(), run.state().history(), folder);
         page.picture(folder.resolve("fitness.png"), "fitness over generations");
         List<Individual> front = run.front();
         for (int other = 1; !front.isEmpty() && other < run.settings().objectives().size(); other++) {

@@ -39,9 +39,7 @@ record Rewarded(String name, String greater, Function<SimulationResult, Double> 
 
     private static Rewarded of(EvolutionSettings run, Collection<List<SimulationResult>> swims) {
         if (run.objectives() != null) {
-            // Of several without weights the first is the one that winners are told by.
-            boolean isSum = run.objectives().get(0).weight() != null;
-            return worth("worth by " + WeightedObjective.text(isSum ? run.objectives() : run.objectives().subList(0, 1)));
+            return worth("worth by " + WeightedObjective.text(WeightedObjective.leading(run.objectives())));
         }
         if (swims.stream().flatMap(List::stream).anyMatch(swim -> swim.goals() != null)) {
             return worth("score by the goals of " + run.scene());
