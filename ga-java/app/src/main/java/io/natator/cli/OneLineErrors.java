@@ -26,6 +26,8 @@ final class OneLineErrors {
     /** How picocli tells of several arguments that it has too few of. */
     private static final Pattern TOO_FEW = Pattern.compile("(\\S+) requires at least (\\d+) values, but only (\\d+) were specified: .*");
 
+    private static final Pattern NONE = Pattern.compile("(\\S+) requires at least (\\d+) values, but none were specified\\.");
+
     private OneLineErrors() {
     }
 
@@ -40,7 +42,8 @@ final class OneLineErrors {
 
     private static String inOurWords(String message) {
         String named = PLACE.matcher(message).replaceAll("$1");
-        return TOO_FEW.matcher(named).replaceFirst("found $3 $1; expected at least $2");
+        String counted = NONE.matcher(named).replaceFirst("found no $1; expected at least $2");
+        return TOO_FEW.matcher(counted).replaceFirst("found $3 $1; expected at least $2");
     }
 
     /** What was not understood; null if nothing, or it stands where an option's value should, which the message alone tells. */

@@ -37,6 +37,8 @@ class BadUsageTest extends FakeSimulatorTest {
         "reproduce --output-dir NEVER --creature 2,x|--creature is x; expected a whole number",
         "reproduce --output-dir NEVER --creature 2,2|--creature has 2 twice; expected each once",
         "reproduce --output-dir NEVER --water flex,open-water,flex|--water has flex twice; expected each once",
+        "compare|natator compare: found no RUN; expected at least 2; see natator compare --help",
+        "compare NEVER|natator compare: found 1 RUN; expected at least 2; see natator compare --help",
         "compare NEVER NEVER --starts 1|--starts is 1; expected 0, or a whole number from 2 to 1000",
         "compare-optimizers --output-dir NEVER --seeds 100000|--seeds is 100000; expected a whole number from 1 to 10000",
         "compare-optimizers --output-dir NEVER --runs-at-once 5000|--runs-at-once is 5000; expected a whole number from 1 to 1024",
