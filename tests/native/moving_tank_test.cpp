@@ -119,6 +119,16 @@ TEST(MovingTank, AStreamIsWhatAnEvaluationIs) {
     EXPECT_NEAR(live.distance(), whole.distance, 1e-6);  // of places that were rounded when they were moved
 }
 
+/// The controls of a swim take water and walls away: what is left is a body in vacuum, which gets nowhere by its gait.
+TEST(MovingTank, WithoutWaterAndWallsThereIsNone) {
+    const Scene scene = moving_scene(
+        R"({"duration": 0.5, "fluid": null, "planes": [], "solver": {"gravity": [0, 0, 0]}, "movingTank": {"current": [-0.4, 0, 0]}})");
+    const Evaluation swim = evaluate(scene, tail_beat);
+    EXPECT_EQ(swim.stopped, StopReason::completed);
+    EXPECT_FALSE(swim.renewal);
+    EXPECT_NEAR(swim.distance, 0, 1e-5);
+}
+
 TEST(MovingTank, ScenesThatItCantFollowAreRefused) {
     const struct {
         const char* overrides;

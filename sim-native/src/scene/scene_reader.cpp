@@ -137,8 +137,10 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
         scene.companions = fields::read_companions(document.at("companions"), place.key("companions"), data);
     if (document.contains("obstacles"))
         scene.obstacles = fields::read_obstacles(document.at("obstacles"), place.key("obstacles"), data);
-    if (fields::has(document, "movingTank"))
+    if (fields::has(document, "movingTank")) {
         scene.moving_tank = fields::read_moving_tank(document.at("movingTank"), place.key("movingTank"));
+        if (!scene.fluid && scene.planes.empty()) scene.moving_tank.reset();  // nothing is left to go along
+    }
     if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));
     check_frames(scene, place);
     check_water(scene, place);

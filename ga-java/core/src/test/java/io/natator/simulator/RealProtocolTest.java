@@ -5,15 +5,18 @@ import static org.assertj.core.api.Assertions.within;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import io.natator.config.Json;
+import io.natator.encoding.Gait;
 import io.natator.simulator.SimulationResult.Status;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Arrays;
+import java.util.Collections;
 import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 /** What the real simulator says, against the schema and the reader on this side. */
 class RealProtocolTest {
@@ -61,5 +64,17 @@ class RealProtocolTest {
         assertThat(results.stream().map(SimulationResult::hash).distinct()).hasSize(3);
         assertThat(results.get(0).course().forward()).isCloseTo(results.get(0).distance(), within(0.01));
         assertThat(results.get(0).work()).isNotNull();
+    }
+
+    /** The control of every swim: a tank that goes along, or has no ends, is taken away with its water. */
+    @ParameterizedTest
+    @ValueSource(strings = {"endless/eel", "goals/hold", "company/school", "pool/eel"})
+    void anySceneCanBeSwumInVacuum(String scene) throws Exception {
+        List<Double> eight = Collections.nCopies(8, 0.5);
+        SimulationRequest swim = new SimulationRequest(9, scene, new Gait(2, eight, eight), 0.2, null, null);
+        try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
+            String answer = program.call(List.of("evaluate"), Json.line(VacuumRequests.of(swim, 0.2)) + "\n").text();
+            assertThat(ResultReader.read(answer).distance()).as(answer).isCloseTo(0, within(1e-4));
+        }
     }
 }
