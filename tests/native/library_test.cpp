@@ -105,6 +105,13 @@ Scene own_scene() {
     return scene;
 }
 
+/// Some water of scheme `conserving`, far from the swimmer.
+Scene& make_water(Scene& scene) {
+    scene.scheme = Scheme::conserving;
+    scene.fluid = FluidBlock{.count = {2, 2, 2}, .origin = {5, 5, 5}};
+    return scene;
+}
+
 /// What a program makes no reader has checked: it would read beyond the ends of lists.
 TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
     const std::pair<void (*)(Scene&), const char*> changes[] = {
@@ -121,13 +128,24 @@ TEST(OwnSceneTest, WhatDoesNotFitTogetherIsRefused) {
         {[](Scene& scene) { scene.fluid = FluidBlock{.count = {-5, -5, 5}}; }, "fluid.count = -5: must be at least 1"},
         {[](Scene& scene) { scene.fluid = FluidBlock{.count = {2000000000, 2000000000, 2000000000}}; }, "must be at most 16000000"},
         {[](Scene& scene) { scene.fluid = FluidBlock{.spacing = 0}; }, "fluid.spacing = 0: must be a finite number above 0"},
-        {[](Scene& scene) { scene.solver.radius = NAN; }, "solver.radius = NaN: must be a finite number above 0"},
+        {[](Scene& scene) { scene.solver.radius = NAN; }, "solver.radius = NaN: must be a number in (0, 1000] (length)"},
         {[](Scene& scene) { scene.creature->refinement = 65536; }, "30399297484750848 particles"},
         {[](Scene& scene) { scene.creature->slices[0] = {.height = 65536, .width = 65536}; }, "4294967395 particles"},
         {[](Scene& scene) { scene.duration = NAN; }, "duration = NaN: must be a finite number of at least 0"},
         {[](Scene& scene) { scene.obstacles.emplace_back().radius = NAN; }, "obstacles[0].radius = NaN: must be a finite number above 0"},
-        {[](Scene& scene) { scene.solver.substeps = 0; }, "solver.substeps = 0: must be at least 1"},
-        {[](Scene& scene) { scene.solver.kernelSupport = 1e6; }, "solver.kernelSupport = 1e+06: must be a number in [2, 4] (rest"},
+        {[](Scene& scene) { scene.solver.substeps = 0; }, "solver.substeps = 0: must be a whole number in [1, 1000]"},
+        {[](Scene& scene) { scene.solver.gravity.y() = NAN; }, "solver.gravity[1] = NaN: must be a number in [-1000, 1000] (length/s^2)"},
+        {[](Scene& scene) { scene.solver.kinematicViscosity = NAN; }, "solver.kinematicViscosity = NaN: must be a number in [0, 1000]"},
+        {[](Scene& scene) { scene.solver.solidRestDistance = 0.2; }, "solver.solidRestDistance = 0.2: must be at most radius = 0.15"},
+        {[](Scene& scene) { scene.solver.radius = 1000; }, "solver.fluidRestDistance = 0.1: must be at least radius / 20, radius = 1000"},
+        {[](Scene& scene) { scene.solver.maxSpeed = scene.solver.maxAcceleration = INFINITY; }, ""},
+        {[](Scene& scene) { scene.planes = {{{0, 1, 0}, 0}, {{0, 2, 0}, 1}}; }, "planes[1] = [0.0,2.0,0.0,1.0]: must be [a, b, c, d] with (a,"},
+        {[](Scene& scene) { scene.planes = {{{0, 1, 0}, NAN}}; }, "planes[0][3] = NaN: must be a finite number (length)"},
+        {[](Scene& scene) { scene.settling.substeps = 0; }, "settling.substeps = 0: must be at least 1"},
+        {[](Scene& scene) { make_water(scene).solver.kinematicViscosity = 1; }, "solver.kinematicViscosity = 1.0: must be at most 0.24 (0.1"},
+        {[](Scene& scene) { make_water(scene).planes = {{{0, 1, 0}, 0}, {{0.6, 0.8, 0}, 9}}; },
+         "planes[1] = [0.6,0.8,0.0,9.0]: must be at a right angle to planes[0] or facing it, in scheme conserving"},
+        {[](Scene& scene) { scene.solver.kernelSupport = 1e6; }, "solver.kernelSupport = 1000000.0: must be a number in [2, 4] (rest"},
     };
     for (const auto& [change, expected] : changes) {
         Scene scene = own_scene();
@@ -175,6 +193,8 @@ TEST(OwnSceneTest, ASolverRefusesAModelWhoseListsDoNotBelongTogether) {
          "model: parameters.kernelSupport = 1e+06: must be a number in [2, 4] (rest distances of the fluid)"},
         {[](Model& model) { model.parameters.kernelSupport = 1.999; }, "model: parameters.kernelSupport = 1.999: must be"},
         {[](Model& model) { model.parameters.kernelSupport = NAN; }, "model: parameters.kernelSupport = NaN: must be"},
+        {[](Model& model) { model.parameters.fluidRestDistance = 1e-6; },
+         "model: parameters.fluidRestDistance = 1e-06: must be at least radius / 20, radius = 0.15"},
         {[](Model& model) { model.parameters.kernelSupport = 4; }, ""},
     };
     for (const auto& [change, expected] : changes) {
@@ -204,6 +224,10 @@ TEST(OwnSceneTest, ASolverRefusesAGaitADriveAndAStateOfAnotherModel) {
         EXPECT_NE(test::refusal_of([&] { solver.frame(state, [](double) { return std::vector<double>{0, NAN}; }); })
                       .find("drive[1] = NaN: must be a number in [-2, 2]"),
                   std::string::npos);
+        EXPECT_NE(test::refusal_of([&] { solver.update(state, 0.01, 0); }).find("substeps = 0: must be at least 1"), std::string::npos);
+        EXPECT_NE(test::refusal_of([&] { solver.update(state, NAN, 1); }).find("time step = NaN: must be a finite number above 0"),
+                  std::string::npos);
+        EXPECT_NE(test::refusal_of([&] { solver.update(state, -0.01, 1); }).find("time step = -0.01: must be"), std::string::npos);
         state.position.pop_back();
         EXPECT_NE(test::refusal_of([&] { solver.update(state, 0.01, 1); }).find("must have 108, 4, "), std::string::npos);
     }

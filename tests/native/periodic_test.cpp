@@ -387,7 +387,7 @@ TEST(Periodic, AnObstacleMayGoAllAlong) {
 
 TEST(Periodic, AllOtherPlanesAreAlongTheAxis) {
     Scene scene = round_tank();
-    scene.planes.push_back({{0.6, 0, 0.8}, 0});
+    scene.planes = {{{0, 1, 0}, 0}, {{0.6, 0, 0.8}, 0}};
     try {
         build_model(scene);
         ADD_FAILURE() << "accepted";

@@ -75,7 +75,7 @@ const BadInput bad_scenes[] = {
     {R"({"solver":{"fluidRestDistance":1e-10}})", "solver.fluidRestDistance = 1e-10", "at least radius / 20, radius = 0.15"},
     {R"({"solver":{"relaxationFactor":-0.1}})", "solver.relaxationFactor = -0.1", "[0, 10]"},
     {R"({"planes":[[0,2,0,0]]})", "planes[0][1] = 2", "[-1, 1]"},
-    {R"({"planes":[[0.5,0.5,0,0]]})", "planes[0] = [0.5,0.5,0,0]", "of length 1"},
+    {R"({"planes":[[0.5,0.5,0,0]]})", "planes[0] = [0.5,0.5,0.0,0.0]", "of length 1"},
     {R"({"fluid":{"count":[50,0,17]}})", "fluid.count[1] = 0", "[1, 10000]"},
     {R"({"fluid":{"mass":{"bottom":-2}}})", "fluid.mass.bottom = -2", "[1e-06, 1e+06]"},
     {R"({"fluid":{"mass":{"top":0}}})", "fluid.mass.top = 0", "[1e-06, 1e+06]"},

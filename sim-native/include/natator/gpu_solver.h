@@ -47,7 +47,7 @@ public:
     GpuSolver& operator=(GpuSolver&&) noexcept;
 
     /// Advances `state` by `time_step` (s) in `substeps` equal substeps, with the rest lengths it holds. Returns where
-    /// the state stopped being finite; `state` then keeps its values from before that substep. The observer is told after the
+    /// the state stopped being finite; `state` then keeps its values from before that substep. Throws as Solver's. The observer is told after the
     /// last substep what it would have seen in all of them; what is kept for it takes device memory.
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps,
                                       StepObserver<Real>* observer = nullptr);

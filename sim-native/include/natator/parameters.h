@@ -18,8 +18,8 @@ enum class RelaxationMode {
 };
 
 /// Solver parameters under the names of NVIDIA Flex, defaults from Appendix A of the thesis.
-/// Units are those of the scene (length, second, mass); the ranges are checked when a scene is read, that of `kernelSupport` also
-/// in a Scene or Model that a program makes.
+/// Units are those of the scene (length, second, mass); the ranges (sim-native/protocol/scenes.md) are checked when a scene is read and
+/// in build_model, in a Model that a program makes those of `kernelSupport` and of radius / fluidRestDistance alone.
 struct SolverParameters {
     int substeps = 4;       ///< substeps per frame, >= 1
     int numIterations = 4;  ///< constraint iterations per substep, >= 1

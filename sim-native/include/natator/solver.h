@@ -45,7 +45,8 @@ public:
     Solver& operator=(Solver&&) noexcept;
 
     /// Advances `state` by `time_step` (s) in `substeps` equal substeps, with the rest lengths it holds.
-    /// Returns where the state stopped being finite; `state` then keeps its values from before that substep.
+    /// Returns where the state stopped being finite; `state` then keeps its values from before that substep. Throws InputError
+    /// unless the time step is above 0 and there is a substep.
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps,
                                       StepObserver<Real>* observer = nullptr);
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "check_kernel_support.h"
 #include "io/strict_json.h"
 #include "natator/error.h"
+#include "scene/readers.h"
 
 namespace natator {
 namespace {
@@ -37,7 +37,6 @@ public:
                 refuse(key + ("[" + std::to_string(i) + "]"), slices[i],
                        "a slice in [" + std::to_string(first) + ", " + std::to_string(last) + "]");
     }
-    const std::string& place() const { return place_; }
     [[noreturn]] void refuse(const std::string& key, double value, const std::string& must_be) const {
         throw InputError(place_ + key + " = " + number_text(value) + ": must be " + must_be);
     }
@@ -78,6 +77,12 @@ void check_fluid(const FluidBlock& fluid, const Check& check) {
     check.above_zero("mass.top", fluid.top_mass);
 }
 
+void check_settling(const Settling& settling, const Check& check) {
+    check.at_least("updates", 0, settling.updates);
+    check.above_zero("timeStep", settling.time_step);
+    check.at_least("substeps", 1, settling.substeps);
+}
+
 void check_obstacle(const Obstacle& obstacle, const Check& check) {
     check.above_zero("spacing", obstacle.spacing);
     if (obstacle.shape == Obstacle::Shape::sphere) check.above_zero("radius", obstacle.radius);
@@ -85,26 +90,20 @@ void check_obstacle(const Obstacle& obstacle, const Check& check) {
         for (const double edge : obstacle.size) check.above_zero("size", edge);
 }
 
-void check_solver(const SolverParameters& solver, const Check& check) {
-    check.at_least("substeps", 1, solver.substeps);
-    check.at_least("numIterations", 1, solver.numIterations);
-    check.at_least("solidIterations", 1, solver.solidIterations);
-    check.above_zero("radius", solver.radius);
-    check.above_zero("solidRestDistance", solver.solidRestDistance);
-    check.above_zero("fluidRestDistance", solver.fluidRestDistance);
-    if (solver.fluidRestDistance >= solver.radius)
-        check.refuse("fluidRestDistance", solver.fluidRestDistance, "less than radius = " + number_text(solver.radius));
-    check_kernel_support(solver, check.place());
-}
-
 }  // namespace
 
 void check_scene(const Scene& scene) {
-    const Check check("scene " + quoted(scene.name) + ": ");
+    const fields::Place place{"scene " + quoted(scene.name), ""};
+    const Check check(place.document + ": ");
     check.zero_or_above("duration", scene.duration);
     check.above_zero("timeStep", scene.time_step);
-    check_solver(scene.solver, check.at("solver."));
-    if (scene.fluid) check_fluid(*scene.fluid, check.at("fluid."));
+    fields::check_solver(scene.solver, place.key("solver"));
+    for (std::size_t k = 0; k < scene.planes.size(); ++k) fields::check_plane(scene.planes[k], place.key("planes").item(k));
+    check_settling(scene.settling, check.at("settling."));
+    if (scene.fluid) {
+        check_fluid(*scene.fluid, check.at("fluid."));
+        fields::check_water(scene, place);
+    }
     if (scene.creature) check_creature(*scene.creature, check.at("creature."));
     for (std::size_t k = 0; k < scene.companions.size(); ++k)
         check_creature(scene.companions[k].creature, check.at("companions[" + std::to_string(k) + "].creature."));

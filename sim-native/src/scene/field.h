@@ -56,6 +56,14 @@ void read(const json& value, const Place& place, const Range& range, std::string
 void read(const json& value, const Place& place, const Range& range, Eigen::Vector3d& out);
 void read(const json& value, const Place& place, const Range& range, Eigen::Vector3i& out);
 
+/// A value as a document would have it.
+template <class Value>
+json as_json(const Value& value) {
+    return value;
+}
+inline json as_json(const Eigen::Vector3d& value) { return {value.x(), value.y(), value.z()}; }
+inline json as_json(const Eigen::Vector3i& value) { return {value.x(), value.y(), value.z()}; }
+
 /// Refuses a value other than 0 (false, a vector of zeros).
 void require_zero(const json& value, const Place& place, const std::string& reason);
 
@@ -111,6 +119,18 @@ void read_object(const json& object, const Place& place, const std::vector<Field
         if (found == object.end()) continue;
         const Place at = place.key(field.key);
         std::visit([&](auto member) { read(*found, at, field.range, out.*member); }, field.member);
+    }
+}
+
+/// Refuses a field of `table` whose value in `object`, which a program has made, no document could give it.
+template <class T>
+void check_object(const T& object, const Place& place, const std::vector<Field<T>>& table) {
+    for (const Field<T>& field : table) {
+        const auto check = [&](auto member) {
+            auto value = object.*member;
+            read(as_json(value), place.key(field.key), field.range, value);
+        };
+        std::visit(check, field.member);
     }
 }
 

@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "io/strict_json.h"
@@ -16,7 +14,6 @@ using nlohmann::json;
 
 constexpr std::size_t max_planes = 32;
 constexpr double max_frames = 10'000'000;
-constexpr double normal_tolerance = 1e-4;  // of a plane normal's length
 
 const std::vector<Field<Scene>>& scene_fields() {
     static const std::vector<Field<Scene>> table = {
@@ -52,9 +49,7 @@ Plane read_plane(const json& value, const Place& place) {
         fields::read(value[i], place.item(i), {-1, 1}, plane.normal[static_cast<Eigen::Index>(i)]);
     }
     fields::read(value[3], place.item(3), {-10000, 10000, false, "length"}, plane.offset);
-    if (std::abs(plane.normal.norm() - 1) > normal_tolerance) {
-        refuse(place, value, "[a, b, c, d] with (a, b, c) of length 1");
-    }
+    fields::check_plane(plane, place);
     plane.normal.normalize();
     return plane;
 }
@@ -73,36 +68,6 @@ void check_frames(const Scene& scene, const Place& place) {
         fields::refuse(place.key("duration"), scene.duration, "at most 10 million time steps of timeStep");
     }
     if (frames < 0.5) fields::refuse(place.key("duration"), scene.duration, "at least one timeStep");
-}
-
-/// The water's viscosity is explicit: nu h / s^2 must stay below a tenth, h the longest substep and s the rest distance.
-void check_viscosity(const Scene& scene, const Place& place) {
-    double h = scene.time_step / scene.solver.substeps;
-    if (scene.settling.updates > 0) h = std::max(h, scene.settling.time_step / scene.settling.substeps);
-    const double most = 0.1 * scene.solver.fluidRestDistance * scene.solver.fluidRestDistance / h;
-    if (!(scene.solver.kinematicViscosity > most)) return;
-    fields::refuse(place.key("solver").key("kinematicViscosity"), scene.solver.kinematicViscosity,
-                   "at most " + computed_text(most) + " (0.1 fluidRestDistance^2 / longest substep, settling included)");
-}
-
-/// Mirrors fill space only where they meet at right angles, or face each other.
-void check_mirrors(const Scene& scene, const Place& place) {
-    constexpr double tolerance = 1e-3;
-    for (std::size_t i = 0; i < scene.planes.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k) {
-            const double cosine = scene.planes[i].normal.dot(scene.planes[k].normal);
-            if (std::abs(cosine) < tolerance || cosine < tolerance - 1) continue;
-            std::ostringstream text;
-            text << "at a right angle to planes[" << k << "] or facing it, in scheme conserving";
-            const auto& n = scene.planes[i].normal;
-            fields::refuse(place.key("planes").item(i), json{n.x(), n.y(), n.z(), scene.planes[i].offset}, text.str());
-        }
-}
-
-void check_water(const Scene& scene, const Place& place) {
-    if (scene.scheme != Scheme::conserving) return;
-    check_viscosity(scene, place);
-    check_mirrors(scene, place);
 }
 
 }  // namespace
@@ -143,7 +108,7 @@ Scene scene_from_json(const json& document, const std::string& name, const std::
     }
     if (document.contains("goals")) scene.goals = fields::read_goals(document.at("goals"), place.key("goals"));
     check_frames(scene, place);
-    check_water(scene, place);
+    fields::check_water(scene, place);
     if (fields::has(document, "periodic"))
         scene.periodic = fields::read_periodic(document.at("periodic"), place.key("periodic"), scene.fluid.has_value(),
                                                scene.planes);

@@ -54,6 +54,12 @@ const std::vector<Field<SolverParameters>>& solver_fields() {
     return fields;
 }
 
+/// A limit that is beyond all numbers is none.
+void limit_to_float(SolverParameters& solver) {
+    solver.maxSpeed = std::min(solver.maxSpeed, largest_float);
+    solver.maxAcceleration = std::min(solver.maxAcceleration, largest_float);
+}
+
 /// Rest distances that the radius can see.
 void check_rest_distances(const SolverParameters& solver, const Place& place) {
     const json radius = solver.radius;
@@ -85,10 +91,15 @@ SolverParameters read_solver(const json& value, const Place& place) {
             read_choice<RelaxationMode>(value.at("relaxationMode"), place.key("relaxationMode"),
                                         {{"local", RelaxationMode::local}, {"global", RelaxationMode::global}});
     }
-    solver.maxSpeed = std::min(solver.maxSpeed, largest_float);
-    solver.maxAcceleration = std::min(solver.maxAcceleration, largest_float);
+    limit_to_float(solver);
     check_rest_distances(solver, place);
     return solver;
+}
+
+void check_solver(SolverParameters solver, const Place& place) {
+    limit_to_float(solver);
+    check_object(solver, place, solver_fields());
+    check_rest_distances(solver, place);
 }
 
 }  // namespace natator::fields

@@ -1,9 +1,12 @@
 #include "check_model.h"
 
+#include <cmath>
 #include <string>
 
-#include "model/check_kernel_support.h"
+#include "gait/check_values.h"
+#include "io/strict_json.h"
 #include "natator/error.h"
+#include "natator/limits.h"
 
 namespace natator {
 namespace {
@@ -29,6 +32,16 @@ void require_of_state(std::size_t found, const char* what, std::size_t wanted, c
                          of_model);
 }
 
+/// What sums over a kernel, or over the particles within the radius, would else not come to an end.
+void check_kernels(const SolverParameters& parameters) {
+    check_range("model: parameters.kernelSupport", parameters.kernelSupport, limits::least_kernel_support,
+                limits::most_kernel_support, false, " (rest distances of the fluid)");
+    const double spacing = parameters.fluidRestDistance;
+    if (spacing > 0 && !(parameters.radius <= limits::radius_ratio * spacing))
+        throw InputError("model: parameters.fluidRestDistance = " + number_text(spacing) + ": must be at least radius / " +
+                         std::to_string(limits::radius_ratio) + ", radius = " + number_text(parameters.radius));
+}
+
 void check_body(const Body& body, std::size_t particles, const std::string& name) {
     for (std::size_t i = 0; i < body.particles.size(); ++i)
         require_one_of(body.particles[i], particles, [&] { return item(name + ".particles", i); });
@@ -40,7 +53,7 @@ void check_body(const Body& body, std::size_t particles, const std::string& name
 }  // namespace
 
 void check_model(const Model& model) {
-    check_kernel_support(model.parameters, "model: parameters.");
+    check_kernels(model.parameters);
     const std::size_t particles = model.position.size();
     require_length("velocity", model.velocity.size(), particles);
     require_length("inverse_mass", model.inverse_mass.size(), particles);
@@ -73,6 +86,12 @@ void check_model(const Model& model) {
     check_body(model.body, particles, "body");
     for (std::size_t k = 0; k < model.companions.size(); ++k)
         check_body(model.companions[k].body, particles, item("companions", k) + ".body");
+}
+
+void check_step(double time_step, int substeps) {
+    if (!(time_step > 0) || std::isinf(time_step))
+        throw InputError("time step = " + number_text(time_step) + ": must be a finite number above 0 (s)");
+    if (substeps < 1) throw InputError("substeps = " + std::to_string(substeps) + ": must be at least 1");
 }
 
 template <class Real>

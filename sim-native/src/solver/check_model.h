@@ -6,8 +6,12 @@
 namespace natator {
 
 /// Throws InputError unless a model's lists belong together: as many velocities, masses and phases as positions, and springs,
-/// clusters, muscles and bodies of particles, springs and actuators that are there; and unless kernelSupport is within its limits.
+/// clusters, muscles and bodies of particles, springs and actuators that are there; and unless kernelSupport and the ratio of radius
+/// and fluidRestDistance are within their limits.
 void check_model(const Model& model);
+
+/// Throws InputError unless time goes on, and in at least one substep.
+void check_step(double time_step, int substeps);
 
 /// Throws InputError unless a state has a place for each particle of its model: for what reads no more of it.
 template <class Real>

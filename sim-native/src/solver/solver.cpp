@@ -106,6 +106,7 @@ public:
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
                                       const Drive* drive) {
         check_state(model_, state);
+        check_step(time_step, substeps);
         if (model_.particles() == 0) return std::nullopt;
         return std::visit([&](auto& stages) { return run(*stages, state, time_step, substeps, observer, drive); },
                           stages_);

@@ -60,6 +60,7 @@ public:
     std::optional<Instability> update(State<Real>& state, double time_step, int substeps, StepObserver<Real>* observer,
                                       const Gait* gait) {
         check_state(model_, state);
+        check_step(time_step, substeps);
         if (gait) check_lengths(*gait, model_.actuators);
         std::optional<cuda::TraceBuffers<Real>> trace;
         if (observer) trace.emplace(device_model().view(), substeps);
