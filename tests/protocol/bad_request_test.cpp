@@ -49,6 +49,7 @@ const BadRequest bad_requests[] = {
     {request_with("id", ""), "id: missing", false},
     {request_with("id", "-1"), "id = -1", false},
     {request_with("id", "\"x\""), "id = \"x\"", false},
+    {request_with("id", "9007199254740992"), "id = 9007199254740992: must be a whole number in [0, 9007199254740991]", false},
     {request_with("scene", ""), "scene: missing"},
     {request_with("scene", "5"), "scene = 5: must be a string"},
     {request_with("scene", "\"no/such\""), "must be one of bench/dam-break, "},

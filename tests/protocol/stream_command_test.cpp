@@ -194,6 +194,7 @@ TEST(StreamCommandTest, BadCommandsAreAnsweredAndChangeNothing) {
         {R"({"do":"rate","value":-1})", "value = -1"},
         {R"({"do":"rate","value":1e-9})", "0.001"},
         {R"({"do":"run","id":"x"})", "id"},
+        {R"({"do":"run","id":9007199254740992})", "id = 9007199254740992: must be a whole number in [0, 9007199254740991]"},
         {R"({"do":"gait","gait":{"frequency":1,"amplitude":[1],"phase":[0]}})", "gait.amplitude"},
         {R"({"do":"gait","gait":{"frequency":0,"amplitude":[1,1],"phase":[0,0]}})", "gait.frequency"},
         {R"({"do":"overrides","overrides":{"solver":{"substeps":0}}})", "solver.substeps"},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -9,9 +10,13 @@
 /// The pipe protocol: one request in, one result out, both JSON objects on one line (sim-native/protocol).
 namespace natator {
 
+/// Ids are whole numbers that every reader of JSON keeps as they are.
+inline constexpr std::uint64_t most_id = 9007199254740991;
+inline constexpr const char* id_range = "a whole number in [0, 9007199254740991]";
+
 /// What `natator-sim evaluate` is asked to do.
 struct Request {
-    nlohmann::json id;  ///< whole number >= 0, repeated in the result
+    nlohmann::json id;  ///< repeated in the result
     std::string scene;
     std::optional<Gait> gait;
     nlohmann::json overrides = nlohmann::json::object();  ///< with the request's own `duration` and `scheme` merged in

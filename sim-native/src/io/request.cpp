@@ -63,8 +63,9 @@ ordered_json gait_json(const Gait& gait) {
 }
 
 json request_id(const json& value) {
-    if (value.is_object() && value.contains("id") && value.at("id").is_number_unsigned()) return value.at("id");
-    return nullptr;
+    if (!value.is_object() || !value.contains("id")) return nullptr;
+    const json& id = value.at("id");
+    return id.is_number_unsigned() && id.get<std::uint64_t>() <= most_id ? id : json();
 }
 
 Gait parse_gait(const json& value, const std::string& document) {
@@ -79,8 +80,9 @@ Request parse_request(const json& value, const std::string& document) {
          fields::schema_key});
     fields::check_schema_key(value, place);
     Request request;
-    request.id = fields::required(value, place, "id");
-    if (!request.id.is_number_unsigned()) fields::refuse(place.key("id"), request.id, "a whole number >= 0");
+    const json& id = fields::required(value, place, "id");
+    request.id = request_id(value);
+    if (request.id.is_null()) fields::refuse(place.key("id"), id, id_range);
     fields::read(fields::required(value, place, "scene"), place.key("scene"), {}, request.scene);
     if (value.contains("gait")) request.gait = read_gait(value.at("gait"), place.key("gait"));
     if (value.contains("precision")) {

@@ -131,7 +131,7 @@ bool stream::is_rate(double value) {
 StreamCommand parse_stream_command(const json& value) {
     if (!value.is_object()) fields::refuse(place, value, "an object");
     if (value.contains("id") && request_id(value).is_null())
-        fields::refuse(place.key("id"), value.at("id"), "a whole number >= 0");
+        fields::refuse(place.key("id"), value.at("id"), id_range);
     std::string name;
     fields::read(fields::required(value, place, "do"), place.key("do"), {}, name);
 
