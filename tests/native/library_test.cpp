@@ -244,6 +244,8 @@ TEST(OwnSceneTest, WhatIsMeasuredOfAStateOfAnotherModelIsRefused) {
     EXPECT_TRUE(refuses([&] { centre_velocity(model, other, {0}); }));
     EXPECT_TRUE(refuses([&] { course_of(model, model.body, other, 0); }));
     EXPECT_TRUE(refuses([&] { cavities(model, other, {}); }));
+    EXPECT_TRUE(refuses([&] { pose_of(model, model.body, std::vector<Eigen::Vector3d>(109)); }));
+    EXPECT_TRUE(refuses([&] { body_rotation(model, model.body, {}); }));
     EXPECT_TRUE(refuses([&] { cavities(model, initial_state<float>(model), {}); }));
     EXPECT_TRUE(refuses([&] { write_snapshot(testing::TempDir() + "other.csv", model, Snapshot{}); }));
     TrajectoryCsv path(testing::TempDir() + "path.csv", own_scene().creature->slices, TrajectoryCsv::Rows::slices);

@@ -25,10 +25,11 @@ Eigen::Vector3d mean_place(const std::vector<Eigen::Vector3d>& places);
 Eigen::Vector3d rest_centre(const Model& model);
 
 /// The rotation of a body from its rest shape that fits best: its columns are where its forward, up and right point.
-/// `places` as in pose_of; the identity for fewer than three.
+/// `places` as in pose_of, and refused as there; the identity for fewer than three.
 Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
 
-/// `places`: of a body's particles, in the order of Body::particles. A body of fewer than three has no rotation.
+/// `places`: of a body's particles, in the order of Body::particles; of more or fewer InputError is thrown. A body of fewer than three
+/// has no rotation.
 Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places);
 
 /// Places of the body's particles in the coordinates of its tank, in the order of Body::particles.

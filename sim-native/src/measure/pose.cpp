@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "natator/error.h"
 
 namespace natator {
 
@@ -19,6 +22,9 @@ Eigen::Vector3d rest_centre(const Model& model) {
 }
 
 Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
+    if (places.size() != body.particles.size())
+        throw InputError("pose of " + std::to_string(places.size()) + " places: must have " + std::to_string(body.particles.size()) +
+                         " as the body has particles");
     if (places.size() < 3) return Eigen::Matrix3d::Identity();
     const auto count = static_cast<Eigen::Index>(places.size());
     Eigen::Matrix3Xd rest(3, count), now(3, count);
@@ -32,8 +38,8 @@ Eigen::Matrix3d body_rotation(const Model& model, const Body& body, const std::v
 Pose pose_of(const Model& model, const Body& body, const std::vector<Eigen::Vector3d>& places) {
     Pose pose;
     pose.centre = mean_place(places);
-    if (places.size() < 3) return pose;
     const Eigen::Matrix3d rotation = body_rotation(model, body, places);
+    if (places.size() < 3) return pose;
     const Eigen::Vector3d back = rotation.col(1);
     pose.heading = rotation.col(0);
     pose.yaw = std::atan2(pose.heading.z(), pose.heading.x());
