@@ -8,7 +8,6 @@ import io.natator.config.EvolutionSettings;
 import io.natator.config.ExecutionSettings;
 import io.natator.config.InvalidInputException;
 import io.natator.config.Limits;
-import io.natator.config.Numbers;
 import io.natator.run.EvolutionRun;
 import io.natator.simulator.Evaluator;
 import io.natator.study.optimizer.RunComparison;
@@ -108,19 +107,21 @@ final class CompareCommand implements Callable<Integer> {
         out.println();
         for (int step = 1; step <= STEPS && common >= STEPS; step++) {
             int place = (int) ((long) common * step / STEPS);
-            printRow(place, curves, out);
+            printRow(place, runs, curves, out);
         }
         int longest = curves.stream().mapToInt(curve -> curve.length).max().orElse(0);
         if (longest > common) {
-            printRow(longest, curves, out);
+            printRow(longest, runs, curves, out);
         }
     }
 
     /** Runs that are not so long, or have no gait as yet, have no number there. */
-    private static void printRow(int place, List<double[]> curves, PrintWriter out) {
+    private static void printRow(int place, List<StoredRun> runs, List<double[]> curves, PrintWriter out) {
         out.printf("%11d", place);
-        for (double[] curve : curves) {
-            out.printf("%12s", curve.length < place || Double.isNaN(curve[place - 1]) ? "" : Numbers.worth(curve[place - 1]));
+        for (int i = 0; i < runs.size(); i++) {
+            double[] curve = curves.get(i);
+            out.printf("%12s", curve.length < place || Double.isNaN(curve[place - 1]) ? ""
+                    : runs.get(i).settings().worthText(curve[place - 1]));
         }
         out.println();
     }

@@ -3,7 +3,6 @@ package io.natator.cli;
 import io.natator.checkpoint.Archipelago;
 import io.natator.checkpoint.StoredRun;
 import io.natator.config.Migration;
-import io.natator.config.Numbers;
 import io.natator.evolution.EvolutionState;
 import java.io.PrintWriter;
 import java.nio.file.Path;
@@ -38,7 +37,7 @@ final class IslandsReport {
             EvolutionState state = StoredRun.exists(folder) ? StoredRun.state(folder) : null;
             boolean hasGait = state != null && state.best() != null;
             out.printf(ROW, i, archipelago.plan().settings(i).seed(), state == null ? "-" : state.generation(),
-                    state == null ? "-" : state.evaluations(), hasGait ? Numbers.worth(state.best().score()) : "-",
+                    state == null ? "-" : state.evaluations(), hasGait ? archipelago.plan().settings(i).worthText(state.best().score()) : "-",
                     (state == null ? 0 : arrived(archipelago, i, state)) + (i == winner && hasGait ? "   winner" : ""));
         }
     }

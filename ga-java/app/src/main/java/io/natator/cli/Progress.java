@@ -1,7 +1,6 @@
 package io.natator.cli;
 
 import io.natator.config.EvolutionSettings;
-import io.natator.config.Numbers;
 import io.natator.evolution.EvaluationRecord;
 import io.natator.evolution.EvolutionListener;
 import io.natator.evolution.EvolutionState;
@@ -91,7 +90,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
         }
         if (bar == null) {
             GenerationSummary last = state.history().get(state.history().size() - 1);
-            say(generation() + ", mean " + Numbers.worth(last.mean()) + ", " + counts());
+            say(generation() + ", mean " + settings.worthText(last.mean()) + ", " + counts());
         }
     }
 
@@ -115,7 +114,7 @@ final class Progress implements EvolutionListener, AutoCloseable {
 
     private String counts() {
         return String.format(Locale.ROOT, "best %s, evaluations %d of %s, elapsed %s, left %s",
-                best == null ? "-" : Numbers.worth(best), estimate.done(), estimate.total(), estimate.elapsed(),
+                best == null ? "-" : settings.worthText(best), estimate.done(), estimate.total(), estimate.elapsed(),
                 estimate.left());
     }
 

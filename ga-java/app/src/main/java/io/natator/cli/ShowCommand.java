@@ -122,7 +122,8 @@ final class ShowCommand implements Callable<Integer> {
         GenerationSummary last = run.state().history().get(run.state().generation());
         long more = Math.max(run.recorded().end() - run.state().evaluations(), 0);
         return String.format("generation %d: best %s, mean %s, median %s; %s", last.generation(),
-                Numbers.worth(last.best()), Numbers.worth(last.mean()), Numbers.worth(last.median()),
+                run.settings().worthText(last.best()), run.settings().worthText(last.mean()),
+                run.settings().worthText(last.median()),
                 run.state().isLastOf(run.settings()) ? "finished" : "not finished, " + Numbers.count(more, "evaluation") + " of the next" + how);
     }
 

@@ -71,7 +71,7 @@ abstract class StudyProgress implements RunQueue.Watcher {
         finished++;
         FitnessPlot.draw(run, outcome.state().history());
         Individual best = outcome.state().best();
-        out.printf("%s  best %s%n", run.directory(), Numbers.worth(best == null ? 0 : best.result().score()));
+        out.printf("%s  best %s%n", run.directory(), Numbers.fixed(best == null ? 0 : best.result().score(), 4));
         out.flush();
     }
 }

@@ -171,6 +171,11 @@ public record EvolutionSettings(String scene, EncodingKind encoding, int actuato
         return with(to -> to.optimizer(newOptimizer).objectives(newObjectives));
     }
 
+    /** What a gait is worth in this run, for people: a distance has four decimals, and may be nothing. */
+    public String worthText(double worth) {
+        return objectives == null ? Numbers.fixed(worth, 4) : Numbers.worth(worth);
+    }
+
     /** What genes stand for in this run. */
     public Genome genome() {
         Encoding gaits = encoding.forActuators(actuators);
