@@ -24,9 +24,9 @@ middle = chart.top + chart.height / 2
 chart.text((18, middle), "drag coefficient", f'text-anchor="middle" transform="rotate(-90 18 {middle})"')
 
 chart.line([chart.place(re, sphere(re)) for re in (5 * 1.05**k for k in range(76))], f'stroke="{colours["towed-sphere"]}"')
-chart.text(chart.place(58, 1.72), "sphere, Schiller and Naumann", f'fill="{colours["towed-sphere"]}"')
+chart.text(chart.place(11.5, 5.2), "sphere, Schiller and Naumann", f'fill="{colours["towed-sphere"]}"')
 chart.line([chart.place(20, 2.045), chart.place(40, 1.522)], f'stroke="{colours["towed-cylinder"]}"')
-chart.text(chart.place(11, 1.62), "cylinder, Dennis and Chang", f'fill="{colours["towed-cylinder"]}"')
+chart.text(chart.place(9.5, 1.35), "cylinder, Dennis and Chang", f'fill="{colours["towed-cylinder"]}"')
 
 with open(here / "water.csv", newline="") as table:
     for row in csv.DictReader(table):
