@@ -2,6 +2,7 @@
 
 #include "natator/cost.h"
 #include "natator/error.h"
+#include "natator/limits.h"
 #include "natator/model_builder.h"
 #include "options.h"
 #include "scene/scene_json.h"
@@ -38,7 +39,7 @@ void add_execution_options(CLI::App* command, ExecutionOptions& options) {
     command
         ->add_option("--threads", options.threads,
                      "Threads, for scenes of many thousand particles; the same bits for any number.")
-        ->check(whole_number_in(1, 1024))
+        ->check(whole_number_in(1, limits::threads))
         ->capture_default_str();
     command->add_flag("--no-cache", options.no_cache, "Settle the start anew instead of keeping it for the next time.");
     command->add_flag("--no-skip", options.no_skip,

@@ -224,6 +224,8 @@ TEST(OwnSceneTest, ASolverRefusesAGaitADriveAndAStateOfAnotherModel) {
         EXPECT_NE(test::refusal_of([&] { solver.frame(state, [](double) { return std::vector<double>{0, NAN}; }); })
                       .find("drive[1] = NaN: must be a number in [-2, 2]"),
                   std::string::npos);
+        EXPECT_NE(test::refusal_of([&] { Solver<float>(model, {.threads = 1025}); }).find("threads = 1025: must be at most 1024"),
+                  std::string::npos);
         EXPECT_NE(test::refusal_of([&] { solver.update(state, 0.01, 0); }).find("substeps = 0: must be at least 1"), std::string::npos);
         EXPECT_NE(test::refusal_of([&] { solver.update(state, NAN, 1); }).find("time step = NaN: must be a finite number above 0"),
                   std::string::npos);
@@ -242,6 +244,10 @@ TEST(OwnSceneTest, WhatIsMeasuredOfAStateOfAnotherModelIsRefused) {
     EXPECT_TRUE(refuses([&] { touches_plane(model, other); }));
     EXPECT_TRUE(refuses([&] { measure_momentum(model, other); }));
     EXPECT_TRUE(refuses([&] { centre_velocity(model, other, {0}); }));
+    const State<float> own = initial_state<float>(model);
+    EXPECT_NE(test::refusal_of([&] { measure_momentum(model, own, {0, model.particles()}); }).find("particles[1] = 108: must be one of 108"),
+              std::string::npos);
+    EXPECT_TRUE(refuses([&] { centre_velocity(model, own, {-1}); }));
     EXPECT_TRUE(refuses([&] { course_of(model, model.body, other, 0); }));
     EXPECT_TRUE(refuses([&] { cavities(model, other, {}); }));
     EXPECT_TRUE(refuses([&] { pose_of(model, model.body, std::vector<Eigen::Vector3d>(109)); }));

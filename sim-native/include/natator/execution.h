@@ -29,7 +29,7 @@ private:
 struct Execution {
     StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
     const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time
-    int threads = 1;                     ///< for scenes of many thousand particles; small ones use one all the same
+    int threads = 1;                     ///< for scenes of many thousand particles, at most limits::threads; small ones use one all the same
     bool forces = false;                 ///< keeps what Solver::forces gives; scheme conserving only, a per cent of its time
     bool skip = true;                    ///< leaves out the stages that have nothing to do, see make_unskipped_plan
 };

@@ -9,6 +9,7 @@ namespace natator {
 template <class Real>
 Momentum measure_momentum(const Model& model, const State<Real>& state, const std::vector<int>& particles) {
     check_places_and_velocities(model, state);
+    check_particles(model, particles);
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double total = 0;
     for (const int i : particles) {
@@ -37,6 +38,7 @@ Momentum measure_momentum(const Model& model, const State<Real>& state, const st
 template <class Real>
 Eigen::Vector3d centre_velocity(const Model& model, const State<Real>& state, const std::vector<int>& particles) {
     check_places_and_velocities(model, state);
+    check_particles(model, particles);
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
     double mass = 0;
     for (const int i : particles) {

@@ -94,6 +94,16 @@ void check_step(double time_step, int substeps) {
     if (substeps < 1) throw InputError("substeps = " + std::to_string(substeps) + ": must be at least 1");
 }
 
+void check_threads(int threads) {
+    if (threads > limits::threads)
+        throw InputError("threads = " + std::to_string(threads) + ": must be at most " + std::to_string(limits::threads));
+}
+
+void check_particles(const Model& model, const std::vector<int>& particles) {
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        require_one_of(particles[i], model.position.size(), [&] { return item("particles", i); });
+}
+
 template <class Real>
 void check_places(const Model& model, const State<Real>& state) {
     require_of_state(state.position.size(), "particles", model.position.size());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "natator/model.h"
 #include "natator/state.h"
 
@@ -12,6 +14,12 @@ void check_model(const Model& model);
 
 /// Throws InputError unless time goes on, and in at least one substep.
 void check_step(double time_step, int substeps);
+
+/// Throws InputError for more threads than limits::threads.
+void check_threads(int threads);
+
+/// Throws InputError unless all of these are particles of a model.
+void check_particles(const Model& model, const std::vector<int>& particles);
 
 /// Throws InputError unless a state has a place for each particle of its model: for what reads no more of it.
 template <class Real>

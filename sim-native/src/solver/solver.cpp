@@ -99,6 +99,7 @@ public:
         : model_(model),
           execution_(execution),
           stages_(stages_for(model, plan_for(model, execution.skip))) {
+        check_threads(execution.threads);
         std::visit([&](auto& stages) { stages->use_threads(execution.threads); }, stages_);
         if (execution.forces) std::visit([](auto& stages) { stages->keep_forces(); }, stages_);
     }
