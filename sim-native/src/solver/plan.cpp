@@ -9,7 +9,7 @@
 namespace natator {
 namespace {
 
-bool limits(double value) {
+bool is_limit(double value) {
     return value < static_cast<double>(std::numeric_limits<float>::max());
 }
 
@@ -58,8 +58,8 @@ Plan make_plan(const Model& model) {
     plan.plane_friction = plan.planes && p.dynamicFriction > 0;
     plan.viscosity = any_fluid && (flex ? p.viscosity != 0 : p.kinematicViscosity > 0);
     plan.damping = p.damping != 0;
-    plan.clamp_acceleration = flex && limits(p.maxAcceleration);
-    plan.clamp_speed = limits(p.maxSpeed);
+    plan.clamp_acceleration = flex && is_limit(p.maxAcceleration);
+    plan.clamp_speed = is_limit(p.maxSpeed);
     plan.restitution = plan.planes && p.restitution > 0;
     plan.adhesion = plan.planes && p.adhesion > 0;
     plan.sleep = p.sleepThreshold > 0;
