@@ -79,9 +79,15 @@ abstract class ViewBrowserTest extends BrowserTest {
         pauseAt(0);
     }
 
-    /** Begins anew and pauses at a frame. After a pause in mid-swim some frames may still be under way; after this none is. */
-    void pauseAt(int frame) {
+    /** Pauses what swims, and waits for the answer; frames may still be under way. */
+    void pause() {
         get("run").click();
+        assertThat(get("run")).hasText("Run");
+    }
+
+    /** Begins anew and pauses at a frame, after which none is under way. */
+    void pauseAt(int frame) {
+        pause();
         get("reset").click();
         await("natator.frame() === 0");
         for (int next = 1; next <= frame; next++) {

@@ -23,8 +23,7 @@ class ViewPageTest extends ViewBrowserTest {
     void pauseHoldsStill() {
         useSmallWindow();
         open(vacuum);
-        get("run").click();
-        assertThat(get("run")).hasText("Run");
+        pause();
         // Frames may be under way, and the camera and the detail follow a little later.
         BufferedImage before = stillPicture(get("picture-a"));
         double frame = number("natator.frame()");
@@ -68,8 +67,7 @@ class ViewPageTest extends ViewBrowserTest {
     void ofAKilledSimulatorThatWasPausedTheNextOneIsToo() {
         useSmallWindow();
         open(vacuum);
-        get("run").click();
-        assertThat(get("run")).hasText("Run");
+        pause();
 
         ViewFixture.simulator().destroyForcibly();
 
