@@ -17,7 +17,7 @@ BatchOptions options_of(const GpuSpeedStudy& study, Precision precision) {
 Row figures(const Scene& scene, std::size_t evaluations, int repeats, const TimedBatch& measured) {
     const Model model = build_model(scene);
     const int fluid = fluid_particles(model);
-    const double substeps = std::round(scene.duration / scene.time_step) * scene.solver.substeps;
+    const double substeps = std::round(scene.duration / scene.time_step) * model.parameters.substeps;
     const double work = static_cast<double>(evaluations) * (fluid > 0 ? fluid : model.particles()) * substeps *
                         scene.solver.numIterations;
     return {std::to_string(model.particles()),

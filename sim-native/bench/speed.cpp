@@ -123,7 +123,7 @@ Row figures(const TimedScene& one) {
     const Scene& scene = one.scene;
     const Model model = build_model(scene);
     const int fluid = fluid_particles(model);
-    const double substeps = std::round(scene.duration / scene.time_step) * scene.solver.substeps;
+    const double substeps = std::round(scene.duration / scene.time_step) * model.parameters.substeps;
     const double work = (fluid > 0 ? fluid : model.particles()) * substeps * scene.solver.numIterations;
     const double least = *std::min_element(one.seconds.begin(), one.seconds.end());
     return {std::to_string(model.particles()),

@@ -46,12 +46,16 @@ double mean_neighbours(const Scene& scene, const Model& model, const ThroughputS
     return sum / fluid_particles(model);
 }
 
-/// A tank of one size in one scheme and precision, for batches of all sizes.
+/// A tank of one size in one scheme, setting and precision, for batches of all sizes.
 class Tank {
 public:
-    Tank(const ThroughputStudy& study, Scheme scheme, Precision precision, int particles)
+    Tank(const ThroughputStudy& study, Scheme scheme, const std::optional<Steps>& steps, Precision precision, int particles)
         : study_(study), precision_(precision), particles_(particles), scene_(throughput_scene(particles)) {
         scene_.scheme = scheme;
+        if (steps) {
+            scene_.solver.substeps = steps->substeps;
+            scene_.solver.numIterations = steps->iterations;
+        }
         model_ = build_model(scene_);
         fluid_ = fluid_particles(model_);
     }
@@ -62,7 +66,10 @@ public:
                 std::to_string(fluid_),
                 std::to_string(batch),
                 device,
-                cuda::by_whole_gpu(scene_, model_, batch, options()) ? "whole GPU" : "block"};
+                cuda::by_whole_gpu(scene_, model_, batch, options()) ? "whole GPU" : "block",
+                std::to_string(model_.particles()),
+                std::to_string(model_.parameters.substeps),
+                std::to_string(model_.parameters.numIterations)};
     }
 
     /// What stands behind the key, or why nothing does.
@@ -75,10 +82,7 @@ public:
         const double particle_substeps = static_cast<double>(batch) * fluid_ * frames * substeps;
         const double million_per_second = 1e-6 * particle_substeps / timed.device.kernel;
         const double on_device = static_cast<double>(timed.device.at_a_time) * model_.particles();
-        return Row{std::to_string(model_.particles()),
-                   std::to_string(substeps),
-                   std::to_string(iterations),
-                   std::to_string(frames),
+        return Row{std::to_string(frames),
                    std::to_string(study_.repeats),
                    measured_text(neighbours()),
                    std::to_string(pair_passes(model_)),
@@ -187,16 +191,19 @@ Row throughput_columns() {
 void run_throughput_study(const ThroughputStudy& study, ResultTable& table,
                           const std::function<void(const std::string&)>& report) {
     const std::string device = gpu_name(study.device);
+    std::vector<std::optional<Steps>> settings(study.settings.begin(), study.settings.end());
+    if (settings.empty()) settings.emplace_back();
     for (const int particles : study.particles)
         for (const Scheme scheme : study.schemes)
-            for (const Precision precision : study.precisions) {
-                Tank tank(study, scheme, precision, particles);
-                for (const int batch : study.batches) {
-                    if (batch > 1 && std::int64_t{particles} * batch > most_particles_of_batch) continue;
-                    const Row key = tank.key(batch, device);
-                    if (!table.has(key)) measure_row(tank, batch, key, table, report);
+            for (const std::optional<Steps>& steps : settings)
+                for (const Precision precision : study.precisions) {
+                    Tank tank(study, scheme, steps, precision, particles);
+                    for (const int batch : study.batches) {
+                        if (batch > 1 && std::int64_t{particles} * batch > most_particles_of_batch) continue;
+                        const Row key = tank.key(batch, device);
+                        if (!table.has(key)) measure_row(tank, batch, key, table, report);
+                    }
                 }
-            }
 }
 
 }  // namespace natator::bench

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "natator/evaluate.h"
+#include "path_run.h"
 #include "result_table.h"
 
 namespace natator::bench {
@@ -13,8 +14,9 @@ namespace natator::bench {
 struct ThroughputStudy {
     std::vector<Scheme> schemes;
     std::vector<Precision> precisions;
-    std::vector<int> particles;  ///< of fluid, about; see throughput_scene
-    std::vector<int> batches;    ///< evaluations per launch
+    std::vector<int> particles;   ///< of fluid, about; see throughput_scene
+    std::vector<int> batches;     ///< evaluations per launch
+    std::vector<Steps> settings;  ///< none: the scene's
     int device = 0;
     int repeats = 3;
     bool quick = false;      ///< a few frames of each
@@ -46,8 +48,8 @@ int throughput_frames(Scheme scheme, int particles, int batch);
 /// overlaps, 7 times in a substep of a scene that has any, are left out.
 int pair_passes(const Model& model);
 
-/// Columns scheme, precision, fluid_particles, evaluations, device, path (block or whole GPU; these are the key);
-/// particles of one scene, substeps of a frame, iterations, frames, repeats; neighbours: mean of the fluid particles
+/// Columns scheme, precision, fluid_particles, evaluations, device, path (block or whole GPU), particles of one scene, substeps of a
+/// frame, iterations (these are the key); frames, repeats; neighbours: mean of the fluid particles
 /// after one frame, with solids and images where they are in the lists; pair_passes: of a substep; kernel_seconds: all
 /// frames on the device, the least of the repeats; ms_per_frame: of all evaluations together;
 /// million_particle_iterations_per_second: evaluations x fluid_particles x frames x substeps x iterations over
@@ -55,7 +57,7 @@ int pair_passes(const Model& model);
 /// pair_passes over kernel_seconds; at_a_time: evaluations that are on the device together; bytes_per_particle: device
 /// memory over at_a_time x particles; hash: of the evaluations' hashes.
 Row throughput_columns();
-inline constexpr std::size_t throughput_key_columns = 6;
+inline constexpr std::size_t throughput_key_columns = 9;
 
 /// Runs what `table` does not hold yet. `report` gets a line per row, and one for each that the device can't do: one
 /// that lacks the memory, and one that becomes unstable. Throws std::runtime_error when two runs of one row differ in a

@@ -76,7 +76,7 @@ WaterRun run_as(const Channel& channel, const WaterSetting& setting) {
         walls = hold(is_wall, model);
         hold(is_block, model);
     });
-    tank.set_kinematic_viscosity(viscosity);
+    if (!tank.set_kinematic_viscosity(viscosity)) return tank.run();
     tank.set_gravity(tank.model().parameters.gravity + Eigen::Vector3d(channel.gravity(), 0, 0));
     const Model& model = tank.model();
     State<Real>& state = tank.state();

@@ -38,7 +38,7 @@ WaterRun run_towed_cylinder(const WaterSetting& setting) {
     TowResult result = tow(towing, setting);
     WaterRun& run = result.run;
     if (run.instability) return run;
-    for (std::size_t k = 0; k < towing.legs.size(); ++k) {
+    for (std::size_t k = 0; k < result.legs.size(); ++k) {
         const double faster = 1 + blockage_of_cylinder(drag[k], result.diameter, height * towing.diameter);
         run.figures.push_back(drag_figure(mean(result.legs[k], &TowSample::drag, 0.6 * towing.legs[k].way),
                                           drag[k] * std::pow(faster, -0.426), faster));
@@ -54,7 +54,7 @@ WaterRun run_shedding_cylinder(const WaterSetting& setting) {
     towing.sway = 0.2;
     TowResult result = tow(towing, setting);
     WaterRun& run = result.run;
-    if (run.instability) return run;
+    if (run.instability || result.legs.empty()) return run;
     const double faster = 1 + blockage_of_cylinder(drag, result.diameter, height * towing.diameter);
     run.figures = {drag_figure(mean(result.legs[0], &TowSample::drag, counted_from), drag, faster),
                    figure_within(0.05, lift_frequency(result, counted_from) * result.diameter / towing.speed, strouhal * faster)};

@@ -126,7 +126,7 @@ WaterRun release(const Release& how, const WaterSetting& setting) {
         immerse_sphere({release_width / 2, how.start, release_width / 2}, model);
     });
     const double sphere_diameter = diameter(tank.model());
-    tank.set_kinematic_viscosity(release_viscosity);
+    if (!tank.set_kinematic_viscosity(release_viscosity)) return tank.run();
     set_density(1 + how.excess, tank);
     WaterRun run = follow(release_duration, Fallen::way, tank);
     if (run.instability) return run;

@@ -31,7 +31,7 @@ WaterRun run_as(const Spin& spin, const WaterSetting& setting) {
         model.parameters.gravity = {0, -spin.gravity, 0};
         held = hold([&](const Eigen::Vector3d& x) { return (x - middle).norm() <= radius; }, model);
     });
-    tank.set_kinematic_viscosity(spin.viscosity);
+    if (!tank.set_kinematic_viscosity(spin.viscosity)) return tank.run();
     const double volume = static_cast<double>(held.size()) * std::pow(spacing, 3);
     const double cube = volume * 3 / (4 * std::numbers::pi);  // of the radius
     const double unit = 8 * std::numbers::pi * spin.viscosity / std::pow(spacing, 3) * cube * spin.rate;

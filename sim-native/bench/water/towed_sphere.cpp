@@ -20,7 +20,7 @@ WaterRun run_towed_sphere(const WaterSetting& setting) {
     TowResult result = tow(towing, setting);
     WaterRun& run = result.run;
     if (run.instability) return run;
-    for (std::size_t k = 0; k < towing.legs.size(); ++k) {
+    for (std::size_t k = 0; k < result.legs.size(); ++k) {
         const auto [reynolds, way] = towing.legs[k];
         const double between = blockage_of_sphere(drag_of_sphere(reynolds), result.diameter, width * width);
         const double reference = drag_of_sphere(reynolds * (1 + between)) * std::pow(1 + between, 2);

@@ -37,7 +37,7 @@ TowResult tow_as(const Towing& towing, const WaterSetting& setting) {
     result.box_step = step / diameter;
     double time = 0, way = 0, unshifted = 0;
     for (const Towing::Leg& leg : towing.legs) {
-        tank.set_kinematic_viscosity(towing.speed * diameter / leg.reynolds);
+        if (!tank.set_kinematic_viscosity(towing.speed * diameter / leg.reynolds)) break;
         result.legs.emplace_back();
         for (double own_way = 0; own_way < leg.way * diameter;) {
             const double speed = towing.speed * std::min(1.0, (way + 0.05 * diameter) / diameter);

@@ -36,7 +36,7 @@ struct TowResult {
     WaterRun run;           ///< without figures
     double diameter = 0;    ///< of a sphere or circle of the volume that the body's particles have
     double box_step = 0;    ///< diameters that the box is moved on by at a time; each gives the body a knock
-    std::vector<std::vector<TowSample>> legs;  ///< a sample a frame
+    std::vector<std::vector<TowSample>> legs;  ///< a sample a frame; without those whose viscosity is more than a substep bears
 };
 
 TowResult tow(const Towing& towing, const WaterSetting& setting);

@@ -97,11 +97,9 @@ public:
         }
     }
 
-    /// Without figures if the water becomes unstable.
     WaterRun run() {
-        for (const Leg& leg : legs)
-            if (!swim(leg)) return tank_.run();
-        figures_.push_back({.value = helm_.drift(), .reference = 0, .greatest = most_drift});
+        if (std::ranges::all_of(legs, [this](const Leg& leg) { return swim(leg); }))
+            figures_.push_back({.value = helm_.drift(), .reference = 0, .greatest = most_drift});
         WaterRun run = tank_.run();
         run.figures = figures_;
         run.curve = curve_;
@@ -123,9 +121,9 @@ private:
         return places;
     }
 
-    /// False if the water becomes unstable.
+    /// False if the water becomes unstable, or is too viscous.
     bool swim(const Leg& leg) {
-        tank_.set_kinematic_viscosity(leg.viscosity);
+        if (!tank_.set_kinematic_viscosity(leg.viscosity)) return false;
         Track track;
         for (long k = 1; k <= leg.beats * frames_per_beat_; ++k) {
             if (!advance_frame()) return false;

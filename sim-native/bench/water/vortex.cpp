@@ -77,7 +77,7 @@ WaterRun run_viscous_as(const WaterSetting& setting) {
     for (const double set : {0.0, viscosity}) {
         WaterTank<Real> tank({setting.resolution, layers, setting.resolution}, setting);
         turn(tank.state());
-        tank.set_kinematic_viscosity(set);
+        if (!tank.set_kinematic_viscosity(set)) return tank.run();
         WaterRun run = tank.follow(turnover / 2, [&] { return amplitude(tank); });
         if (run.instability) return run;
         const double found = viscosity_from(decay_rate(run.curve));

@@ -48,9 +48,10 @@ struct WaterSample {
 struct WaterRun {
     int particles = 0;
     double seconds = 0;                      ///< wall time of the frames
-    std::vector<WaterFigure> figures;        ///< one for each of the case's quantities
+    std::vector<WaterFigure> figures;        ///< of the case's quantities: of the first ones where the others' viscosity is more than a
+                                             ///< substep bears
     std::vector<WaterSample> curve;
-    std::optional<Instability> instability;  ///< then there are no figures
+    std::optional<Instability> instability;  ///< then figures mean nothing
 };
 
 struct WaterCase {

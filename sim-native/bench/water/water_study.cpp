@@ -59,11 +59,12 @@ void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& ta
     for (std::size_t i = 0; i < one.quantities.size(); ++i) {
         Row row = with(name, one.quantities[i]);
         if (table.has(row)) continue;
-        const WaterFigure figure = run.instability ? WaterFigure{} : run.figures[i];
-        row = with(row, run.instability ? "unstable" : "ok");
+        const bool measured = !run.instability && i < run.figures.size();
+        const WaterFigure figure = measured ? run.figures[i] : WaterFigure{};
+        row = with(row, measured ? "ok" : run.instability ? "unstable" : "too viscous");
         for (const double value : {figure.value, figure.reference, figure.least, figure.greatest})
-            row = with(row, run.instability ? "" : measured_text(value));
-        row = with(row, !run.instability && figure.is_met() ? "yes" : "no");
+            row = with(row, measured ? measured_text(value) : "");
+        row = with(row, measured && figure.is_met() ? "yes" : "no");
         row = with(with(row, std::to_string(run.particles)), measured_text(run.seconds));
         table.add(row);
         report(joined(row, " "));

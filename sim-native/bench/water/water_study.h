@@ -22,7 +22,8 @@ struct WaterStudy {
 };
 
 /// Columns case, resolution, scheme, precision, backend, substeps, iterations, support, start (empty in scheme flex), quantity
-/// (these are the key); status (ok, unstable); value; reference; least, greatest (the target; empty: no limit); met (yes, no); particles; run_time (s).
+/// (these are the key); status (ok, unstable, too viscous: for an explicit substep of
+/// that length); value; reference; least, greatest (the target; empty: no limit); met (yes, no); particles; run_time (s).
 Row water_columns();
 inline constexpr std::size_t water_key_columns = 10;
 

@@ -8,6 +8,7 @@
 #include "model/fluid_block.h"
 #include "natator/gpu_solver.h"
 #include "natator/solver.h"
+#include "physics/dfsph.h"
 
 namespace natator::bench {
 namespace {
@@ -43,6 +44,11 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
     return model;
 }
 
+/// That its substeps bear, length^2/s.
+double most_viscosity(const Model& model) {
+    return physics::most_viscosity(model.parameters.fluidRestDistance, model.time_step / model.parameters.substeps);
+}
+
 }  // namespace
 
 template <class Real>
@@ -60,8 +66,7 @@ template <class Real>
 void WaterTank<Real>::settle() {
     Model calm = *model_;
     calm.parameters.viscosity = SolverParameters().viscosity;
-    const double h = calm.time_step / calm.parameters.substeps, s = calm.parameters.fluidRestDistance;
-    calm.parameters.kinematicViscosity = std::min(0.05, 0.1 * s * s / h);
+    calm.parameters.kinematicViscosity = std::min(0.05, most_viscosity(calm));
     calm.parameters.damping = 4;
     const Step step = step_of(calm);
     for (long frame = 0; frame < std::lround(settling / calm.time_step) && !instability_; ++frame)
@@ -220,8 +225,10 @@ void WaterTank<Real>::set_gravity(const Eigen::Vector3d& gravity) {
 }
 
 template <class Real>
-void WaterTank<Real>::set_kinematic_viscosity(double viscosity) {
+bool WaterTank<Real>::set_kinematic_viscosity(double viscosity) {
+    if (model_->scheme == Scheme::conserving && viscosity > most_viscosity(*model_)) return false;
     change([&](Model& model) { model.parameters.kinematicViscosity = viscosity; });
+    return true;
 }
 
 template <class Real>

@@ -79,8 +79,8 @@ public:
     /// Of the model, from now on.
     void change(const Change& how);
     void set_gravity(const Eigen::Vector3d& gravity);
-    /// length^2/s; means nothing to the schemes that take none.
-    void set_kinematic_viscosity(double viscosity);
+    /// length^2/s; means nothing to the schemes that take none. False where it is more than a substep bears; then it stays as it was.
+    [[nodiscard]] bool set_kinematic_viscosity(double viscosity);
 
     /// A run with what is known of the tank so far: particles, wall time of the frames, instability.
     WaterRun run() const;

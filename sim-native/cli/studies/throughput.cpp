@@ -15,6 +15,7 @@ void add_throughput(CLI::App& app, int& status) {
         StudyOptions common;
         std::vector<int> particles = throughput_particles(), batches = throughput_batches();
         BackendChoice backend{.name = "cuda"};
+        std::vector<std::string> settings;
         int repeats = 3;
     };
     const auto options = std::make_shared<Options>();
@@ -28,13 +29,16 @@ void add_throughput(CLI::App& app, int& status) {
     command->add_option("--batch", options->batches, "Evaluations at a time; with many particles only 1 is done.")
         ->check(whole_number_in(1, 1 << 20))
         ->capture_default_str();
+    command->add_option("--setting", options->settings,
+                        "Substeps and iterations, such as 2x4, instead of the scene's; deep water may need more substeps, and gets them.");
     add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const StudyOptions& common = options->common;
         on_gpu(options->backend, {});
         ThroughputStudy study{common.chosen_schemes(), common.chosen_precisions(), options->particles,
-                              options->batches,        options->backend.device,    options->repeats,
-                              common.quick,            options->backend.whole_gpu};
+                              options->batches,        {},                         options->backend.device,
+                              options->repeats,        common.quick,               options->backend.whole_gpu};
+        for (const std::string& setting : options->settings) study.settings.push_back(steps_of(setting));
         if (common.quick) {
             study.particles = {1000, 8000};
             study.batches = {1, 4};

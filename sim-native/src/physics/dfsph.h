@@ -232,6 +232,11 @@ NATATOR_HD Vec3<T> shift_of(T density, const Vec3<T>& crowding, T fastest_square
     return clamped(strength * crowding, T(longest_shift) * spacing);
 }
 
+/// The largest kinematic viscosity that an explicit step of h bears between particles `spacing` apart, length^2/s.
+NATATOR_HD double most_viscosity(double spacing, double h) {
+    return most_diffusion * spacing * spacing / h;
+}
+
 /// The most that a particle's volume times its inverse mass may be where viscous impulses are 10 h mu = `strength`.
 template <class T>
 NATATOR_HD T viscous_limit(T spacing, T strength) {

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "io/strict_json.h"
+#include "physics/dfsph.h"
 #include "readers.h"
 
 namespace natator::fields {
@@ -10,11 +11,11 @@ namespace {
 
 json as_json(const Plane& plane) { return {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset}; }
 
-/// The water's viscosity is explicit: nu h / s^2 must stay below a tenth, h the longest substep and s the rest distance.
+/// The water's viscosity is explicit, and settling has its own substeps.
 void check_viscosity(const Scene& scene, const Place& place) {
     double h = scene.time_step / scene.solver.substeps;
     if (scene.settling.updates > 0) h = std::max(h, scene.settling.time_step / scene.settling.substeps);
-    const double most = 0.1 * scene.solver.fluidRestDistance * scene.solver.fluidRestDistance / h;
+    const double most = physics::most_viscosity(scene.solver.fluidRestDistance, h);
     if (!(scene.solver.kinematicViscosity > most)) return;
     refuse(place.key("solver").key("kinematicViscosity"), scene.solver.kinematicViscosity,
            "at most " + computed_text(most) + " (0.1 fluidRestDistance^2 / longest substep, settling included)");
