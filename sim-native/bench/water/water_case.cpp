@@ -18,6 +18,7 @@ std::vector<WaterCase> all_cases() {
          "slope of the surface (degrees)",
          {"slope under 1 degree (degrees)", "slope afterwards (degrees)"},
          run_tilted_gravity},
+        {"still-water", "depth (length)", {"bobbing (length/s)"}, run_still_water},
         {"neutral-sphere", "depth fallen (length)", {"error of buoyancy (of the weight)"}, run_neutral_sphere},
         {"added-mass", "speed of the fall (length/s)", {"added mass (of the displaced)"}, run_added_mass},
         {"heavier-sphere", "depth fallen (length)", {"terminal speed (length/s)"}, run_heavier_sphere, true},

@@ -71,6 +71,7 @@ WaterRun run_stirred_vortex(const WaterSetting& setting);
 WaterRun run_viscous_vortex(const WaterSetting& setting);
 WaterRun run_standing_wave(const WaterSetting& setting);
 WaterRun run_tilted_gravity(const WaterSetting& setting);
+WaterRun run_still_water(const WaterSetting& setting);
 WaterRun run_neutral_sphere(const WaterSetting& setting);
 WaterRun run_added_mass(const WaterSetting& setting);
 WaterRun run_heavier_sphere(const WaterSetting& setting);
