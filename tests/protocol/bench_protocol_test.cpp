@@ -100,6 +100,15 @@ TEST(BenchProtocolTest, WaterTakesSeveralStarts) {
     EXPECT_EQ(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,2.5,0,", curves.find("1,1,2.5,0,") + 1), std::string::npos);
 }
 
+/// A figure whose viscosity an explicit substep would cut off is not that of the case: its row says so, and has no value.
+TEST(BenchProtocolTest, WaterMeasuresNoCaseThatIsTooViscousForItsSubsteps) {
+    const Outcome outcome = run_simulator({"bench", "water", "--resolution", "16", "--setting", "1x1", "--case", "spinning-sphere",
+                                           "--scheme", "conserving"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("spinning-sphere,16,conserving,float,cpu,1,1,2.5,1,torque (of Kirchhoff's),too viscous,,,,,no,"),
+              std::string::npos) << outcome.out;
+}
+
 TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
         {{"water", "--scheme", "flex", "flex"}, "--scheme: flex is given twice; must be given once"},
