@@ -77,6 +77,10 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             description = "Scenes NAME/creature-N: thesis, open-water or pool. Default: ${DEFAULT-VALUE}.")
     private String water;
 
+    @Section(Topic.SCENE)
+    @Option(names = "--scene", paramLabel = "NAME", split = ",", description = "Scenes, or files of them, in place of --creatures and --water.")
+    private List<String> named = List.of();
+
     @Section(Topic.EXTENT)
     @Option(names = "--starts", paramLabel = "K", defaultValue = "1", description = "Run every gait from so many starts, from 1; "
             + "see evolve. Default: ${DEFAULT-VALUE}.")
@@ -148,22 +152,45 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     }
 
     private Map<String, EvolutionSettings> scenes(ExecutionSettings execution) throws InterruptedException {
-        EachOnce.check("--creatures", creatures, String::valueOf);
         Map<String, EvolutionSettings> scenes = new LinkedHashMap<>();
-        for (int creature : creatures) {
-            if (creature < 1 || creature > 4) {
-                throw new InvalidInputException("--creatures has " + creature + "; expected 1, 2, 3 or 4");
+        for (String scene : chosenScenes()) {
+            String name = nameOf(scene);
+            if (scenes.containsKey(name)) {
+                throw new InvalidInputException("--scene has " + name + " twice; expected each once, as files are named by it");
             }
-            String scene = water + "/creature-" + creature;
             EncodingKind encoding = EncodingKind.usualFor(scene);
             int actuators =
                     SceneInfo.toEvolve(scene, encoding, sceneOptions.overrides(), execution.simulator()).actuators();
-            scenes.put("creature-" + creature, EvolutionSettings.of(scene, encoding, actuators)
+            scenes.put(name, EvolutionSettings.of(scene, encoding, actuators)
                     .withSize(population, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations)
                     .withFitness(fitness, false).withBackend(execution.backend()).withStarts(starts, judge)
                     .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides()));
         }
         return scenes;
+    }
+
+    private List<String> chosenScenes() {
+        if (!named.isEmpty()) {
+            for (String other : List.of("--creatures", "--water")) {
+                if (spec.commandLine().getParseResult().hasMatchedOption(other)) {
+                    throw new InvalidInputException(other + " goes without --scene; leave one of them out");
+                }
+            }
+            return named.stream().map(scene -> SceneOptions.scene("--scene", scene)).toList();
+        }
+        EachOnce.check("--creatures", creatures, String::valueOf);
+        return creatures.stream().map(creature -> {
+            if (creature < 1 || creature > 4) {
+                throw new InvalidInputException("--creatures has " + creature + "; expected 1, 2, 3 or 4");
+            }
+            return water + "/creature-" + creature;
+        }).toList();
+    }
+
+    /** Short name, which files are named by: the last part of a scene's name, or of its file's. */
+    private static String nameOf(String scene) {
+        String last = scene.substring(Math.max(scene.lastIndexOf('/'), scene.lastIndexOf('\\')) + 1);
+        return last.endsWith(".json") ? last.substring(0, last.length() - ".json".length()) : last;
     }
 
     private List<OptimizerVariant> variants() {

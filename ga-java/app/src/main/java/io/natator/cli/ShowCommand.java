@@ -171,7 +171,7 @@ final class ShowCommand implements Callable<Integer> {
 
     private static void printFailures(List<EvaluationRecord> evaluations, PrintWriter out) {
         print(SimulationResult.Status.FAILED, "evaluations failed", evaluations, out);
-        print(SimulationResult.Status.REFUSED, "bodies were refused", evaluations, out);
+        print(SimulationResult.Status.REFUSED, "bodies refused", evaluations, out);
     }
 
     private static void print(SimulationResult.Status status, String what, List<EvaluationRecord> evaluations, PrintWriter out) {

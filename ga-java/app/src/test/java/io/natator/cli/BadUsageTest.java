@@ -33,6 +33,8 @@ class BadUsageTest extends FakeSimulatorTest {
     @CsvSource(delimiter = '|', value = {
         "compare-optimizers --output-dir NEVER --rank-starts 0|--rank-starts is 0; expected a whole number from 1 to 1000",
         "compare-optimizers --output-dir NEVER --creatures 1,2,1|--creatures has 1 twice; expected each once",
+        "compare-optimizers --output-dir NEVER --scene pool/eel --creatures 1|--creatures goes without --scene; leave one of them out",
+        "compare-optimizers --output-dir NEVER --scene NEVER.json|expected a named scene or an existing file",
         "compare-optimizers --output-dir NEVER --optimizers random,cma-es,RANDOM|--optimizers has random twice; expected each once",
         "reproduce --output-dir NEVER --creature 2,x|--creature is x; expected a whole number",
         "reproduce --output-dir NEVER --creature 2,2|--creature has 2 twice; expected each once",

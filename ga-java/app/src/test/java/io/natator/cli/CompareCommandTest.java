@@ -49,6 +49,21 @@ class CompareCommandTest extends FakeSimulatorTest {
         assertThat(folder.resolve("study/creature-1")).doesNotExist();
     }
 
+    /** Files are named by the last part of a scene's name; two scenes of one name would share them. */
+    @Test
+    void comparesOptimizersOnNamedScenes() {
+        String[] study = {"compare-optimizers", "--output-dir", folder.resolve("study").toString(), "--seeds", "1", "--evaluations", "12",
+            "--population", "4", "--optimizers", "random", "--simulator", "batch", "--scene", "thesis/creature-1,thesis/creature-2"};
+        assertThat(natator(study)).as(err.toString()).isZero();
+        assertThat(folder.resolve("study/creature-1/random/seed-1/best.json")).isNotEmptyFile();
+        assertThat(folder.resolve("study/creature-2-again.jsonl")).isNotEmptyFile();
+
+        err.getBuffer().setLength(0);
+        study[study.length - 1] = "thesis/creature-1,thesis/creature-1";
+        assertThat(natator(study)).isEqualTo(2);
+        assertThat(err.toString()).contains("--scene has creature-1 twice; expected each once").hasLineCount(1);
+    }
+
     /** Finished runs of other settings are no part of the study. */
     @ParameterizedTest
     @CsvSource({"--evaluations, 12, evaluations was 24", "--duration, 3.0, duration was not set", "--population, 4, population was 6"})

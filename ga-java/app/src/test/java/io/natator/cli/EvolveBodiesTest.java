@@ -120,7 +120,7 @@ class EvolveBodiesTest {
         });
         assertThat(StoredRun.recorded(folder.resolve("run")).rows()).filteredOn(one -> one.genes().get(16) >= 1.8).hasSameSizeAs(refused);
         natator("show", folder.resolve("run").toString());
-        assertThat(out.toString()).contains(refused.size() + " of ", " bodies were refused, the last, ", "does not fit into the tank",
+        assertThat(out.toString()).contains(refused.size() + " of ", " bodies refused, the last, ", "does not fit into the tank",
                 "early stop  0.0 % of the time: 0 of " + (20 - refused.size()) + " evaluations ended early, as if 0 had not");
     }
 
