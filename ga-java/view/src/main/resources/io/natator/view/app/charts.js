@@ -236,7 +236,7 @@ export class FitnessChart extends Chart {
     const first = generations[0]?.generation ?? 0;
     const last = Math.max(generations.at(-1)?.generation ?? 1, 1);
     const x = axis(first, last, Math.min(5, Math.max(last - first, 1)));  // marks at whole generations
-    this.begin({...x, high: last}, axis(Math.min(0, ...values), Math.max(0.01, ...values), 3));
+    this.begin({...x, high: last}, axis(Math.min(0, ...values), Math.max(1e-4, ...values), 3));
     for (const [generation, colour] of [[other, this.colours.other], [chosen, this.colours.strong]]) {
       if (generation !== null) {
         this.upright(generation, colour);
