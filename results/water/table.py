@@ -150,7 +150,7 @@ def exact(rows):
 
 def why(case, quantity, cells):
     """A link to the reason for which one of the cells misses the target; empty where all reach it."""
-    if all(not text or "*" in text or text == "too viscous" for text in cells):
+    if all(not text or "*" in text for text in cells):
         return ""
     reason = next((reason for begin, reason in WHY.get(case, {}).items() if quantity.startswith(begin)), None)
     if reason is None:

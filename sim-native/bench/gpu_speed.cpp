@@ -1,10 +1,7 @@
 #include "gpu_speed.h"
 
-#include <cmath>
-
 #include "bench_scenes.h"
 #include "natator/batch.h"
-#include "natator/model_builder.h"
 #include "timed_batch.h"
 
 namespace natator::bench {
@@ -15,21 +12,14 @@ BatchOptions options_of(const GpuSpeedStudy& study, Precision precision) {
 }
 
 Row figures(const Scene& scene, std::size_t evaluations, int repeats, const TimedBatch& measured) {
-    const Model model = build_model(scene);
-    const int fluid = fluid_particles(model);
-    const double substeps = std::round(scene.duration / scene.time_step) * model.parameters.substeps;
-    const double work = static_cast<double>(evaluations) * (fluid > 0 ? fluid : model.particles()) * substeps *
-                        scene.solver.numIterations;
-    return {std::to_string(model.particles()),
-            std::to_string(fluid),
-            number_text(substeps),
-            std::to_string(scene.solver.numIterations),
-            std::to_string(repeats),
-            measured_text(measured.device.kernel),
-            measured_text(measured.device.settling),
-            measured_text(measured.whole),
-            measured_text(1e-6 * work / measured.device.kernel),
-            measured.hash};
+    const SpeedWork work = speed_work(scene);
+    const double particle_iterations = static_cast<double>(evaluations) * work.particle_iterations;
+    return joined_rows(work.columns, {std::to_string(repeats),
+                                      measured_text(measured.device.kernel),
+                                      measured_text(measured.device.settling),
+                                      measured_text(measured.whole),
+                                      measured_text(1e-6 * particle_iterations / measured.device.kernel),
+                                      measured.hash});
 }
 
 }  // namespace

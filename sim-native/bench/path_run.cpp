@@ -122,4 +122,9 @@ Steps steps_of(const std::string& text) {
     return steps;
 }
 
+void set_steps(const Steps& steps, Scene& scene) {
+    scene.solver.substeps = steps.substeps;
+    scene.solver.numIterations = steps.iterations;
+}
+
 }  // namespace natator::bench

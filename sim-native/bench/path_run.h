@@ -25,6 +25,7 @@ struct Steps {
     int substeps, iterations;
 };
 Steps steps_of(const std::string& text);
+void set_steps(const Steps& steps, Scene& scene);
 
 /// Times at which paths are compared, s. Later ones mean little: neighbouring paths part exponentially.
 inline constexpr std::array<double, 2> path_times{0.1, 0.25};

@@ -68,10 +68,16 @@ std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names, c
 
 Scene make_speed_scene(const SpeedScene& named, bool quick) {
     Scene scene = make_scene(find_scene(named.name), quick);
-    if (!named.steps) return scene;
-    scene.solver.substeps = named.steps->substeps;
-    scene.solver.numIterations = named.steps->iterations;
+    if (named.steps) set_steps(*named.steps, scene);
     return scene;
+}
+
+SpeedWork speed_work(const Scene& scene) {
+    const Model model = build_model(scene);
+    const int fluid = fluid_particles(model), iterations = model.parameters.numIterations;
+    const double substeps = std::round(scene.duration / scene.time_step) * model.parameters.substeps;
+    return {{std::to_string(model.particles()), std::to_string(fluid), number_text(substeps), std::to_string(iterations)},
+            (fluid > 0 ? fluid : model.particles()) * substeps * iterations};
 }
 
 Gait speed_gait(const Scene& scene) {
@@ -120,22 +126,14 @@ void measure(TimedScene& one) {
 }
 
 Row figures(const TimedScene& one) {
-    const Scene& scene = one.scene;
-    const Model model = build_model(scene);
-    const int fluid = fluid_particles(model);
-    const double substeps = std::round(scene.duration / scene.time_step) * model.parameters.substeps;
-    const double work = (fluid > 0 ? fluid : model.particles()) * substeps * scene.solver.numIterations;
+    const SpeedWork work = speed_work(one.scene);
     const double least = *std::min_element(one.seconds.begin(), one.seconds.end());
-    return {std::to_string(model.particles()),
-            std::to_string(fluid),
-            number_text(substeps),
-            std::to_string(scene.solver.numIterations),
-            std::to_string(one.seconds.size()),
-            measured_text(least),
-            measured_text(median(one.seconds)),
-            measured_text(1e-6 * work / least),
-            measured_text(one.peak_mb),
-            one.hash};
+    return joined_rows(work.columns, {std::to_string(one.seconds.size()),
+                                      measured_text(least),
+                                      measured_text(median(one.seconds)),
+                                      measured_text(1e-6 * work.particle_iterations / least),
+                                      measured_text(one.peak_mb),
+                                      one.hash});
 }
 
 }  // namespace

@@ -37,6 +37,12 @@ std::vector<std::string> speed_scene_names();
 std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names, const std::vector<std::string>& settings);
 /// The scene itself, or a few frames of it if `quick`. Throws InputError for an unknown name.
 Scene make_speed_scene(const SpeedScene& named, bool quick);
+/// What all frames of a scene are, without settling: columns particles, fluid_particles, substeps, iterations.
+struct SpeedWork {
+    Row columns;
+    double particle_iterations;  ///< (fluid particles, or all without fluid) x substeps x iterations
+};
+SpeedWork speed_work(const Scene& scene);
 /// The thesis' gait where it found one, else all muscles in a travelling wave.
 Gait speed_gait(const Scene& scene);
 

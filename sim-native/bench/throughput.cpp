@@ -52,10 +52,7 @@ public:
     Tank(const ThroughputStudy& study, Scheme scheme, const std::optional<Steps>& steps, Precision precision, int particles)
         : study_(study), precision_(precision), particles_(particles), scene_(throughput_scene(particles)) {
         scene_.scheme = scheme;
-        if (steps) {
-            scene_.solver.substeps = steps->substeps;
-            scene_.solver.numIterations = steps->iterations;
-        }
+        if (steps) set_steps(*steps, scene_);
         model_ = build_model(scene_);
         fluid_ = fluid_particles(model_);
     }
@@ -191,11 +188,9 @@ Row throughput_columns() {
 void run_throughput_study(const ThroughputStudy& study, ResultTable& table,
                           const std::function<void(const std::string&)>& report) {
     const std::string device = gpu_name(study.device);
-    std::vector<std::optional<Steps>> settings(study.settings.begin(), study.settings.end());
-    if (settings.empty()) settings.emplace_back();
     for (const int particles : study.particles)
         for (const Scheme scheme : study.schemes)
-            for (const std::optional<Steps>& steps : settings)
+            for (const std::optional<Steps>& steps : study.settings)
                 for (const Precision precision : study.precisions) {
                     Tank tank(study, scheme, steps, precision, particles);
                     for (const int batch : study.batches) {

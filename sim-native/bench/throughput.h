@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,13 @@ namespace natator::bench {
 struct ThroughputStudy {
     std::vector<Scheme> schemes;
     std::vector<Precision> precisions;
-    std::vector<int> particles;   ///< of fluid, about; see throughput_scene
-    std::vector<int> batches;     ///< evaluations per launch
-    std::vector<Steps> settings;  ///< none: the scene's
+    std::vector<int> particles;  ///< of fluid, about; see throughput_scene
+    std::vector<int> batches;    ///< evaluations per launch
     int device = 0;
     int repeats = 3;
     bool quick = false;      ///< a few frames of each
     bool whole_gpu = false;  ///< for each evaluation, however small
+    std::vector<std::optional<Steps>> settings{std::nullopt};  ///< instead of the scene's own
 };
 
 /// About factors of 2 from 1000 to 1 000 000, and the number of the thesis' tank.

@@ -4,6 +4,7 @@
 #include "../commands.h"
 #include "../options.h"
 #include "gpu_speed.h"
+#include "natator/limits.h"
 #include "speed.h"
 #include "study_options.h"
 
@@ -33,7 +34,7 @@ void add_speed(CLI::App& app, int& status) {
         ->check(one_of(speed_scene_names()))
         ->capture_default_str();
     command->add_option("--threads", options->threads, "Threads inside one evaluation.")
-        ->check(whole_number_in(1, 1024))
+        ->check(whole_number_in(1, limits::threads))
         ->capture_default_str();
     command->add_option("--setting", options->settings,
                         "Substeps and iterations, such as 2x4, instead of the scene's; rows name them behind the scene.");

@@ -36,8 +36,9 @@ void add_throughput(CLI::App& app, int& status) {
         const StudyOptions& common = options->common;
         on_gpu(options->backend, {});
         ThroughputStudy study{common.chosen_schemes(), common.chosen_precisions(), options->particles,
-                              options->batches,        {},                         options->backend.device,
-                              options->repeats,        common.quick,               options->backend.whole_gpu};
+                              options->batches,        options->backend.device,    options->repeats,
+                              common.quick,            options->backend.whole_gpu};
+        if (!options->settings.empty()) study.settings.clear();
         for (const std::string& setting : options->settings) study.settings.push_back(steps_of(setting));
         if (common.quick) {
             study.particles = {1000, 8000};

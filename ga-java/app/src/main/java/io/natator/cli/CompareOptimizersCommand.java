@@ -78,7 +78,8 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     private String water;
 
     @Section(Topic.SCENE)
-    @Option(names = "--scene", paramLabel = "NAME", split = ",", description = "Scenes, or files of them, in place of --creatures and --water.")
+    @Option(names = "--scene", paramLabel = "NAME", split = ",", description = "Scenes, or files of them, in place of "
+            + "--creatures and --water; results are named by the last part of each.")
     private List<String> named = List.of();
 
     @Section(Topic.EXTENT)
@@ -154,14 +155,10 @@ final class CompareOptimizersCommand implements Callable<Integer> {
     private Map<String, EvolutionSettings> scenes(ExecutionSettings execution) throws InterruptedException {
         Map<String, EvolutionSettings> scenes = new LinkedHashMap<>();
         for (String scene : chosenScenes()) {
-            String name = nameOf(scene);
-            if (scenes.containsKey(name)) {
-                throw new InvalidInputException("--scene has " + name + " twice; expected each once, as files are named by it");
-            }
             EncodingKind encoding = EncodingKind.usualFor(scene);
             int actuators =
                     SceneInfo.toEvolve(scene, encoding, sceneOptions.overrides(), execution.simulator()).actuators();
-            scenes.put(name, EvolutionSettings.of(scene, encoding, actuators)
+            scenes.put(SceneOptions.shortName(scene), EvolutionSettings.of(scene, encoding, actuators)
                     .withSize(population, EvolutionSettings.NO_LIMIT).withEvaluations(evaluations)
                     .withFitness(fitness, false).withBackend(execution.backend()).withStarts(starts, judge)
                     .withScene(sceneOptions.scheme(), sceneOptions.duration(), sceneOptions.overrides()));
@@ -176,7 +173,9 @@ final class CompareOptimizersCommand implements Callable<Integer> {
                     throw new InvalidInputException(other + " goes without --scene; leave one of them out");
                 }
             }
-            return named.stream().map(scene -> SceneOptions.scene("--scene", scene)).toList();
+            List<String> scenes = named.stream().map(scene -> SceneOptions.scene("--scene", scene)).toList();
+            EachOnce.check("--scene", scenes.stream().map(SceneOptions::shortName).toList(), name -> name);
+            return scenes;
         }
         EachOnce.check("--creatures", creatures, String::valueOf);
         return creatures.stream().map(creature -> {
@@ -185,12 +184,6 @@ final class CompareOptimizersCommand implements Callable<Integer> {
             }
             return water + "/creature-" + creature;
         }).toList();
-    }
-
-    /** Short name, which files are named by: the last part of a scene's name, or of its file's. */
-    private static String nameOf(String scene) {
-        String last = scene.substring(Math.max(scene.lastIndexOf('/'), scene.lastIndexOf('\\')) + 1);
-        return last.endsWith(".json") ? last.substring(0, last.length() - ".json".length()) : last;
     }
 
     private List<OptimizerVariant> variants() {

@@ -194,7 +194,7 @@ final class EvolveCommand implements Callable<Integer> {
 
     /** runs/creature-1-seed-7, or with -2, -3 … if that is taken. */
     private Path freeFolder(String sceneName) {
-        String name = Path.of(sceneName).getFileName().toString().replaceFirst("\\.json$", "") + "-seed-" + searchOptions.seed();
+        String name = SceneOptions.shortName(sceneName) + "-seed-" + searchOptions.seed();
         Path folder = Path.of("runs", name);
         for (int number = 2; Files.exists(folder); number++) {
             folder = Path.of("runs", name + "-" + number);

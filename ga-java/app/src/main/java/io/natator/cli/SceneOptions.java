@@ -34,4 +34,9 @@ final class SceneOptions extends SceneChanges {
         }
         return file.toAbsolutePath().normalize().toString();
     }
+
+    /** A name for files: the last part of a scene's name, or of its file's. */
+    static String shortName(String scene) {
+        return Path.of(scene).getFileName().toString().replaceFirst("\\.json$", "");
+    }
 }

@@ -174,8 +174,8 @@ record SwimSource(Path run, Integer generation, String scene, JsonNode overrides
         return text;
     }
 
-    /** A name for files: the scene's last part. */
+    /** See {@link SceneOptions#shortName}. */
     String name() {
-        return Path.of(scene).getFileName().toString().replaceFirst("\\.json$", "");
+        return SceneOptions.shortName(scene);
     }
 }
