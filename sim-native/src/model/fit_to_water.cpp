@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "borders.h"
@@ -25,17 +24,6 @@ void raise_light_solids(Model& model) {
             model.inverse_mass[i] = std::min(model.inverse_mass[i], 1 / (least_density * density * volumes[i]));
 }
 
-/// Of the fluid along a direction, length.
-double depth(const Model& model, const Eigen::Vector3d& down) {
-    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (int i = 0; i < model.particles(); ++i) {
-        if (!model.is_fluid(i)) continue;
-        low = std::min(low, down.dot(model.position[i]));
-        high = std::max(high, down.dot(model.position[i]));
-    }
-    return std::max(high - low, 0.0);
-}
-
 void raise_substeps(Model& model) {
     SolverParameters& p = model.parameters;
     const double weight = std::max(1.0, std::abs(p.buoyancy)), gravity = p.gravity.norm() * weight;
@@ -44,9 +32,9 @@ void raise_substeps(Model& model) {
     const double passes = physics::divergence_passes + p.numIterations;
     double longest = std::sqrt(longest_fall * spacing / gravity);
     if (const Eigen::Vector3d down = gravity_on_walls(model); !down.isZero(0)) {
-        const double height = std::max(depth(model, down.normalized()), spacing);
+        const double height = std::max(depth(model), spacing);
         const double held = most_weight * passes * spacing * spacing / (down.norm() * weight * height);
-        longest = std::min({longest, std::sqrt(held * physics::most_excess), held * fastest_expansion(p)});
+        longest = std::min({longest, std::sqrt(held * physics::most_excess), held * fastest_expansion(model)});
     }
     constexpr double rounding = 1e-9;
     p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));

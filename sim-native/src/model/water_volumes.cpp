@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numbers>
 
+#include "borders.h"
 #include "physics/dfsph.h"
 
 namespace natator {
@@ -75,9 +77,25 @@ double fluid_density(const Model& model, const std::vector<double>& volumes) {
     return volume > 0 ? mass / volume : 0;
 }
 
-double fastest_expansion(const SolverParameters& parameters) {
-    const double acceleration = std::min(std::max(parameters.maxAcceleration / 10, parameters.gravity.norm()), 1e30);
-    return physics::expansion * std::sqrt(acceleration / parameters.fluidRestDistance);
+double depth(const Model& model) {
+    const Eigen::Vector3d down = gravity_on_walls(model);
+    if (down.isZero(0)) return 0;
+    const Eigen::Vector3d direction = down.normalized();
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i)) continue;
+        low = std::min(low, direction.dot(model.position[i]));
+        high = std::max(high, direction.dot(model.position[i]));
+    }
+    return std::max(high - low, 0.0);
+}
+
+double fastest_expansion(const Model& model) {
+    const SolverParameters& p = model.parameters;
+    const double layers = std::max(depth(model) / p.fluidRestDistance, physics::shallow_layers);
+    const double slower = std::pow(physics::shallow_layers / layers, 2);
+    const double acceleration = std::min(std::max(p.maxAcceleration / 10, p.gravity.norm()), 1e30);
+    return std::max(physics::least_expansion, physics::expansion * slower) * std::sqrt(acceleration / p.fluidRestDistance);
 }
 
 }  // namespace natator

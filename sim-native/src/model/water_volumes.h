@@ -13,8 +13,12 @@ std::vector<double> particle_volumes(const Model& model);
 /// Mass density of the fluid, from the mean mass of its particles, mass/length^3; 0 without any that moves.
 double fluid_density(const Model& model, const std::vector<double>& volumes);
 
-/// Rate at which velocities may take off a density above rest, 1/s: see physics::velocity_excess.
-double fastest_expansion(const SolverParameters& parameters);
+/// Of the fluid along the gravity that presses it on walls, length; 0 without.
+double depth(const Model& model);
+
+/// Rate at which velocities may take off a density above rest, 1/s: see physics::velocity_excess. Of all water the same: the
+/// surface rises at this times the depth, so deep water expands more slowly. It would throw itself up without end.
+double fastest_expansion(const Model& model);
 
 /// R: where the kernel of the water ends, length.
 double support(const Model& model);
