@@ -39,12 +39,12 @@ CASES = [
     ("viscous-vortex", {VISCOSITY: "viscosity over set + numerical one"}, {20: "4x4", 40: "4x4"}),
     ("standing-wave", {PERIOD: "period over that of linear theory", "decay (1/s)": "decay (1/s)"}, {20: "4x4", 40: "4x4"}),
     ("tilted-gravity", SLOPE, {20: "4x4", 40: "4x4"}),
-    ("still-water", {"bobbing (length/s)": "speed at which it bobs (length/s)"}, {20: "4x4", 40: "8x4", 60: "16x4", 80: "16x4"}),
+    ("still-water", {"bobbing (length/s)": "speed at which it bobs (length/s)"}, {20: "4x4", 40: "8x4", 60: "16x4", 80: "28x4"}),
     ("column", COLUMN, {20: "4x4", 40: "4x4"}),
     ("couette", CHANNEL, {20: "4x4", 40: "4x4"}),
     ("poiseuille", CHANNEL, {20: "4x4", 40: "4x4"}),
-    ("neutral-sphere", {BUOYANCY: BUOYANCY}, {20: "4x4", 40: "4x4"}),
-    ("added-mass", {ADDED: "of a sphere (of the displaced mass)"}, {20: "4x4", 40: "4x4", 60: "8x4"}),
+    ("neutral-sphere", {BUOYANCY: BUOYANCY}, {20: "4x4", 40: "4x4", 60: "16x4"}),
+    ("added-mass", {ADDED: "of a sphere (of the displaced mass)"}, {20: "4x4", 40: "4x4", 60: "16x4", 80: "28x4"}),
     ("heavier-sphere", FALL, {20: "4x4", 40: "8x4"}),
     ("lighter-sphere", FALL, {20: "4x4", 40: "8x4"}),
     ("spinning-sphere", TURN, {20: "4x4", 40: "8x4"}),
@@ -59,7 +59,6 @@ WHY = {
     "vortex": {"gain": "noise"},
     "stirred-vortex": {"gain": "noise"},
     "viscous-vortex": {"viscosity": "relief"},
-    "still-water": {"": "deep-water"},
     "couette": {"": "slack-water"},
     "poiseuille": {"viscosity": "slack-water", "drag": "slip"},
     "added-mass": {"": "numerical-viscosity"},
@@ -195,10 +194,10 @@ def of_settings(rows, settings):
 
 def of_depths(rows):
     """How fast still water bobs on the GPU, by its depth and the steps."""
-    settings = [f"{substeps}x4" for substeps in (4, 8, 12, 16, 24, 32, 48)]
+    settings = [f"{substeps}x4" for substeps in (4, 8, 12, 16, 24, 28, 32, 40, 48)]
     yield "| particles deep | " + " | ".join(map(in_words, settings)) + " |"
     yield "| ---: |" + " ---: |" * len(settings)
-    for depth in (40, 48, 60, 80):
+    for depth in (40, 48, 60, 80, 100):
         some = pick(rows, case="still-water", backend="cuda", resolution=str(depth))
         yield f"| {depth} | " + " | ".join(cell(pick(some, setting=steps)) for steps in settings) + " |"
 

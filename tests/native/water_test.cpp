@@ -9,6 +9,9 @@
 
 #include "law_models.h"
 #include "model/cluster.h"
+#include "model/fit_to_water.h"
+#include "model/fluid_block.h"
+#include "model/water_volumes.h"
 #include "natator/model_builder.h"
 #include "natator/scene.h"
 #include "natator/solver.h"
@@ -55,22 +58,50 @@ TEST(Water, ADropKeepsItsMomentum) {
     EXPECT_LE((after.angular - before.angular).norm(), 0.02 * before.angular.norm());
 }
 
-std::vector<bench::WaterFigure> figures_of(const std::string& water_case, Scheme scheme, int resolution) {
+std::vector<bench::WaterFigure> figures_of(const std::string& water_case, Scheme scheme, int resolution, int substeps = 2) {
     bench::WaterSetting setting;
-    setting.solver = {.scheme = scheme, .precision = Precision::single_precision, .substeps = 2, .iterations = 4};
+    setting.solver = {.scheme = scheme, .precision = Precision::single_precision, .substeps = substeps, .iterations = 4};
     setting.resolution = resolution;
     for (const bench::WaterCase& one : bench::water_cases())
         if (one.name == water_case) return one.run(setting).figures;
     throw std::logic_error("no such case: " + water_case);
 }
 
-bench::WaterFigure figure_of(const std::string& water_case, Scheme scheme, int resolution) {
-    return figures_of(water_case, scheme, resolution).at(0);
+bench::WaterFigure figure_of(const std::string& water_case, Scheme scheme, int resolution, int substeps = 2) {
+    return figures_of(water_case, scheme, resolution, substeps).at(0);
 }
 
 /// p = rho g (H - y), rho = mass per volume of the lattice, in the lower part of the water.
 TEST(Water, PressureIsHydrostatic) {
     EXPECT_NEAR(figure_of("column", Scheme::conserving, 12).value, 1, 0.05);
+}
+
+/// It bounced at 0.08 length/s when it expanded as fast as shallow water.
+TEST(Water, DeepWaterComesToRest) {
+    EXPECT_LE(figure_of("still-water", Scheme::conserving, 48, 8).value, 0.02);
+}
+
+/// A lattice of so many layers, 0.1 apart, under a gravity of 10: E of docs/theory.md 4.4, and a frame of 1/60 s in steps of
+/// T E, T = 2 (1 + N) s^2 / (g H), as far as they are shorter than two to a frame.
+TEST(Water, DeepWaterExpandsSlowly) {
+    const struct {
+        int layers;
+        double expansion;
+        int substeps;
+    } cases[] = {{16, 0.25, 2}, {41, 0.25, 3}, {61, 0.25 * 4 / 9, 9}, {81, 0.1, 14}, {161, 0.1, 27}};
+    for (const auto& [layers, expansion, substeps] : cases) {
+        Model model;
+        model.scheme = Scheme::conserving;
+        model.parameters.fluidRestDistance = 0.1;
+        model.parameters.substeps = 2;
+        model.parameters.numIterations = 4;
+        add_fluid({.count = {2, layers, 2}, .spacing = 0.1, .origin = {0.05, 0.05, 0.05}, .gradient = MassGradient::uniform,
+                   .bottom_mass = 1}, model);
+        model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 0.2}, {{0, 0, 1}, 0}, {{0, 0, -1}, 0.2}};
+        EXPECT_NEAR(fastest_expansion(model), expansion * 10, 1e-9) << layers << " layers";
+        fit_to_water(model);
+        EXPECT_EQ(model.parameters.substeps, substeps) << layers << " layers";
+    }
 }
 
 TEST(Water, ViscosityIsWhatItIsSetTo) {
