@@ -326,8 +326,11 @@ class ModulesTest extends BrowserTest {
                     return quality.share;
                   };
                   const slow = new Quality();
+                  const paused = new Quality();
+                  after(paused, 60, 0.5, 9, 0);
+                  paused.rest();
                   return [after(new Quality(), 60, 9, 9, 0), after(new Quality(), 30, 5, 2, 0), after(slow, 30, 2.1, 20, 0),
-                    after(slow, 60, 9, 9, 2.1)];
+                    after(slow, 60, 9, 9, 2.1), after(new Quality(), 0.25, 9, 4000, 0), after(paused, 60, 0.5, 9, 60)];
                 }""");
 
         List<Number> all = numbers(shares);
@@ -335,6 +338,8 @@ class ModulesTest extends BrowserTest {
         assertThat(all.get(1).doubleValue()).as("slow, but not by drawing").isEqualTo(1);
         assertThat(all.get(2).doubleValue()).as("slow by drawing").isLessThan(1);
         assertThat(all.get(3).doubleValue()).as("fast again").isGreaterThan(all.get(2).doubleValue());
+        assertThat(all.get(4).doubleValue()).as("seconds a picture").isLessThan(1);
+        assertThat(all.get(5).doubleValue()).as("after a minute without pictures").isEqualTo(1);
     }
 
     @Test

@@ -43,7 +43,7 @@ export class Quality {
    * @returns {boolean} whether the share changed
    */
   drawn(now, milliseconds) {
-    if (this.#from === null || now - this.#from > 3 * WINDOW_S) {
+    if (this.#from === null) {
       this.#begin(now);
       this.#goodSince = null;
       return false;
@@ -67,7 +67,7 @@ export class Quality {
     return this.#hopeless >= HOPELESS_WINDOWS;
   }
 
-  /** Forgets what was measured, as after a pause. */
+  /** Forgets what was measured: nothing is drawn for a while, which says nothing about how fast it could be. */
   rest() {
     this.#from = null;
   }

@@ -55,6 +55,7 @@ export class Stage {
   #isNew = true;
   #isChoosing = false;
   #forgetGpu;
+  #listening = new AbortController();
   #rested = 0;
   #samples = 0;
   #isTooSlow = false;
@@ -74,6 +75,7 @@ export class Stage {
     new ResizeObserver(() => {
       this.#isNew = true;
     }).observe(host);
+    document.addEventListener('visibilitychange', () => this.#quality.rest(), {signal: this.#listening.signal});
   }
 
   /** Called with the ends of the water's colour scale. */
@@ -220,6 +222,7 @@ export class Stage {
   /** Frees what it drew with. It is drawn no more. */
   close() {
     this.#forgetGpu();
+    this.#listening.abort();
     this.#picture?.dispose();
     this.#picture = null;
   }
