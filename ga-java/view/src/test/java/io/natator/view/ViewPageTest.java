@@ -162,6 +162,10 @@ class ViewPageTest extends ViewBrowserTest {
         Download film = page.waitForDownload(() -> get("film").click());
         assertThat(film.suggestedFilename()).isEqualTo("creature-1-vacuum-film.webm");
         assertThat(Files.readAllBytes(film.path())).startsWith(0x1a, 0x45, 0xdf, 0xa3).hasSizeGreaterThan(1000);
+        get("run").click();
+        get("film").click();
+        Download brief = page.waitForDownload(() -> get("film").click());
+        assertThat(Files.readAllBytes(brief.path())).as("ended at once, of a swim that rests").startsWith(0x1a, 0x45, 0xdf, 0xa3);
     }
 
     @Test

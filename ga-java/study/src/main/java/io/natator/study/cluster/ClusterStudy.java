@@ -1,5 +1,6 @@
 package io.natator.study.cluster;
 
+import io.natator.config.Numbers;
 import io.natator.file.AtomicFile;
 import io.natator.file.GeneratedPage;
 import io.natator.plot.Picture;
@@ -155,8 +156,8 @@ public final class ClusterStudy {
         table.append("\n| --- | ---: |").append(" ---: |".repeat(EXECUTORS.length)).append('\n');
         for (List<Point> curve : curves) {
             table.append("| ").append(curve.get(0).variant.name).append(" | ").append(limit(curve)).append(" |");
-            curve.forEach(point -> table.append(' ').append(format("%.2f ± %.2f", point.efficiency().mean(),
-                    point.efficiency().standardDeviation())).append(" |"));
+            curve.forEach(point -> table.append(' ').append(Numbers.withError(point.efficiency().mean(),
+                    point.efficiency().standardDeviation(), 2)).append(" |"));
             table.append('\n');
         }
         lines.add(table.toString());

@@ -12,6 +12,7 @@ import java.util.stream.Collectors;
 final class TableFormat {
 
     static final String NOTHING = "–";
+    private static final int LONG = 4;
     private static final int SHORT = 2;
 
     private TableFormat() {
@@ -20,21 +21,21 @@ final class TableFormat {
     /** Mean ± standard deviation, or the one value that there is. */
     static String speed(Sample sample) {
         return sample.count() == 0 ? NOTHING : sample.hasSpread()
-                ? number(sample.mean()) + " ± " + number(sample.standardDeviation())
+                ? withError(sample.mean(), sample.standardDeviation(), LONG)
                 : number(sample.mean());
     }
 
     static String number(double value) {
-        return rounded("%.4f", value);
+        return rounded(value, LONG);
     }
 
     static String shortNumber(double value) {
-        return rounded("%.2f", value);
+        return rounded(value, SHORT);
     }
 
     /** A short number and its error bar, which is not rounded to nothing. */
     static String withError(double value, double error) {
-        return Double.isFinite(value) ? Numbers.withError(value, error, SHORT) : NOTHING;
+        return withError(value, error, SHORT);
     }
 
     /** The error bar alone. */
@@ -42,10 +43,12 @@ final class TableFormat {
         return Double.isFinite(error) ? Numbers.error(error, SHORT) : NOTHING;
     }
 
-    /** Without the sign of a negative number that is rounded to 0. */
-    private static String rounded(String format, double value) {
-        return Double.isFinite(value) ? String.format(Locale.ROOT, format, value).replaceFirst("^-(0\\.0+)$", "$1")
-                : NOTHING;
+    private static String withError(double value, double error, int decimals) {
+        return Double.isFinite(value) ? Numbers.withError(value, error, decimals) : NOTHING;
+    }
+
+    private static String rounded(double value, int decimals) {
+        return Double.isFinite(value) ? Numbers.fixed(value, decimals) : NOTHING;
     }
 
     static String list(List<Double> values) {

@@ -5,6 +5,8 @@ import {saveBlob} from './save.js';
 
 const FRAMES_PER_S = 60;
 const BITS_PER_S = 16e6;
+/** How often an encoder that has given nothing yet is asked again once the film is to end, ms. */
+const ASKED_EVERY_MS = 100;
 const FORMATS = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'];
 
 /** Paints text and colour scales of the page where they stand over the pictures, in pixels of the screen. */
@@ -50,6 +52,7 @@ export class Capture {
   #canvas = document.createElement('canvas');
   #context = this.#canvas.getContext('2d');
   #recorder = null;
+  #isEnding = false;
 
   /** Called with whether a film is being recorded. */
   onRecording = () => {};
@@ -74,7 +77,7 @@ export class Capture {
   /** Begins to record, or ends and saves the film under this name; an error text, or null. */
   toggleRecording(name) {
     if (this.isRecording) {
-      this.#recorder.stop();
+      this.#end();
       return null;
     }
     const format = globalThis.MediaRecorder === undefined ? undefined : FORMATS.find(one => MediaRecorder.isTypeSupported(one));
@@ -86,12 +89,22 @@ export class Capture {
     const parts = [];
     const stream = this.#canvas.captureStream(FRAMES_PER_S);
     this.#recorder = new MediaRecorder(stream, {mimeType: format, videoBitsPerSecond: BITS_PER_S});
-    this.#recorder.ondataavailable = event => parts.push(event.data);
+    this.#isEnding = false;
+    this.#recorder.ondataavailable = event => {
+      if (event.data.size > 0) {
+        parts.push(event.data);
+      }
+      if (this.#isEnding && this.#recorder.state === 'recording') {
+        this.#endOrAsk(parts);
+      }
+    };
     this.#recorder.onstop = () => {
       stream.getTracks().forEach(track => track.stop());
       this.#recorder = null;
       this.onRecording(false);
-      saveBlob(name, new Blob(parts, {type: 'video/webm'}));
+      if (parts.length > 0) {
+        saveBlob(name, new Blob(parts, {type: 'video/webm'}));
+      }
     };
     this.#recorder.start(1000);
     this.onRecording(true);
@@ -103,6 +116,29 @@ export class Capture {
     if (this.isRecording) {
       this.#paint();
     }
+  }
+
+  /** A film that is ended before the encoder gave any of it would be empty, so that is waited for; not if asked to end again. */
+  #end() {
+    if (this.#isEnding) {
+      this.#recorder.stop();
+    } else {
+      this.#isEnding = true;
+      this.#recorder.requestData();
+    }
+  }
+
+  #endOrAsk(parts) {
+    if (parts.length > 0) {
+      this.#recorder.stop();
+      return;
+    }
+    setTimeout(() => {
+      if (this.#recorder?.state === 'recording') {
+        this.#paint();
+        this.#recorder.requestData();
+      }
+    }, ASKED_EVERY_MS);
   }
 
   /** Gives the canvas the size of the pictures; a film keeps the size that it began with. */
