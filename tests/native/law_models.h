@@ -21,7 +21,7 @@ inline constexpr double water_spacing = 0.1;
 
 /// A box of water with a free surface, walls at 0 and behind the last particles, without friction and damping. `scale`
 /// shrinks the particles: 1/2 makes them half as far apart and an eighth as heavy.
-inline Model box_of_water(const Eigen::Vector3i& count, double scale = 1) {
+inline Model lattice_of_water(const Eigen::Vector3i& count, double scale = 1) {
     Model model;
     model.scheme = Scheme::conserving;
     SolverParameters& p = model.parameters;
@@ -35,9 +35,15 @@ inline Model box_of_water(const Eigen::Vector3i& count, double scale = 1) {
                .gradient = MassGradient::uniform,
                .bottom_mass = scale * scale * scale},
               model);
-    disorder_fluid(water_spacing * scale, model);
     const Eigen::Vector3d size = water_spacing * scale * count.cast<double>();
     model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, size.x()}, {{0, 0, 1}, 0}, {{0, 0, -1}, size.z()}};
+    return model;
+}
+
+/// The same, disordered as scenes are.
+inline Model box_of_water(const Eigen::Vector3i& count, double scale = 1) {
+    Model model = lattice_of_water(count, scale);
+    disorder_fluid(water_spacing * scale, model);
     return model;
 }
 

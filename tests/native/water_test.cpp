@@ -10,7 +10,6 @@
 #include "law_models.h"
 #include "model/cluster.h"
 #include "model/fit_to_water.h"
-#include "model/fluid_block.h"
 #include "model/water_volumes.h"
 #include "natator/model_builder.h"
 #include "natator/scene.h"
@@ -90,15 +89,9 @@ TEST(Water, DeepWaterExpandsSlowly) {
         int substeps;
     } cases[] = {{16, 0.25, 2}, {41, 0.25, 3}, {61, 0.25 * 4 / 9, 9}, {81, 0.1, 14}, {161, 0.1, 27}};
     for (const auto& [layers, expansion, substeps] : cases) {
-        Model model;
-        model.scheme = Scheme::conserving;
-        model.parameters.fluidRestDistance = 0.1;
-        model.parameters.substeps = 2;
+        Model model = lattice_of_water({2, layers, 2});
         model.parameters.numIterations = 4;
-        add_fluid({.count = {2, layers, 2}, .spacing = 0.1, .origin = {0.05, 0.05, 0.05}, .gradient = MassGradient::uniform,
-                   .bottom_mass = 1}, model);
-        model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 0.2}, {{0, 0, 1}, 0}, {{0, 0, -1}, 0.2}};
-        EXPECT_NEAR(fastest_expansion(model), expansion * 10, 1e-9) << layers << " layers";
+        EXPECT_NEAR(fastest_expansion(model.parameters, depth(model)), expansion * 10, 1e-9) << layers << " layers";
         fit_to_water(model);
         EXPECT_EQ(model.parameters.substeps, substeps) << layers << " layers";
     }

@@ -32,9 +32,9 @@ void raise_substeps(Model& model) {
     const double passes = physics::divergence_passes + p.numIterations;
     double longest = std::sqrt(longest_fall * spacing / gravity);
     if (const Eigen::Vector3d down = gravity_on_walls(model); !down.isZero(0)) {
-        const double height = std::max(depth(model), spacing);
+        const double deep = depth(model), height = std::max(deep, spacing);
         const double held = most_weight * passes * spacing * spacing / (down.norm() * weight * height);
-        longest = std::min({longest, std::sqrt(held * physics::most_excess), held * fastest_expansion(model)});
+        longest = std::min({longest, std::sqrt(held * physics::most_excess), held * fastest_expansion(p, deep)});
     }
     constexpr double rounding = 1e-9;
     p.substeps = std::max(p.substeps, static_cast<int>(std::ceil(model.time_step / longest * (1 - rounding))));

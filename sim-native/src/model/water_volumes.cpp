@@ -90,12 +90,11 @@ double depth(const Model& model) {
     return std::max(high - low, 0.0);
 }
 
-double fastest_expansion(const Model& model) {
-    const SolverParameters& p = model.parameters;
-    const double layers = std::max(depth(model) / p.fluidRestDistance, physics::shallow_layers);
+double fastest_expansion(const SolverParameters& parameters, double depth) {
+    const double layers = std::max(depth / parameters.fluidRestDistance, physics::shallow_layers);
     const double slower = std::pow(physics::shallow_layers / layers, 2);
-    const double acceleration = std::min(std::max(p.maxAcceleration / 10, p.gravity.norm()), 1e30);
-    return std::max(physics::least_expansion, physics::expansion * slower) * std::sqrt(acceleration / p.fluidRestDistance);
+    const double acceleration = std::min(std::max(parameters.maxAcceleration / 10, parameters.gravity.norm()), 1e30);
+    return std::max(physics::least_expansion, physics::expansion * slower) * std::sqrt(acceleration / parameters.fluidRestDistance);
 }
 
 }  // namespace natator

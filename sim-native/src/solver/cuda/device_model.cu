@@ -144,7 +144,7 @@ void DeviceModel<Real>::set_water(const Model& model) {
     const double density = fluid_density(model, volumes);
     water.density = static_cast<Real>(density);
     water.dynamic_viscosity = static_cast<Real>(model.parameters.kinematicViscosity * density);
-    water.fastest_expansion = static_cast<Real>(fastest_expansion(model));
+    water.fastest_expansion = static_cast<Real>(fastest_expansion(model.parameters, depth(model)));
     const auto scale = static_cast<Real>(wendland(0, radius));
     water.kernel = {1 / water.radius, scale, 20 * scale / (water.radius * water.radius)};
     const double reach = effect_radius(model);

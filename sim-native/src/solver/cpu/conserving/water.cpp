@@ -28,7 +28,7 @@ Water<Real>::Water(const Model& model)
     effect_radius_ = static_cast<Real>(effect_radius(model));
     fluid_gravity_ = vec3<Real>((model.parameters.buoyancy * model.parameters.gravity).template cast<Real>().eval());
     weight_on_walls_ = vec3<Real>((model.parameters.buoyancy * gravity_on_walls(model)).template cast<Real>().eval());
-    fastest_expansion_ = static_cast<Real>(fastest_expansion(model));
+    fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters, depth(model)));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
     fluid_density_ = static_cast<Real>(density);
