@@ -101,6 +101,7 @@ PathRun run_path(const Subject& subject, const Setting& setting, const State<dou
     model.scheme = setting.scheme;
     model.parameters.substeps = setting.substeps;
     model.parameters.numIterations = setting.iterations;
+    model.parameters.modifiedPressure = setting.modified_pressure;
     return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(subject, model, start); });
 }
 
@@ -110,21 +111,31 @@ double path_error(const PathRun::Places& places, const PathRun::Places& referenc
     return places.empty() ? 0 : std::sqrt(squares / static_cast<double>(places.size()));
 }
 
+std::string Steps::text() const {
+    return std::to_string(substeps) + 'x' + std::to_string(iterations) + (modified_pressure ? "m" : "");
+}
+
 Steps steps_of(const std::string& text) {
     Steps steps{};
     std::istringstream parts(text);
     char cross = 0;
     parts >> steps.substeps >> cross >> steps.iterations;
-    const bool fits = parts && parts.eof() && cross == 'x';
+    char modified = 'm';
+    if (parts && !parts.eof()) {
+        parts >> modified;
+        steps.modified_pressure = true;
+    }
+    const bool fits = parts && parts.peek() == std::istringstream::traits_type::eof() && cross == 'x' && modified == 'm';
     const auto allowed = [](int count) { return 1 <= count && count <= 1000; };
     if (!fits || !allowed(steps.substeps) || !allowed(steps.iterations))
-        throw InputError("--setting = " + quoted(text) + ": must be SUBSTEPSxITERATIONS, such as 8x4");
+        throw InputError("--setting = " + quoted(text) + ": must be SUBSTEPSxITERATIONS, such as 8x4, or the same with m behind it for the modified pressure");
     return steps;
 }
 
 void set_steps(const Steps& steps, Scene& scene) {
     scene.solver.substeps = steps.substeps;
     scene.solver.numIterations = steps.iterations;
+    scene.solver.modifiedPressure = steps.modified_pressure;
 }
 
 }  // namespace natator::bench

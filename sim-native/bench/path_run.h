@@ -18,12 +18,18 @@ struct Setting {
     Precision precision = Precision::single_precision;
     int substeps = 4;
     int iterations = 4;
+    bool modified_pressure = false;
 };
 
-/// The steps of "8x4": 8 substeps of 4 iterations. Throws InputError, which names option --setting, for anything else.
+/// How finely time is cut, and what the iterations of scheme conserving look for, see SolverParameters::modifiedPressure.
 struct Steps {
-    int substeps, iterations;
+    int substeps = 4, iterations = 4;
+    bool modified_pressure = false;
+
+    std::string text() const;  ///< as steps_of reads it
 };
+/// Of "8x4": 8 substeps of 4 iterations; of "8x4m": for the modified pressure. Throws InputError, which names option --setting, for
+/// anything else.
 Steps steps_of(const std::string& text);
 void set_steps(const Steps& steps, Scene& scene);
 

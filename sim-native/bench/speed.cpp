@@ -54,7 +54,7 @@ const NamedScene& find_scene(const std::string& name) {
 }  // namespace
 
 std::string SpeedScene::text() const {
-    return steps ? name + ' ' + std::to_string(steps->substeps) + 'x' + std::to_string(steps->iterations) : name;
+    return steps ? name + ' ' + steps->text() : name;
 }
 
 std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names, const std::vector<std::string>& settings) {

@@ -66,7 +66,8 @@ public:
                 cuda::by_whole_gpu(scene_, model_, batch, options()) ? "whole GPU" : "block",
                 std::to_string(model_.particles()),
                 std::to_string(model_.parameters.substeps),
-                std::to_string(model_.parameters.numIterations)};
+                std::to_string(model_.parameters.numIterations),
+                scene_.scheme == Scheme::conserving ? yes_or_no(model_.parameters.modifiedPressure) : ""};
     }
 
     /// What stands behind the key, or why nothing does.
@@ -172,6 +173,7 @@ Row throughput_columns() {
             "particles",
             "substeps",
             "iterations",
+            "modified_pressure",
             "frames",
             "repeats",
             "neighbours",

@@ -50,7 +50,7 @@ int throughput_frames(Scheme scheme, int particles, int batch);
 int pair_passes(const Model& model);
 
 /// Columns scheme, precision, fluid_particles, evaluations, device, path (block or whole GPU), particles of one scene, substeps of a
-/// frame, iterations (these are the key); frames, repeats; neighbours: mean of the fluid particles
+/// frame, iterations, modified_pressure (yes, no, empty in scheme flex; these are the key); frames, repeats; neighbours: mean of the fluid particles
 /// after one frame, with solids and images where they are in the lists; pair_passes: of a substep; kernel_seconds: all
 /// frames on the device, the least of the repeats; ms_per_frame: of all evaluations together;
 /// million_particle_iterations_per_second: evaluations x fluid_particles x frames x substeps x iterations over
@@ -58,7 +58,7 @@ int pair_passes(const Model& model);
 /// pair_passes over kernel_seconds; at_a_time: evaluations that are on the device together; bytes_per_particle: device
 /// memory over at_a_time x particles; hash: of the evaluations' hashes.
 Row throughput_columns();
-inline constexpr std::size_t throughput_key_columns = 9;
+inline constexpr std::size_t throughput_key_columns = 10;
 
 /// Runs what `table` does not hold yet. `report` gets a line per row, and one for each that the device can't do: one
 /// that lacks the memory, and one that becomes unstable. Throws std::runtime_error when two runs of one row differ in a

@@ -177,6 +177,34 @@ TEST_F(GpuWater, ForcesAreTheCpusAndWhatChangesABodysMomentum) {
     for (int i = 0; i < model.particles(); ++i) EXPECT_EQ(on_gpu.velocity[i], other.velocity[i]) << i;
 }
 
+/// What carries the water's weight does the same to water, bodies and walls on both.
+TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
+    Model model = bodies_in_a_corner();
+    model.position = lattice(12, 8, 6, spacing, Eigen::Vector3d(0.54, 0.36, 0.27));
+    disorder_fluid(spacing, model);
+    model.clusters[0] = make_cluster(model.clusters[0].particles, model.position, 1);
+    model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 12 * spacing}, {{0, 0, 1}, 0}, {{0, 0, -1}, 6 * spacing}};
+    model.parameters.modifiedPressure = true;
+    OnBoth both(model, true);
+    auto& [cpu, gpu, on_cpu, on_gpu] = both;
+    for (int k = 0; k < 5; ++k) ASSERT_TRUE(both.update(2 * substep, 2));
+    std::cout << "measured: modified pressure, ten substeps " << largest_distance(on_cpu, on_gpu) << '\n';
+    EXPECT_LE(largest_distance(on_cpu, on_gpu), 1e-11);
+    const auto forces = gpu.forces(), expected = cpu.forces();
+    const auto pressures = gpu.pressures(), its = cpu.pressures();
+    const double largest = *std::max_element(its.begin(), its.end());
+    EXPECT_GT(largest, 0);
+    for (int i = 0; i < model.particles(); ++i) {
+        EXPECT_LE((forces[i] - expected[i]).norm(), 1e-8 * largest * spacing * spacing) << i;
+        EXPECT_NEAR(pressures[i], its[i], 1e-8 * largest) << i;
+    }
+    model.parameters.modifiedPressure = false;
+    State<double> whole = initial_state<double>(model);
+    GpuSolver<double> other(model);
+    for (int k = 0; k < 5; ++k) ASSERT_FALSE(other.update(whole, 2 * substep, 2));
+    EXPECT_GT(largest_distance(whole, on_gpu), 1e-5);
+}
+
 /// A viscosity that an explicit step does not bear is limited by what the two of a pair yield, held ones as water of the mean
 /// mass does: where the water is of two masses that is neither's own.
 TEST_F(GpuWater, LimitedViscosityBesideHeldBodiesIsTheCpus) {

@@ -218,16 +218,19 @@ TEST(SpeedTest, QuickStudyHasAHashAndAProfilePerRow) {
 }
 
 TEST(SpeedTest, ASettingTakesThePlaceOfTheScenesSteps) {
-    const std::vector<SpeedScene> scenes = speed_scenes_at({"creature-1", "vacuum"}, {"1x4", "2x3"});
+    const std::vector<SpeedScene> scenes = speed_scenes_at({"creature-1", "vacuum"}, {"1x4m", "2x3"});
     std::vector<std::string> names;
     for (const SpeedScene& scene : scenes) names.push_back(scene.text());
-    EXPECT_EQ(names, (std::vector<std::string>{"creature-1 1x4", "creature-1 2x3", "vacuum 1x4", "vacuum 2x3"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"creature-1 1x4m", "creature-1 2x3", "vacuum 1x4m", "vacuum 2x3"}));
     const Scene scene = make_speed_scene(scenes[1], true);
     EXPECT_EQ(scene.solver.substeps, 2);
     EXPECT_EQ(scene.solver.numIterations, 3);
     EXPECT_EQ(make_speed_scene({"creature-1"}, true).solver.substeps, 4);
     EXPECT_EQ(speed_scenes_at({"vacuum"}, {}).front().text(), "vacuum");
-    EXPECT_THROW(speed_scenes_at({"vacuum"}, {"2x4", "2"}), InputError);
+    EXPECT_FALSE(scene.solver.modifiedPressure);
+    EXPECT_TRUE(make_speed_scene(scenes[0], true).solver.modifiedPressure);
+    for (const char* setting : {"2", "2x4w", "2x4mm", "x4m", "2x4 m2"})
+        EXPECT_THROW(speed_scenes_at({"vacuum"}, {"2x4", setting}), InputError) << setting;
 }
 
 TEST(SpeedTest, ProfilingChangesNoBit) {

@@ -77,7 +77,7 @@ TEST_F(SettledStateCacheTest, TheSecondEvaluationReadsWhatTheFirstWrote) {
 TEST_F(SettledStateCacheTest, AnythingThatSettlingDependsOnMakesAnotherStart) {
     hash(scene(), &cache_);
     std::size_t expected = 1;
-    for (const char* other : {R"({"solver":{"viscosity":7}})", R"({"solver":{"maxNeighborsPerParticle":95}})",
+    for (const char* other : {R"({"solver":{"viscosity":7}})", R"({"solver":{"modifiedPressure":true}})", R"({"solver":{"maxNeighborsPerParticle":95}})",
                               R"({"settling":{"updates":99}})", R"({"creature":{"clusterStiffness":0.3}})",
                               R"({"planes":[[0,1,0,0.001]]})"}) {
         EXPECT_NE(hash(scene(other), &cache_), 0u);

@@ -28,7 +28,7 @@ SOLVER = {"substeps": 4, "numIterations": 4, "solidIterations": 1, "gravity": [0
           "solidRestDistance": 0.15, "fluidRestDistance": 0.1, "dynamicFriction": 0.2, "staticFriction": 0,
           "particleFriction": 0.2, "restitution": 0, "adhesion": 0, "sleepThreshold": 0, "maxSpeed": 1e38,
           "maxAcceleration": 100, "shockPropagation": 0, "dissipation": 0, "damping": 1, "cohesion": 0, "surfaceTension": 0,
-          "viscosity": 8, "kernelSupport": 2.5, "kinematicViscosity": 0, "vorticityConfinement": 0, "solidPressure": 0.1,
+          "viscosity": 8, "kernelSupport": 2.5, "modifiedPressure": False, "kinematicViscosity": 0, "vorticityConfinement": 0, "solidPressure": 0.1,
           "freeSurfaceDrag": 0, "buoyancy": 1, "collisionDistance": 0.05, "particleCollisionMargin": 0,
           "shapeCollisionMargin": 0, "relaxationMode": "local", "relaxationFactor": 1, "maxNeighborsPerParticle": 96,
           "wind": [0, 0, 0], "drag": 0, "lift": 0, "plasticThreshold": 0, "plasticCreep": 0}

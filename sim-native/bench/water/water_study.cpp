@@ -28,6 +28,7 @@ Row name_of_curve(const WaterCase& one, const WaterSetting& setting) {
             setting.gpu ? "cuda" : "cpu",
             std::to_string(solver.substeps),
             std::to_string(solver.iterations),
+            solver.scheme == Scheme::conserving ? yes_or_no(solver.modified_pressure) : "",
             solver.scheme == Scheme::conserving ? number_text(setting.support) : ""};
 }
 
@@ -64,7 +65,7 @@ void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& ta
         row = with(row, measured ? "ok" : run.instability ? "unstable" : "too viscous");
         for (const double value : {figure.value, figure.reference, figure.least, figure.greatest})
             row = with(row, measured ? measured_text(value) : "");
-        row = with(row, measured && figure.is_met() ? "yes" : "no");
+        row = with(row, yes_or_no(measured && figure.is_met()));
         row = with(with(row, std::to_string(run.particles)), measured_text(run.seconds));
         table.add(row);
         report(joined(row, " "));
@@ -74,12 +75,12 @@ void run_case(const WaterCase& one, const WaterSetting& setting, ResultTable& ta
 }  // namespace
 
 Row water_columns() {
-    return {"case",   "resolution", "scheme", "precision", "backend",  "substeps", "iterations", "support",
+    return {"case",   "resolution", "scheme", "precision", "backend",  "substeps", "iterations", "modified_pressure", "support",
             "start",    "quantity", "status",  "value",  "reference", "least",   "greatest", "met",        "particles", "run_time"};
 }
 
 Row water_curve_columns() {
-    return {"case", "resolution", "scheme", "precision", "backend", "substeps", "iterations", "support", "time", "value"};
+    return {"case", "resolution", "scheme", "precision", "backend", "substeps", "iterations", "modified_pressure", "support", "time", "value"};
 }
 
 void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& curves,

@@ -21,15 +21,15 @@ struct WaterStudy {
     bool held = true;  ///< also the cases of bodies that are held
 };
 
-/// Columns case, resolution, scheme, precision, backend, substeps, iterations, support, start (empty in scheme flex), quantity
+/// Columns case, resolution, scheme, precision, backend, substeps, iterations, modified_pressure (yes, no), support, start (these three empty in scheme flex), quantity
 /// (these are the key); status (ok, unstable, too viscous: for an explicit substep of
 /// that length); value; reference; least, greatest (the target; empty: no limit); met (yes, no); particles; run_time (s).
 Row water_columns();
-inline constexpr std::size_t water_key_columns = 10;
+inline constexpr std::size_t water_key_columns = 11;
 
-/// Columns case, resolution, scheme, precision, backend, substeps, iterations, support, time (s; these are the key), value.
+/// Columns case, resolution, scheme, precision, backend, substeps, iterations, modified_pressure, support, time (s; these are the key), value.
 Row water_curve_columns();
-inline constexpr std::size_t water_curve_key_columns = 9;
+inline constexpr std::size_t water_curve_key_columns = 10;
 
 /// Runs what `table` does not hold yet, but for cases of held bodies where these do not run; the curves of the first start go into `curves`. `report` gets a line per row.
 void run_water_study(const WaterStudy& study, ResultTable& table, ResultTable& curves,

@@ -23,6 +23,7 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
     p.substeps = setting.solver.substeps;
     p.numIterations = setting.solver.iterations;
     p.fluidRestDistance = spacing;
+    p.modifiedPressure = setting.solver.modified_pressure;
     p.kernelSupport = setting.support;
     p.radius = p.solidRestDistance = 1.5 * spacing;
     p.collisionDistance = spacing / 2;

@@ -16,7 +16,7 @@ std::vector<Setting> settings_at(const StudyOptions& common, const std::vector<S
     std::vector<Setting> settings;
     for (const Scheme scheme : common.chosen_schemes())
         for (const Precision precision : common.chosen_precisions())
-            for (const Steps& one : steps) settings.push_back({scheme, precision, one.substeps, one.iterations});
+            for (const Steps& one : steps) settings.push_back({scheme, precision, one.substeps, one.iterations, one.modified_pressure});
     return settings;
 }
 
@@ -64,7 +64,7 @@ void add_grid(CLI::App* command, Grid& grid) {
 std::vector<Setting> settings_of(const StudyOptions& common, const Grid& grid) {
     std::vector<Steps> steps;
     for (const int substeps : grid.substeps)
-        for (const int iterations : grid.iterations) steps.push_back({substeps, iterations});
+        for (const int iterations : grid.iterations) steps.push_back({.substeps = substeps, .iterations = iterations});
     return settings_at(common, steps);
 }
 

@@ -30,7 +30,7 @@ void add_throughput(CLI::App& app, int& status) {
         ->check(whole_number_in(1, 1 << 20))
         ->capture_default_str();
     command->add_option("--setting", options->settings,
-                        "Substeps and iterations, such as 2x4, instead of the scene's; deep water may need more substeps, and gets them.");
+                        "Substeps and iterations, such as 2x4, or 1x2m for the modified pressure, instead of the scene's; deep water may need more substeps, and gets them.");
     add_repeats(command, options->repeats, "Runs of each; the fastest counts.");
     command->callback([options, &status] {
         const StudyOptions& common = options->common;

@@ -48,7 +48,7 @@ void add_water(CLI::App& app, int& status) {
     command->add_option("--resolution", options->resolutions, "Particles along a case's length.")
         ->check(whole_number_in(8, 200))
         ->capture_default_str();
-    command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4.")->capture_default_str();
+    command->add_option("--setting", options->settings, "Substeps and iterations, such as 8x4, or 8x4m for the modified pressure.")->capture_default_str();
     command->add_option("--support", options->supports, "Of the kernel of scheme conserving, in particle distances.")
         ->check(number_in(limits::least_kernel_support, limits::most_kernel_support))
         ->capture_default_str();

@@ -58,6 +58,9 @@ struct SolverParameters {
     double surfaceTension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
     double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s, in scheme `flex`
     double kernelSupport = 2.5;         ///< of the water in scheme `conserving`, in rest distances of the fluid, [2, 4]
+    /// Scheme `conserving`: the weight of water below the surface is carried by the hydrostatic pressure, and iterations look for the
+    /// rest. For a tank that stays full: its surface must stay within kernelSupport of where all of its water is at rest.
+    bool modifiedPressure = false;
     double kinematicViscosity = 0.0;    ///< of the water in scheme `conserving`, length^2/s, >= 0
     double vorticityConfinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0
     double solidPressure = 0.1;         ///< weight of solid particles in the fluid's density, in scheme `flex`

@@ -34,7 +34,7 @@ std::string build_id() {
 }
 
 void add_parameters(ByteWriter& key, const SolverParameters& p) {
-    static_assert(sizeof(SolverParameters) == 272, "a parameter was added or removed: list it here");
+    static_assert(sizeof(SolverParameters) == 280, "a parameter was added or removed: list it here");
     for (const int value : {p.substeps, p.numIterations, p.solidIterations, p.maxNeighborsPerParticle}) key.add(value);
     key.add(p.gravity);
     for (const double value : {p.radius,
@@ -66,6 +66,7 @@ void add_parameters(ByteWriter& key, const SolverParameters& p) {
                                p.relaxationFactor})
         key.add(value);
     key.add(p.relaxationMode);
+    key.add(p.modifiedPressure);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "borders.h"
+#include "carried_weight.h"
 #include "physics/dfsph.h"
 #include "water_volumes.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double least_density = 0.02;  ///< of a solid, in units of the water's
 constexpr double longest_fall = 0.1;    ///< from rest in a substep, in rest distances
-constexpr double most_weight = 2;       ///< g H h^2 / s^2 of water of depth H that a pass holds up, in what it may take off
+constexpr double most_weight = 2;       ///< g H h^2 / s^2 of water of solved_depth H that a pass holds up, in what it may take off
 
 void raise_light_solids(Model& model) {
     const std::vector<double> volumes = particle_volumes(model);
@@ -32,7 +33,7 @@ void raise_substeps(Model& model) {
     const double passes = physics::divergence_passes + p.numIterations;
     double longest = std::sqrt(longest_fall * spacing / gravity);
     if (const Eigen::Vector3d down = gravity_on_walls(model); !down.isZero(0)) {
-        const double deep = depth(model), height = std::max(deep, spacing);
+        const double deep = solved_depth(model), height = std::max(deep, spacing);
         const double held = most_weight * passes * spacing * spacing / (down.norm() * weight * height);
         longest = std::min({longest, std::sqrt(held * physics::most_excess), held * fastest_expansion(p, deep)});
     }

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "io/strict_json.h"
+#include "model/carried_weight.h"
 #include "physics/dfsph.h"
 #include "readers.h"
 
@@ -34,12 +35,23 @@ void check_mirrors(const Scene& scene, const Place& place) {
         }
 }
 
+/// What water weighs along periodic axes is not carried.
+void check_modified_pressure(const Scene& scene, const Place& place) {
+    const SolverParameters& p = scene.solver;
+    Eigen::Vector3d weight = p.buoyancy * p.gravity;
+    for (const PeriodicAxis& periodic : scene.periodic) weight[periodic.axis] = 0;
+    if (!p.modifiedPressure || weight.isZero(0)) return;
+    if (const auto reason = no_tank(weight, scene.planes, scene.periodic))
+        refuse(place.key("solver").key("modifiedPressure"), true, *reason);
+}
+
 }  // namespace
 
 void check_water(const Scene& scene, const Place& place) {
     if (scene.scheme != Scheme::conserving) return;
     check_viscosity(scene, place);
     check_mirrors(scene, place);
+    check_modified_pressure(scene, place);
 }
 
 void check_plane(const Plane& plane, const Place& place) {

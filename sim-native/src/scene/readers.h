@@ -16,8 +16,8 @@ SolverParameters read_solver(const json& value, const Place& place);
 void check_solver(SolverParameters solver, const Place& place);
 /// Throws InputError unless the plane's normal has length 1 and its offset is a number.
 void check_plane(const Plane& plane, const Place& place);
-/// Throws InputError if scheme `conserving` cannot compute the water of a scene: with this viscosity at this time step, and beside
-/// planes that meet like these.
+/// Throws InputError if scheme `conserving` cannot compute the water of a scene: with this viscosity at this time step, beside
+/// planes that meet like these, and by its modified pressure in this tank.
 void check_water(const Scene& scene, const Place& place);
 FluidBlock read_fluid(const json& value, const Place& place);
 /// `data` as in SceneOptions.

@@ -40,6 +40,7 @@ const std::vector<Field<SolverParameters>>& solver_fields() {
         {"kernelSupport",
          &P::kernelSupport,
          {limits::least_kernel_support, limits::most_kernel_support, false, "rest distances of the fluid"}},
+        {"modifiedPressure", &P::modifiedPressure},
         {"kinematicViscosity", &P::kinematicViscosity, {0, 1000, false, "length^2/s"}},
         {"vorticityConfinement", &P::vorticityConfinement, {0, 1000, false, "length/s"}},
         {"solidPressure", &P::solidPressure, {0, 100}},

@@ -114,7 +114,7 @@ std::vector<std::string> describe_plan(const Model& model) {
     };
     add(plan.water, once("find fluid neighbours"));
     add(plan.water, once("density and gradients"));
-    add(plan.water, once(name(Stage::divergence)));
+    add(plan.water, once(name(Stage::divergence)) + (model.parameters.modifiedPressure ? ", modified pressure" : ""));
     add(plan.water && plan.viscosity, once(name(Stage::viscosity)));
     if (plan.water) forces();
     add(true, once(name(Stage::predict)));

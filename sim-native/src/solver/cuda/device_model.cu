@@ -5,6 +5,7 @@
 
 #include "ghost_maps.h"
 #include "model/borders.h"
+#include "model/carried_weight.h"
 #include "model/water_volumes.h"
 #include "natator/error.h"
 #include "physics/effects.h"
@@ -144,7 +145,8 @@ void DeviceModel<Real>::set_water(const Model& model) {
     const double density = fluid_density(model, volumes);
     water.density = static_cast<Real>(density);
     water.dynamic_viscosity = static_cast<Real>(model.parameters.kinematicViscosity * density);
-    water.fastest_expansion = static_cast<Real>(fastest_expansion(model.parameters, depth(model)));
+    water.fastest_expansion = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
+    water.carried = carried_weight<Real>(model);
     const auto scale = static_cast<Real>(wendland(0, radius));
     water.kernel = {1 / water.radius, scale, 20 * scale / (water.radius * water.radius)};
     const double reach = effect_radius(model);

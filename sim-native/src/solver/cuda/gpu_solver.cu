@@ -159,9 +159,9 @@ public:
         : Implementation(model), runner_(model, 1, room, forces) {}
 
     std::vector<Real> pressures() const override {
-        const std::vector<Real> impulses = h_ > 0 ? runner_.pressure_impulses() : std::vector<Real>{};
-        std::vector<Real> pressures(impulses.empty() ? 0 : this->model_.particles(), Real(0));
-        for (std::size_t k = 0; k < impulses.size(); ++k) pressures[particle_of(k)] = impulses[k] / h_;
+        const std::vector<Real> of_fluid = h_ > 0 ? runner_.pressures(h_) : std::vector<Real>{};
+        std::vector<Real> pressures(of_fluid.empty() ? 0 : this->model_.particles(), Real(0));
+        for (std::size_t k = 0; k < of_fluid.size(); ++k) pressures[particle_of(k)] = of_fluid[k];
         return pressures;
     }
     std::vector<Vector3<Real>> forces() const override {

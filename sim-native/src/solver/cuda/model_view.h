@@ -4,6 +4,7 @@
 
 #include "natator/plan.h"
 #include "physics/border.h"
+#include "physics/carried_weight.h"
 #include "physics/dfsph.h"
 #include "physics/spring.h"
 #include "physics/velocity.h"
@@ -112,6 +113,7 @@ struct WaterModel {
     GridView<Real> grid;
     const Real* volume;          ///< by particle
     Vec3<Real> weight_on_walls;  ///< gravity of the fluid along axes that have ends, length/s^2
+    physics::CarriedWeight<Real> carried;
     int seams, borders;
     physics::Seam<Real> seam[2];
     physics::Border<Real> border[most_borders];  ///< see borders_of

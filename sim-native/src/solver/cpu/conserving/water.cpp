@@ -6,6 +6,7 @@
 
 #include "../workspace.h"
 #include "model/borders.h"
+#include "model/carried_weight.h"
 #include "model/water_volumes.h"
 #include "physics/constants.h"
 #include "physics/dfsph.h"
@@ -28,7 +29,8 @@ Water<Real>::Water(const Model& model)
     effect_radius_ = static_cast<Real>(effect_radius(model));
     fluid_gravity_ = vec3<Real>((model.parameters.buoyancy * model.parameters.gravity).template cast<Real>().eval());
     weight_on_walls_ = vec3<Real>((model.parameters.buoyancy * gravity_on_walls(model)).template cast<Real>().eval());
-    fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters, depth(model)));
+    carried_ = carried_weight<Real>(model);
+    fastest_expansion_ = static_cast<Real>(fastest_expansion(model.parameters, solved_depth(model)));
     const std::vector<double> volumes = particle_volumes(model);
     const double density = fluid_density(model, volumes);
     fluid_density_ = static_cast<Real>(density);
@@ -239,9 +241,14 @@ template <class Real>
 void Water<Real>::add_gravity(ThreadTeam& team) {
     const Real limit = physics::velocity_limit(h_, fastest_expansion_);
     const Vec3<Real> gravity = vec3<Real>(model_.parameters.gravity.template cast<Real>());
+    const auto acceleration = [&](int slot) {
+        const bool fluid = model_.is_fluid(particle_of_[slot]);
+        const Vec3<Real> all = fluid ? fluid_gravity_ : gravity;
+        if (!carried_.any()) return all;
+        return all - carried_.acceleration(position_.at(slot), fluid, fluid_density_, volume_[slot], inverse_mass_[slot]);
+    };
     for_each_slot(team, [&](int slot) {
-        if (inverse_mass_[slot] > 0)
-            velocity_.add(slot, h_ * (model_.is_fluid(particle_of_[slot]) ? fluid_gravity_ : gravity));
+        if (inverse_mass_[slot] > 0) velocity_.add(slot, h_ * acceleration(slot));
         target_[slot] = physics::density_target(volume_[slot], density_[slot], limit, h_);
     });
     on_all_threads(team, kernels_->pack);
@@ -252,10 +259,13 @@ template <class Real>
 void Water<Real>::hold_at_walls(ThreadTeam& team) {
     if (image_owner_.empty() || !(norm(weight_on_walls_) > 0)) return;
     std::fill_n(impulse_.begin(), image_begin_, Real(0));
-    for_each_image(team, [this](int k) {
+    const auto weight = [this](int owner) {
+        if (!carried_.any()) return weight_on_walls_;
+        return weight_on_walls_ - carried_.part(position_.at(owner)) * carried_.gravity;
+    };
+    for_each_image(team, [&](int k) {
         const int slot = image_begin_ + k, owner = image_owner_[k];
-        impulse_[slot] = is_fluid_slot(owner) ? physics::weight_to_ghost(inverse_mass_[owner], volume_[owner], h_,
-                                                                         weight_on_walls_,
+        impulse_[slot] = is_fluid_slot(owner) ? physics::weight_to_ghost(inverse_mass_[owner], volume_[owner], h_, weight(owner),
                                                                          position_.at(slot) - position_.at(owner),
                                                                          impulse_sum_[owner])
                                               : Real(0);

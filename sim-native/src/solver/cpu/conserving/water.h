@@ -10,6 +10,7 @@
 #include "images.h"
 #include "natator/model.h"
 #include "natator/state.h"
+#include "physics/carried_weight.h"
 #include "water_kernels.h"
 
 namespace natator::cpu {
@@ -60,7 +61,11 @@ public:
     /// In units of rest density, at the last substep's start, by particle.
     Real density(int particle) const { return density_[slot_of_[particle]]; }
     /// Of the last substep, mass/(length s^2), by particle.
-    Real pressure(int particle) const { return impulse_sum_[slot_of_[particle]] / h_; }
+    Real pressure(int particle) const {
+        const int slot = slot_of_[particle];
+        const Real solved = impulse_sum_[slot] / h_;
+        return carried_.any() ? solved + carried_.pressure(position_.at(slot), fluid_density_) : solved;
+    }
     int neighbours(int particle) const { return neighbour_count_[slot_of_[particle]]; }
 
     /// From now on impulses of the water on solids are summed.
@@ -162,6 +167,7 @@ private:
     CellGrid<Real> grid_;
     Vec3<Real> fluid_gravity_;    ///< of the fluid, length/s^2
     Vec3<Real> weight_on_walls_;  ///< its part along axes that have ends
+    physics::CarriedWeight<Real> carried_;
     Real h_ = 1;
 
     int particles_, image_begin_, far_slot_ = 0;

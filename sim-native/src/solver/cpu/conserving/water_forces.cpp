@@ -44,6 +44,7 @@ void Water<Real>::add_pressure_forces() {
     const WaterView<Real> all = view();
     const physics::WendlandKernel<Real> kernel{all.inverse_radius, all.kernel_scale, all.slope_scale};
     for_each_solid_slot([&](int slot, int particle) {
+        if (carried_.any()) impulse_on_[particle] += h_ * carried_.lift(position_.at(slot), fluid_density_, volume_[slot]);
         const auto side = [&](int of) -> physics::PairSide<Real> {
             const Real* const relief = &packed_relief_[4 * static_cast<std::size_t>(of)];
             return {volume_[of], impulse_sum_[of < image_begin_ ? of : image_owner_[of - image_begin_]],

@@ -263,12 +263,14 @@ std::vector<int> LargeRunner<Real>::neighbour_counts() const {
 }
 
 template <class Real>
-std::vector<Real> LargeRunner<Real>::pressure_impulses() const {
+std::vector<Real> LargeRunner<Real>::pressures(Real h) const {
     if (!base_.model.plan.water) return {};
-    const DeviceBuffer<Real> impulses(std::size_t(base_.states) * base_.model.fluid);
-    launch_pressure_impulses(base_, impulses.data());
+    const DeviceBuffer<Real> pressures(std::size_t(base_.states) * base_.model.fluid);
+    LargeLaunch<Real> launch = base_;
+    launch.slots.h = h;
+    launch_pressures(launch, pressures.data());
     wait();
-    return impulses.download();
+    return pressures.download();
 }
 
 template <class Real>

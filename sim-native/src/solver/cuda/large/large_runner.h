@@ -80,8 +80,8 @@ public:
     /// As the last substep left them, by State and device number.
     std::vector<Real> densities() const;
     std::vector<int> neighbour_counts() const;
-    /// Sums of the last substep's pressure impulses on the fluid, likewise, mass/(length s); empty in scheme flex.
-    std::vector<Real> pressure_impulses() const;
+    /// Of the fluid in the last substep, of length h (s), likewise, mass/(length s^2); empty in scheme flex.
+    std::vector<Real> pressures(Real h) const;
     /// What the water has given each solid in the last update, mass length/s, by State and device number; empty unless kept.
     std::vector<Quad<Real>> impulses_on_solids() const;
     /// What a launch takes that only reads, for all States, what a pass over the pairs of the water reads; the least of some,

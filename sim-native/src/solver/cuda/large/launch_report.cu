@@ -25,9 +25,12 @@ __device__ void neighbour_counts_large(const ModelView<Real>& model, const Slots
 }
 
 template <class Real>
-__device__ void pressure_impulses_large(const ModelView<Real>& model, const Slots<Real>& slots, int s, Real* impulses) {
-    impulses += static_cast<std::size_t>(blockIdx.y) * model.fluid;
-    impulses[slots.number()[s]] = slots.water.impulse_sum[slots.water.slot_before[s]];
+__device__ void pressures_large(const ModelView<Real>& model, const Slots<Real>& slots, int s, Real* pressures) {
+    const int before = slots.water.slot_before[s];
+    Real pressure = slots.water.impulse_sum[before] / slots.h;
+    if (const auto& carried = model.water.carried; carried.any())
+        pressure += carried.pressure(xyz(slots.water.position[before]), model.water.density);
+    pressures[static_cast<std::size_t>(blockIdx.y) * model.fluid + slots.number()[s]] = pressure;
 }
 
 template <class Real>
@@ -113,8 +116,8 @@ void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts) {
 }
 
 template <class Real>
-void launch_pressure_impulses(const LargeLaunch<Real>& launch, Real* impulses) {
-    launch.template report_slots<pressure_impulses_large<Real>>(launch.model.fluid, impulses);
+void launch_pressures(const LargeLaunch<Real>& launch, Real* pressures) {
+    launch.template report_slots<pressures_large<Real>>(launch.model.fluid, pressures);
 }
 
 template <class Real>
@@ -150,7 +153,7 @@ void launch_far_slot(const LargeLaunch<Real>& launch) {
     template void record_positions(const LargeLaunch<Real>&, Quad<Real>*, int); \
     template void launch_densities(const LargeLaunch<Real>&, Real*);            \
     template void launch_neighbour_counts(const LargeLaunch<Real>&, int*);      \
-    template void launch_pressure_impulses(const LargeLaunch<Real>&, Real*);    \
+    template void launch_pressures(const LargeLaunch<Real>&, Real*);            \
     template void launch_body_places(const LargeLaunch<Real>&, Quad<Real>*);    \
     template void launch_measure(const LargeLaunch<Real>&);                     \
     template void launch_work(const LargeLaunch<Real>&);                        \

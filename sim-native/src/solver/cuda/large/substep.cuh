@@ -126,7 +126,7 @@ template <class Real>
 void launch_neighbour_counts(const LargeLaunch<Real>& launch, int* counts);
 /// Likewise of the fluid, for scheme conserving: sums of the last substep's pressure impulses.
 template <class Real>
-void launch_pressure_impulses(const LargeLaunch<Real>& launch, Real* impulses);
+void launch_pressures(const LargeLaunch<Real>& launch, Real* pressures);
 
 /// Reads what a pass over the pairs of the water reads, and writes its sum by State and slot.
 template <class Real>

@@ -45,6 +45,8 @@ __device__ void add_pressure_forces(const ModelView<Real>& model, const Slots<Re
         sum += pressure_impulse_between(own, its, gradient, model.water.kernel.value(physics::length_of(difference)));
     });
     sum = sum_of_lanes(sum);
+    if (const auto& carried = model.water.carried; carried.any())
+        sum += slots.h * carried.lift(xyz(here), model.water.density, here.w);
     if (own_lane() == 0) add_impulse(model, slots, s, sum);
 }
 

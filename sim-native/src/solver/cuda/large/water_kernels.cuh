@@ -240,7 +240,14 @@ __device__ void predict_in_water(const ModelView<Real>& model, const Slots<Real>
     const bool fluid = number_in(number) < model.fluid;
     const Quad<Real> pushed = pushed_by_forces(model, water, s, fluid);
     Vec3<Real> with_gravity = xyz(pushed);
-    if (pushed.w > 0) with_gravity += slots.h * (fluid ? model.fluid_gravity : model.gravity);
+    if (pushed.w > 0) {
+        Vec3<Real> gravity = fluid ? model.fluid_gravity : model.gravity;
+        if (const auto& carried = model.water.carried; carried.any()) {
+            const Quad<Real> here = water.position[s];
+            gravity = gravity - carried.acceleration(xyz(here), fluid, model.water.density, here.w, pushed.w);
+        }
+        with_gravity += slots.h * gravity;
+    }
     const Vec3<Real> v = model.plan.clamp_speed ? clamped(with_gravity, model.max_speed) : with_gravity;
     water.velocity[s] = quad(fluid ? with_gravity : v, pushed.w);
     Vec3<Real> there = xyz(x) + slots.h * v;
@@ -276,8 +283,10 @@ __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>
         const Vec3<Real> there = ghost_of(model.water, xyz(x), borders);
         given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * xyz(seen(model, relief, borders));
         if (!walls || borders == 0 || other >= model.fluid) return;
-        weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, model.water.weight_on_walls,
-                                           there - xyz(x), relief.w) *
+        Vec3<Real> gravity = model.water.weight_on_walls;
+        if (const auto& carried = model.water.carried; carried.any())
+            gravity = gravity - carried.part(xyz(x)) * carried.gravity;
+        weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, gravity, there - xyz(x), relief.w) *
                   water.pair[place].value();
     };
     for_each_water_neighbour<1>(slots, s, add, water.position, water.relief);

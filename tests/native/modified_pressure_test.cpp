@@ -1,0 +1,142 @@
+// Scheme conserving, solving for the modified pressure: the water's weight is carried by a hydrostatic pressure that is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "law_models.h"
+#include "model/carried_weight.h"
+#include "model/fit_to_water.h"
+#include "model/water_volumes.h"
+#include "natator/momentum.h"
+#include "natator/plan.h"
+#include "natator/solver.h"
+#include "refusal_of.h"
+#include "water/water_case.h"
+
+namespace natator {
+namespace {
+
+using namespace test;
+
+Model modified(Model model) {
+    model.parameters.modifiedPressure = true;
+    return model;
+}
+
+std::vector<bench::WaterFigure> figures_of(const std::string& name, int resolution, int substeps, int iterations, bool modified_pressure) {
+    bench::WaterSetting setting;
+    setting.solver = {.scheme = Scheme::conserving, .substeps = substeps, .iterations = iterations, .modified_pressure = modified_pressure};
+    setting.resolution = resolution;
+    for (const bench::WaterCase& one : bench::water_cases())
+        if (one.name == name) return one.run(setting).figures;
+    return {};
+}
+
+/// q is 0 down to a kernel support of 0.25 below the surface, its slope grows to rho g over another one, and the gravity that is
+/// left is what that slope leaves.
+TEST(ModifiedPressure, TheCarriedPressureIsHydrostatic) {
+    const Model model = modified(lattice_of_water({4, 10, 4}));
+    const auto carried = carried_weight<double>(model);
+    const double surface = model.particles() * particle_volumes(model).front() / (0.4 * 0.4);
+    EXPECT_NEAR(surface, 1, 0.02);
+    const auto at = [&](double depth) { return physics::Vec3<double>{0.1, surface - depth, 0.2}; };
+    const double density = 1000, slope = 10 * density;
+    EXPECT_EQ(carried.pressure(at(0.2), density), 0);
+    EXPECT_NEAR(carried.pressure(at(0.5), density), slope * 0.125, 1e-9 * slope);
+    EXPECT_NEAR(carried.pressure(at(0.9), density) - carried.pressure(at(0.6), density), slope * 0.3, 1e-9 * slope);
+    for (const double depth : {0.1, 0.3, 0.4, 0.7}) {
+        const double step = 1e-6;
+        const double gradient = (carried.pressure(at(depth + step), density) - carried.pressure(at(depth - step), density)) / (2 * step);
+        EXPECT_NEAR(carried.acceleration(at(depth), true, density, 1e-3, 1).y, -gradient / density, 1e-6) << depth;
+        EXPECT_NEAR(carried.lift(at(depth), density, 1e-3).y, gradient * 1e-3, 1e-6) << depth;
+        EXPECT_NEAR(carried.acceleration(at(depth), false, density, 1e-3, 0.5).y, -gradient * 1e-3 * 0.5, 1e-6) << depth;
+    }
+}
+
+/// 48 deep, in one step of two iterations a frame: without it the water falls into itself.
+TEST(ModifiedPressure, DeepWaterRestsWithTwoIterations) {
+    EXPECT_LE(figures_of("still-water", 48, 1, 2, true).at(0).value, 0.03);
+    EXPECT_GE(figures_of("still-water", 48, 1, 2, false).at(0).value, 0.3);
+}
+
+TEST(ModifiedPressure, PressureAndDepthOfAColumnAreHydrostatic) {
+    const auto column = figures_of("column", 20, 1, 3, true);
+    EXPECT_NEAR(column.at(0).value, 1, 0.02);
+    EXPECT_NEAR(column.at(1).value, 2, 0.04);
+}
+
+/// A body as heavy as its water weighs nothing: the force on it, what is carried included, is its weight.
+TEST(ModifiedPressure, BodiesAreAsBuoyantAsEver) {
+    EXPECT_NEAR(figures_of("neutral-sphere", 12, 1, 4, true).at(0).value, 0, 0.02);
+}
+
+/// Its forces are what changes a body's momentum, its lift by the carried pressure among them.
+TEST(ModifiedPressure, ForcesAreWhatTheWaterDoesToABody) {
+    const Model model = modified(cube_in_water(1.3, 1));
+    const std::vector<int>& body = model.clusters[0].particles;
+    State<double> state = initial_state<double>(model);
+    Execution execution;
+    execution.forces = true;
+    Solver<double> solver(model, execution);
+    const auto momentum = [&] {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const int i : body) sum += state.velocity[i] / model.inverse_mass[i];
+        return sum;
+    };
+    for (int frame = 0; frame < 5; ++frame) {
+        const Eigen::Vector3d before = momentum();
+        advance_frames(solver, model, state, 1);
+        Eigen::Vector3d force = Eigen::Vector3d::Zero(), weight = force;
+        for (const int i : body) {
+            force += solver.forces()[i];
+            weight += model.parameters.gravity / model.inverse_mass[i];
+        }
+        EXPECT_LE(((momentum() - before) / model.time_step - force - weight).norm(), 1e-9 * weight.norm()) << frame;
+        EXPECT_GT(force.y(), 0.5 * weight.norm());
+    }
+}
+
+/// Deep water needs no more steps than what lies above the level does.
+TEST(ModifiedPressure, OnlyTheWaterAboveTheLevelCountsAsDeep) {
+    Model whole = lattice_of_water({2, 81, 2}), model = modified(whole);
+    EXPECT_NEAR(solved_depth(whole), 8, 1e-9);
+    EXPECT_NEAR(solved_depth(model), 1.5 * 0.25, 1e-9);
+    fit_to_water(whole);
+    fit_to_water(model);
+    EXPECT_EQ(whole.parameters.substeps, 14);
+    EXPECT_EQ(model.parameters.substeps, 2);  // as the model has
+    EXPECT_NEAR(solved_depth(modified(lattice_of_water({2, 3, 2}))), 0.2, 1e-9);
+}
+
+TEST(ModifiedPressure, ThePlanNamesIt) {
+    const auto named = [](const Model& model) {
+        int lines = 0;
+        for (const std::string& line : describe_plan(model)) lines += line.find("modified pressure") != std::string::npos;
+        return lines;
+    };
+    EXPECT_EQ(named(box_of_water({4, 4, 4})), 0);
+    EXPECT_EQ(named(modified(box_of_water({4, 4, 4}))), 1);
+}
+
+/// The level is known only in a tank; without weight there is nothing to carry.
+TEST(ModifiedPressure, WaterThatIsInNoTankIsRefused) {
+    const std::string expected = "model: parameters.modifiedPressure = true: needs a tank with one floor and one wall at each end, or "
+                                 "periodic axes";
+    Model model = modified(box_of_water({4, 4, 4}));
+    EXPECT_EQ(refusal_of([&] { const Solver<float> solver(model); }), "");
+    for (std::size_t k = 0; k < model.planes.size(); ++k) {
+        Model open = model;
+        open.planes.erase(open.planes.begin() + static_cast<std::ptrdiff_t>(k));
+        EXPECT_EQ(refusal_of([&] { const Solver<float> solver(open); }), expected) << k;
+        open.parameters.gravity.setZero();
+        EXPECT_EQ(refusal_of([&] { const Solver<float> solver(open); }), "") << k;
+    }
+    model.planes.resize(1);
+    model.periodic = {{.axis = 0, .low = 0, .high = 0.8}, {.axis = 2, .low = 0, .high = 0.8}};
+    EXPECT_EQ(refusal_of([&] { const Solver<float> solver(model); }), "");
+    EXPECT_NEAR(carried_weight<double>(model).begin, -0.1 + 0.25, 0.002);  // a quarter of the tank, which is 0.1 deep
+}
+
+}  // namespace
+}  // namespace natator
