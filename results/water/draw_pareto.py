@@ -32,7 +32,7 @@ def read():
         for row in csv.DictReader(table):
             key = row["case"], row["quantity"], row["resolution"], row["backend"], row["scheme"]
             if key == (case, quantity, resolution, backend, "conserving") and row["status"] == "ok":
-                rows.setdefault((row["support"], f'{row["substeps"]}×{row["iterations"]}'), []).append(row)
+                rows.setdefault((row["support"], f'{row["substeps"]}×{row["iterations"]}' + (" m" if row["modified_pressure"] == "yes" else "")), []).append(row)
     for (support, setting), starts in rows.items():
         if not all((other, setting) in rows for other in colours):
             continue

@@ -48,6 +48,7 @@ struct StabilityStudy {
     std::vector<Precision> precisions;
     std::vector<std::string> axes;  ///< as for stability_points
     bool quick = false;             ///< ends of the axes only, a fifth of the duration
+    bool modified_pressure = false; ///< see SolverParameters; rows do not tell
 };
 
 /// Columns scheme, precision, axis, value, second_axis, second_value (these are the key), status, particle, stage,

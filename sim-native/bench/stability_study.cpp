@@ -35,10 +35,11 @@ Row row_of(Row key, const StabilityResult& result) {
     return key;
 }
 
-StabilityCase case_at(const StabilityPoint& point, Scheme scheme, bool quick) {
+StabilityCase case_at(const StabilityPoint& point, Scheme scheme, const StabilityStudy& study) {
     StabilityCase subject = calm_case();
     subject.scene.scheme = scheme;
-    if (quick) subject.scene.duration *= quick_share;
+    subject.scene.solver.modifiedPressure = study.modified_pressure;
+    if (study.quick) subject.scene.duration *= quick_share;
     stability_axis(point.axis).set(subject, point.value);
     if (!point.second_axis.empty()) stability_axis(point.second_axis).set(subject, point.second_value);
     return subject;
@@ -96,7 +97,7 @@ void run_stability_study(const StabilityStudy& study, ResultTable& table,
             for (const Scheme scheme : study.schemes) {
                 const Row key = key_of(scheme, precision, point);
                 if (table.has(key)) continue;
-                table.add(row_of(key, run_stability(case_at(point, scheme, study.quick), precision)));
+                table.add(row_of(key, run_stability(case_at(point, scheme, study), precision)));
                 report(joined(table.rows().back(), " "));
             }
         }
