@@ -48,13 +48,13 @@ TEST(BenchProtocolTest, WaterWritesEveryFigureOfEveryCaseAndTheCurvesBesideIt) {
     const Outcome outcome = run_simulator({"bench", "water", "--quick", "--scheme", "conserving", "--output", file});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file);
-    for (const char* row : {"vortex,10,conserving,float,cpu,4,4,2.5,1,amplitude after one turnover,ok,",
-                            "vortex,10,conserving,float,cpu,4,4,2.5,1,numerical Reynolds number,ok,",
-                            "vortex,10,conserving,float,cpu,4,4,2.5,1,gain of kinetic energy,ok,",
-                            "standing-wave,10,conserving,float,cpu,4,4,2.5,1,period (s),ok,",
-                            "tilted-gravity,10,conserving,float,cpu,4,4,2.5,1,slope under 1 degree (degrees),ok,"})
+    for (const char* row : {"vortex,10,conserving,float,cpu,4,4,no,2.5,1,amplitude after one turnover,ok,",
+                            "vortex,10,conserving,float,cpu,4,4,no,2.5,1,numerical Reynolds number,ok,",
+                            "vortex,10,conserving,float,cpu,4,4,no,2.5,1,gain of kinetic energy,ok,",
+                            "standing-wave,10,conserving,float,cpu,4,4,no,2.5,1,period (s),ok,",
+                            "tilted-gravity,10,conserving,float,cpu,4,4,no,2.5,1,slope under 1 degree (degrees),ok,"})
         EXPECT_NE(table.find(row), std::string::npos) << row << " in " << table;
-    EXPECT_NE(content(folder.path / "water-curves.csv").find("vortex,10,conserving,float,cpu,4,4,2.5,0,1\n"), std::string::npos);
+    EXPECT_NE(content(folder.path / "water-curves.csv").find("vortex,10,conserving,float,cpu,4,4,no,2.5,0,1\n"), std::string::npos);
 }
 
 /// The support of the kernel is part of a row's key, but where a scheme has none; what it can't be is refused.
@@ -67,7 +67,7 @@ TEST(BenchProtocolTest, WaterTakesTheKernelsSupport) {
     const std::string table = content(file), quantity = "slope afterwards (degrees)";
     EXPECT_NE(table.find(",support,start,quantity,"), std::string::npos) << table;
     std::vector<std::string> values;
-    for (const char* key : {"conserving,float,cpu,1,1,2,1,", "conserving,float,cpu,1,1,2.5,1,", "flex,float,cpu,1,1,,,"}) {
+    for (const char* key : {"conserving,float,cpu,1,1,no,2,1,", "conserving,float,cpu,1,1,no,2.5,1,", "flex,float,cpu,1,1,,,"}) {
         const std::size_t at = table.find(key + quantity);
         ASSERT_NE(at, std::string::npos) << key << " in " << table;
         values.push_back(table.substr(at + std::string(key + quantity).size(), 12));
@@ -88,7 +88,7 @@ TEST(BenchProtocolTest, WaterTakesSeveralStarts) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string table = content(file), quantity = "slope afterwards (degrees),ok,";
     std::vector<std::string> values;
-    for (const char* key : {"conserving,float,cpu,1,1,2.5,1,", "conserving,float,cpu,1,1,2.5,3,"}) {
+    for (const char* key : {"conserving,float,cpu,1,1,no,2.5,1,", "conserving,float,cpu,1,1,no,2.5,3,"}) {
         const std::size_t at = table.find(key + quantity);
         ASSERT_NE(at, std::string::npos) << key << " in " << table;
         values.push_back(table.substr(at + std::string(key + quantity).size(), 8));
@@ -96,8 +96,8 @@ TEST(BenchProtocolTest, WaterTakesSeveralStarts) {
     EXPECT_NE(values[0], values[1]);
     EXPECT_EQ(lines(table), 1 + 2 * 3) << table;
     const std::string curves = content(folder.path / "water-curves.csv");
-    EXPECT_NE(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,2.5,0,"), std::string::npos);
-    EXPECT_EQ(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,2.5,0,", curves.find("1,1,2.5,0,") + 1), std::string::npos);
+    EXPECT_NE(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,no,2.5,0,"), std::string::npos);
+    EXPECT_EQ(curves.find("tilted-gravity,8,conserving,float,cpu,1,1,no,2.5,0,", curves.find("1,1,2.5,0,") + 1), std::string::npos);
 }
 
 /// A figure whose viscosity an explicit substep would cut off is not that of the case: its row says so, and has no value.
@@ -105,7 +105,7 @@ TEST(BenchProtocolTest, WaterMeasuresNoCaseThatIsTooViscousForItsSubsteps) {
     const Outcome outcome = run_simulator({"bench", "water", "--resolution", "16", "--setting", "1x1", "--case", "spinning-sphere",
                                            "--scheme", "conserving"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("spinning-sphere,16,conserving,float,cpu,1,1,2.5,1,torque (of Kirchhoff's),too viscous,,,,,no,"),
+    EXPECT_NE(outcome.out.find("spinning-sphere,16,conserving,float,cpu,1,1,no,2.5,1,torque (of Kirchhoff's),too viscous,,,,,no,"),
               std::string::npos) << outcome.out;
 }
 
