@@ -58,8 +58,8 @@ struct SolverParameters {
     double surfaceTension = 0.0;        ///< pull that evens out the surface's curvature, length/s^2, >= 0
     double viscosity = 8.0;             ///< smoothing of the fluid's velocities, 1/s, in scheme `flex`
     double kernelSupport = 2.5;         ///< of the water in scheme `conserving`, in rest distances of the fluid, [2, 4]
-    /// Scheme `conserving`: the weight of water below the surface is carried by the hydrostatic pressure, and iterations look for the
-    /// rest. For a tank that stays full: its surface must stay within kernelSupport of where all of its water is at rest.
+    /// Scheme `conserving`: the weight of water that is deeper than the iterations hold up is carried by a hydrostatic pressure, so
+    /// that it needs no more substeps. For a tank that stays full: its surface must stay above that level.
     bool modifiedPressure = false;
     double kinematicViscosity = 0.0;    ///< of the water in scheme `conserving`, length^2/s, >= 0
     double vorticityConfinement = 0.0;  ///< strengthens vortices: acceleration per vorticity, length/s, >= 0

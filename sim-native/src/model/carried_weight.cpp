@@ -1,14 +1,20 @@
 #include "carried_weight.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "borders.h"
 #include "natator/error.h"
+#include "physics/dfsph.h"
 #include "scene/tank_ends.h"
 #include "water_volumes.h"
 
 namespace natator {
 namespace {
+
+constexpr double most_weight = 2;         ///< g H h^2 / s^2 of water of depth H that a pass holds up, in what it may take off
+constexpr double solved_share = 2.0 / 3;  ///< of the depth that passes hold up: with all of it, water bobs at some depths
+constexpr double least_supports = 1.5;    ///< of water that is not carried
 
 /// Along which gravity is largest: the floor is across it.
 int upright_axis(const Eigen::Vector3d& gravity) {
@@ -27,6 +33,13 @@ Eigen::Vector3d weight_of(const Model& model) { return model.parameters.buoyancy
 
 bool carries(const Model& model) {
     return model.scheme == Scheme::conserving && model.parameters.modifiedPressure && !weight_of(model).isZero(0) && depth(model) > 0;
+}
+
+/// H h^2 of water of depth H that all passes of a substep hold up, over what they may take off, length s^2.
+double held_by_passes(const Model& model) {
+    const SolverParameters& p = model.parameters;
+    const int passes = physics::divergence_passes + p.numIterations;
+    return most_weight * passes * p.fluidRestDistance * p.fluidRestDistance / weight_on_walls(model);
 }
 
 /// Of the tank, along an axis.
@@ -49,12 +62,41 @@ std::optional<std::string> no_tank(const Eigen::Vector3d& gravity, const std::ve
     return std::nullopt;
 }
 
+double weight_on_walls(const Model& model) {
+    return gravity_on_walls(model).norm() * std::max(1.0, std::abs(model.parameters.buoyancy));
+}
+
+/// A pass holds up g H h^2/s^2 = most_weight times what it may take off of a density.
+double longest_substep(const Model& model, double depth) {
+    const SolverParameters& p = model.parameters;
+    const double held = held_by_passes(model) / depth;
+    return std::min(std::sqrt(held * physics::most_excess), held * fastest_expansion(p, depth));
+}
+
+double least_solved_depth(const Model& model) {
+    const double all = depth(model);
+    return carries(model) ? std::min(all, least_supports * support(model)) : all;
+}
+
+/// The depth at which longest_substep is the Model's.
+double solved_depth(const Model& model) {
+    const double all = depth(model), least = least_solved_depth(model);
+    if (!(least < all)) return all;
+    const SolverParameters& p = model.parameters;
+    const double h = model.time_step / p.substeps, held = held_by_passes(model);
+    const double shallow = physics::shallow_layers * p.fluidRestDistance;
+    const double most = solved_share * held / h * std::min(physics::most_excess / h, fastest_expansion(p, shallow));
+    return std::min(all, std::max(least, std::min(most, shallow)));
+}
+
 template <class Real>
 physics::CarriedWeight<Real> carried_weight(const Model& model) {
     if (!carries(model)) return {};
     const Eigen::Vector3d gravity = weight_of(model);
     if (const auto reason = no_tank(gravity, model.planes, model.periodic))
         throw InputError("model: parameters.modifiedPressure = true: " + *reason);
+    const double solved = solved_depth(model);
+    if (!(solved < depth(model))) return {};
     const int up = upright_axis(gravity);
     const double towards = gravity[up] < 0 ? -1 : 1;  // the floor
     const TankEnds upright = tank_ends(model.planes, up);
@@ -73,13 +115,8 @@ physics::CarriedWeight<Real> carried_weight(const Model& model) {
     };
     return {.gravity = along(gravity[up]),
             .down = along(towards),
-            .begin = static_cast<Real>(floor - volume / area + reach),
+            .begin = static_cast<Real>(floor - volume / area + solved - reach / 2),
             .width = static_cast<Real>(reach)};
-}
-
-double solved_depth(const Model& model) {
-    const double all = depth(model);
-    return carries(model) ? std::min(all, 1.5 * support(model)) : all;
 }
 
 template physics::CarriedWeight<float> carried_weight(const Model&);

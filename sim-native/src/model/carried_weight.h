@@ -14,13 +14,22 @@ namespace natator {
 std::optional<std::string> no_tank(const Eigen::Vector3d& gravity, const std::vector<Plane>& planes,
                                    const std::vector<PeriodicAxis>& periodic);
 
-/// What of the water's weight its solver does not have to carry; nothing unless the Model asks for it by modifiedPressure. The level
-/// is one kernel support R below the surface that all water has at rest in the tank, and w = R: above it the solver must be able
-/// to push water back by its own weight. Throws InputError without such a tank.
+/// Largest acceleration by which the water weighs on its walls, length/s^2.
+double weight_on_walls(const Model& model);
+
+/// The longest substep in which the passes of a Model hold up water so deep (length) as is not carried otherwise, s.
+double longest_substep(const Model& model, double depth);
+
+/// The depth of water that weighs as much as what the solver has to carry, length: all of it, but with modifiedPressure no more than
+/// two thirds of what the passes hold up in the Model's substep.
+double solved_depth(const Model& model);
+/// The same, with modifiedPressure the least: 1.5 kernel supports, as waves must find water that weighs.
+double least_solved_depth(const Model& model);
+
+/// What of the water's weight its solver does not have to carry: what solved_depth leaves, nothing unless the Model asks for it by
+/// modifiedPressure. w is the kernel's support R, and the level solved_depth - R/2 below the surface that all water has at rest in
+/// the tank. Throws InputError without such a tank.
 template <class Real>
 physics::CarriedWeight<Real> carried_weight(const Model& model);
-
-/// The depth of water that weighs as much as what the solver has to carry, length; all of it where nothing is carried.
-double solved_depth(const Model& model);
 
 }  // namespace natator
