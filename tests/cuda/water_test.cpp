@@ -185,7 +185,8 @@ TEST_F(GpuWater, ModifiedPressureIsTheCpus) {
     model.clusters[0] = make_cluster(model.clusters[0].particles, model.position, 1);
     model.planes = {{{0, 1, 0}, 0}, {{1, 0, 0}, 0}, {{-1, 0, 0}, 12 * spacing}, {{0, 0, 1}, 0}, {{0, 0, -1}, 6 * spacing}};
     model.parameters.modifiedPressure = true;
-    model.parameters.substeps = model.parameters.numIterations = 1;  // so few that most of the weight is carried
+    model.parameters.numIterations = 1;  // so few, in so long a step, that most of the weight is carried
+    model.time_step = 4 * substep;
     OnBoth both(model, true);
     auto& [cpu, gpu, on_cpu, on_gpu] = both;
     for (int k = 0; k < 5; ++k) ASSERT_TRUE(both.update(2 * substep, 2));
