@@ -202,9 +202,20 @@ def of_depths(rows):
         yield f"| {depth} | " + " | ".join(cell(pick(some, setting=steps)) for steps in settings) + " |"
 
 
+def of_modified_depths(rows):
+    """The same with the modified pressure."""
+    settings = ("1x2m", "1x4m", "2x2m")
+    yield "| particles deep | " + " | ".join(map(in_words, settings)) + " |"
+    yield "| ---: |" + " ---: |" * len(settings)
+    for depth in (20, 28, 40, 60, 80, 100):
+        some = pick(rows, case="still-water", backend="cuda", resolution=str(depth))
+        yield f"| {depth} | " + " | ".join(cell(pick(some, setting=steps)) for steps in settings) + " |"
+
+
 def tables(rows):
     """By name."""
-    return {"cases": of_cases(rows), "deep": of_depths(rows), "fast": of_settings(rows, ("2x4", "1x8", "1x6", "1x4"))}
+    return {"cases": of_cases(rows), "deep": of_depths(rows), "fast": of_settings(rows, ("2x4", "1x8", "1x6", "1x4")),
+            "modified-deep": of_modified_depths(rows), "modified": of_settings(rows, ("2x4", "1x2m", "1x4m", "2x2m"))}
 
 
 def main():
