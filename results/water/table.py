@@ -192,30 +192,23 @@ def of_settings(rows, settings):
                 yield f"| {case.replace('-', ' ')}: {name} | {exact(shown[0])} | " + " | ".join(cell(each) for each in shown) + " |"
 
 
-def of_depths(rows):
+def of_depths(rows, settings, depths):
     """How fast still water bobs on the GPU, by its depth and the steps."""
-    settings = [f"{substeps}x4" for substeps in (4, 8, 12, 16, 24, 28, 32, 40, 48)]
     yield "| particles deep | " + " | ".join(map(in_words, settings)) + " |"
     yield "| ---: |" + " ---: |" * len(settings)
-    for depth in (40, 48, 60, 80, 100):
-        some = pick(rows, case="still-water", backend="cuda", resolution=str(depth))
-        yield f"| {depth} | " + " | ".join(cell(pick(some, setting=steps)) for steps in settings) + " |"
-
-
-def of_modified_depths(rows):
-    """The same with the modified pressure."""
-    settings = ("1x2m", "1x4m", "2x2m")
-    yield "| particles deep | " + " | ".join(map(in_words, settings)) + " |"
-    yield "| ---: |" + " ---: |" * len(settings)
-    for depth in (20, 28, 40, 60, 80, 100):
+    for depth in depths:
         some = pick(rows, case="still-water", backend="cuda", resolution=str(depth))
         yield f"| {depth} | " + " | ".join(cell(pick(some, setting=steps)) for steps in settings) + " |"
 
 
 def tables(rows):
     """By name."""
-    return {"cases": of_cases(rows), "deep": of_depths(rows), "fast": of_settings(rows, ("2x4", "1x8", "1x6", "1x4")),
-            "modified-deep": of_modified_depths(rows), "modified": of_settings(rows, ("2x4", "1x2m", "1x4m", "2x2m"))}
+    substeps, modified = (4, 8, 12, 16, 24, 28, 32, 40, 48), ("1x2m", "1x4m", "2x2m")
+    return {"cases": of_cases(rows),
+            "deep": of_depths(rows, [f"{count}x4" for count in substeps], (40, 48, 60, 80, 100)),
+            "modified-deep": of_depths(rows, modified, (20, 28, 40, 60, 80, 100)),
+            "fast": of_settings(rows, ("2x4", "1x8", "1x6", "1x4")),
+            "modified": of_settings(rows, ("2x4", *modified))}
 
 
 def main():

@@ -112,8 +112,7 @@ Model dam_break_model(const DamBreak& column, Scheme scheme) {
 
 DamBreakRun run_dam_break(const DamBreak& column, const Setting& setting, double last_time) {
     Model model = dam_break_model(column, setting.scheme);
-    model.parameters.substeps = setting.substeps;
-    model.parameters.numIterations = setting.iterations;
+    set_steps(steps_of(setting), model.parameters);
     return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(column, model, last_time); });
 }
 

@@ -13,8 +13,7 @@ namespace {
 Scene scene_for(int creature, const Setting& setting, double duration) {
     Scene scene = load_scene("thesis/creature-" + std::to_string(creature));
     scene.scheme = setting.scheme;
-    scene.solver.substeps = setting.substeps;
-    scene.solver.numIterations = setting.iterations;
+    set_steps(steps_of(setting), scene.solver);
     scene.duration = duration;
     scene.stopping = {.plane_contact = false, .no_progress_after = 0};
     return scene;

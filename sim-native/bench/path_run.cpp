@@ -99,9 +99,7 @@ State<double> settled_start(const Subject& subject, Scheme scheme) {
 PathRun run_path(const Subject& subject, const Setting& setting, const State<double>& start) {
     Model model = subject.model;
     model.scheme = setting.scheme;
-    model.parameters.substeps = setting.substeps;
-    model.parameters.numIterations = setting.iterations;
-    model.parameters.modifiedPressure = setting.modified_pressure;
+    set_steps(steps_of(setting), model.parameters);
     return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(subject, model, start); });
 }
 
@@ -132,10 +130,12 @@ Steps steps_of(const std::string& text) {
     return steps;
 }
 
-void set_steps(const Steps& steps, Scene& scene) {
-    scene.solver.substeps = steps.substeps;
-    scene.solver.numIterations = steps.iterations;
-    scene.solver.modifiedPressure = steps.modified_pressure;
+Steps steps_of(const Setting& setting) { return {setting.substeps, setting.iterations, setting.modified_pressure}; }
+
+void set_steps(const Steps& steps, SolverParameters& solver) {
+    solver.substeps = steps.substeps;
+    solver.numIterations = steps.iterations;
+    solver.modifiedPressure = steps.modified_pressure;
 }
 
 }  // namespace natator::bench

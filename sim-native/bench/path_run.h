@@ -31,7 +31,8 @@ struct Steps {
 /// Of "8x4": 8 substeps of 4 iterations; of "8x4m": for the modified pressure. Throws InputError, which names option --setting, for
 /// anything else.
 Steps steps_of(const std::string& text);
-void set_steps(const Steps& steps, Scene& scene);
+Steps steps_of(const Setting& setting);
+void set_steps(const Steps& steps, SolverParameters& solver);
 
 /// Times at which paths are compared, s. Later ones mean little: neighbouring paths part exponentially.
 inline constexpr std::array<double, 2> path_times{0.1, 0.25};

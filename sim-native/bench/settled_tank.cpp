@@ -65,8 +65,7 @@ SettledTankRun run_as(const Model& model, const Settling& settling, double rest,
 SettledTankRun run_settled_tank(const Setting& setting, double rest, double window) {
     Scene scene = load_scene("thesis/tank");
     scene.scheme = setting.scheme;
-    scene.solver.substeps = setting.substeps;
-    scene.solver.numIterations = setting.iterations;
+    set_steps(steps_of(setting), scene.solver);
     const Model model = build_model(scene);
     return in_precision(setting.precision, [&](auto real) { return run_as<decltype(real)>(model, scene.settling, rest, window); });
 }

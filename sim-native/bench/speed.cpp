@@ -68,7 +68,7 @@ std::vector<SpeedScene> speed_scenes_at(const std::vector<std::string>& names, c
 
 Scene make_speed_scene(const SpeedScene& named, bool quick) {
     Scene scene = make_scene(find_scene(named.name), quick);
-    if (named.steps) set_steps(*named.steps, scene);
+    if (named.steps) set_steps(*named.steps, scene.solver);
     return scene;
 }
 

@@ -52,7 +52,7 @@ public:
     Tank(const ThroughputStudy& study, Scheme scheme, const std::optional<Steps>& steps, Precision precision, int particles)
         : study_(study), precision_(precision), particles_(particles), scene_(throughput_scene(particles)) {
         scene_.scheme = scheme;
-        if (steps) set_steps(*steps, scene_);
+        if (steps) set_steps(*steps, scene_.solver);
         model_ = build_model(scene_);
         fluid_ = fluid_particles(model_);
     }

@@ -1,18 +1,17 @@
 // Scheme conserving, solving for the modified pressure: the water's weight is carried by a hydrostatic pressure that is known.
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <string>
 #include <vector>
 
 #include "law_models.h"
 #include "model/carried_weight.h"
 #include "model/fit_to_water.h"
 #include "model/water_volumes.h"
-#include "natator/momentum.h"
 #include "natator/plan.h"
 #include "natator/solver.h"
 #include "refusal_of.h"
-#include "water/water_case.h"
+#include "water_figures.h"
 
 namespace natator {
 namespace {
@@ -25,12 +24,8 @@ Model modified(Model model) {
 }
 
 std::vector<bench::WaterFigure> figures_of(const std::string& name, int resolution, int substeps, int iterations, bool modified_pressure) {
-    bench::WaterSetting setting;
-    setting.solver = {.scheme = Scheme::conserving, .substeps = substeps, .iterations = iterations, .modified_pressure = modified_pressure};
-    setting.resolution = resolution;
-    for (const bench::WaterCase& one : bench::water_cases())
-        if (one.name == name) return one.run(setting).figures;
-    return {};
+    return water_figures(name, {.scheme = Scheme::conserving, .substeps = substeps, .iterations = iterations, .modified_pressure = modified_pressure},
+                      resolution);
 }
 
 /// q is 0 down to its level, its slope grows to rho g over a kernel support of 0.25, and the gravity that is left is what that slope

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,7 @@
 #include "natator/solver.h"
 #include "scene/scene_json.h"
 #include "stability.h"
-#include "water/water_case.h"
+#include "water_figures.h"
 
 namespace natator {
 namespace {
@@ -58,12 +57,8 @@ TEST(Water, ADropKeepsItsMomentum) {
 }
 
 std::vector<bench::WaterFigure> figures_of(const std::string& water_case, Scheme scheme, int resolution, int substeps = 2) {
-    bench::WaterSetting setting;
-    setting.solver = {.scheme = scheme, .precision = Precision::single_precision, .substeps = substeps, .iterations = 4};
-    setting.resolution = resolution;
-    for (const bench::WaterCase& one : bench::water_cases())
-        if (one.name == water_case) return one.run(setting).figures;
-    throw std::logic_error("no such case: " + water_case);
+    return water_figures(water_case, {.scheme = scheme, .precision = Precision::single_precision, .substeps = substeps, .iterations = 4},
+                      resolution);
 }
 
 bench::WaterFigure figure_of(const std::string& water_case, Scheme scheme, int resolution, int substeps = 2) {

@@ -145,6 +145,7 @@ TEST(BenchProtocolTest, WhatCannotBeMeantIsRefusedInOneLine) {
         {{"speed", "--whole-gpu"}, "--whole-gpu: the backend is cpu; must be left out"},
         {{"wtaer"}, "unknown command wtaer; did you mean water?; see "},
         {{"validation", "--part", "tank", "--setting", "4x4", "4x4"}, "--setting: 4x4 is given twice"},
+        {{"validation", "--part", "tank", "--setting", "4x4m"}, "--setting = \"4x4m\": must be without m"},
     };
     for (const auto& [options, message] : bad) {
         std::vector<std::string> arguments{"bench"};

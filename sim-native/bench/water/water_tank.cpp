@@ -20,10 +20,8 @@ Model model_of(const Eigen::Vector3i& count, const WaterSetting& setting, const 
     Model model;
     model.scheme = setting.solver.scheme;
     SolverParameters& p = model.parameters;
-    p.substeps = setting.solver.substeps;
-    p.numIterations = setting.solver.iterations;
+    set_steps(steps_of(setting.solver), p);
     p.fluidRestDistance = spacing;
-    p.modifiedPressure = setting.solver.modified_pressure;
     p.kernelSupport = setting.support;
     p.radius = p.solidRestDistance = 1.5 * spacing;
     p.collisionDistance = spacing / 2;

@@ -3,12 +3,25 @@
 
 #include "../commands.h"
 #include "../options.h"
+#include "io/strict_json.h"
+#include "natator/error.h"
 #include "study_options.h"
 #include "validation.h"
 
 namespace natator::cli {
 
 using namespace natator::bench;
+
+namespace {
+
+/// The modified pressure is for tanks that stay full, and rows do not tell it.
+void refuse_modified_pressure(const std::vector<std::string>& settings) {
+    for (const std::string& setting : settings)
+        if (steps_of(setting).modified_pressure)
+            throw InputError("--setting = " + quoted(setting) + ": must be without m, a column that collapses is no tank that stays full");
+}
+
+}  // namespace
 
 void add_validation(CLI::App& app, int& status) {
     struct Options {
@@ -32,6 +45,7 @@ void add_validation(CLI::App& app, int& status) {
     command->callback([options, &status] {
         const StudyOptions& common = options->common;
         ValidationStudy study = options->study;
+        refuse_modified_pressure(options->settings);
         std::vector<std::string> dam_break_settings{"4x4", "8x4"}, tank_settings{"4x4", "8x2", "8x4", "8x8", "16x4"};
         if (common.quick) {
             dam_break_settings = tank_settings = {"4x4"};

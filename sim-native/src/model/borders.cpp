@@ -41,9 +41,11 @@ std::vector<physics::Border<Real>> borders_of(const Model& model) {
     return borders;
 }
 
-Eigen::Vector3d gravity_on_walls(const Model& model) {
-    Eigen::Vector3d gravity = model.parameters.gravity;
-    for (const PeriodicAxis& periodic : model.periodic) gravity[periodic.axis] = 0;
+Eigen::Vector3d gravity_on_walls(const Model& model) { return gravity_on_walls(model.parameters, model.periodic); }
+
+Eigen::Vector3d gravity_on_walls(const SolverParameters& parameters, const std::vector<PeriodicAxis>& periodic) {
+    Eigen::Vector3d gravity = parameters.gravity;
+    for (const PeriodicAxis& one : periodic) gravity[one.axis] = 0;
     return gravity;
 }
 

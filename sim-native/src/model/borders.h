@@ -16,6 +16,8 @@ std::vector<physics::Seam<Real>> seams_of(const Model& model);
 
 /// Gravity along the axes that have ends: what the water weighs on its walls by, length/s^2.
 Eigen::Vector3d gravity_on_walls(const Model& model);
+/// The same of parts of a Model, or of a scene.
+Eigen::Vector3d gravity_on_walls(const SolverParameters& parameters, const std::vector<PeriodicAxis>& periodic);
 
 /// The difference of two places by the shortest way, through the ends of periodic axes too.
 Eigen::Vector3d shortest_way(const Model& model, Eigen::Vector3d difference);

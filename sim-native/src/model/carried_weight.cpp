@@ -31,8 +31,13 @@ const PeriodicAxis* periodic_along(int axis, const std::vector<PeriodicAxis>& pe
 /// Gravity of the fluid along the axes that have ends, length/s^2.
 Eigen::Vector3d weight_of(const Model& model) { return model.parameters.buoyancy * gravity_on_walls(model); }
 
-bool carries(const Model& model) {
-    return model.scheme == Scheme::conserving && model.parameters.modifiedPressure && !weight_of(model).isZero(0) && depth(model) > 0;
+/// `all`: the depth of the Model's water, likewise below.
+bool may_carry(const Model& model, double all) {
+    return model.scheme == Scheme::conserving && model.parameters.modifiedPressure && !weight_of(model).isZero(0) && all > 0;
+}
+
+double least_solved_of(const Model& model, double all) {
+    return may_carry(model, all) ? std::min(all, least_supports * support(model)) : all;
 }
 
 /// H h^2 of water of depth H that all passes of a substep hold up, over what they may take off, length s^2.
@@ -40,6 +45,17 @@ double held_by_passes(const Model& model) {
     const SolverParameters& p = model.parameters;
     const int passes = physics::divergence_passes + p.numIterations;
     return most_weight * passes * p.fluidRestDistance * p.fluidRestDistance / weight_on_walls(model);
+}
+
+/// The depth at which longest_substep is the Model's.
+double solved_of(const Model& model, double all) {
+    const double least = least_solved_of(model, all);
+    if (!(least < all)) return all;
+    const SolverParameters& p = model.parameters;
+    const double h = model.time_step / p.substeps, held = held_by_passes(model);
+    const double shallow = physics::shallow_layers * p.fluidRestDistance;
+    const double most = solved_share * held / h * std::min(physics::most_excess / h, fastest_expansion(p, shallow));
+    return std::min(all, std::max(least, std::min(most, shallow)));
 }
 
 /// Of the tank, along an axis.
@@ -73,30 +89,19 @@ double longest_substep(const Model& model, double depth) {
     return std::min(std::sqrt(held * physics::most_excess), held * fastest_expansion(p, depth));
 }
 
-double least_solved_depth(const Model& model) {
-    const double all = depth(model);
-    return carries(model) ? std::min(all, least_supports * support(model)) : all;
-}
+double least_solved_depth(const Model& model) { return least_solved_of(model, depth(model)); }
 
-/// The depth at which longest_substep is the Model's.
-double solved_depth(const Model& model) {
-    const double all = depth(model), least = least_solved_depth(model);
-    if (!(least < all)) return all;
-    const SolverParameters& p = model.parameters;
-    const double h = model.time_step / p.substeps, held = held_by_passes(model);
-    const double shallow = physics::shallow_layers * p.fluidRestDistance;
-    const double most = solved_share * held / h * std::min(physics::most_excess / h, fastest_expansion(p, shallow));
-    return std::min(all, std::max(least, std::min(most, shallow)));
-}
+double solved_depth(const Model& model) { return solved_of(model, depth(model)); }
 
 template <class Real>
 physics::CarriedWeight<Real> carried_weight(const Model& model) {
-    if (!carries(model)) return {};
+    const double all = depth(model);
+    if (!may_carry(model, all)) return {};
     const Eigen::Vector3d gravity = weight_of(model);
     if (const auto reason = no_tank(gravity, model.planes, model.periodic))
         throw InputError("model: parameters.modifiedPressure = true: " + *reason);
-    const double solved = solved_depth(model);
-    if (!(solved < depth(model))) return {};
+    const double solved = solved_of(model, all);
+    if (!(solved < all)) return {};
     const int up = upright_axis(gravity);
     const double towards = gravity[up] < 0 ? -1 : 1;  // the floor
     const TankEnds upright = tank_ends(model.planes, up);

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "io/strict_json.h"
+#include "model/borders.h"
 #include "model/carried_weight.h"
 #include "physics/dfsph.h"
 #include "readers.h"
@@ -37,10 +38,8 @@ void check_mirrors(const Scene& scene, const Place& place) {
 
 /// What water weighs along periodic axes is not carried.
 void check_modified_pressure(const Scene& scene, const Place& place) {
-    const SolverParameters& p = scene.solver;
-    Eigen::Vector3d weight = p.buoyancy * p.gravity;
-    for (const PeriodicAxis& periodic : scene.periodic) weight[periodic.axis] = 0;
-    if (!p.modifiedPressure || weight.isZero(0)) return;
+    const Eigen::Vector3d weight = scene.solver.buoyancy * gravity_on_walls(scene.solver, scene.periodic);
+    if (!scene.solver.modifiedPressure || weight.isZero(0)) return;
     if (const auto reason = no_tank(weight, scene.planes, scene.periodic))
         refuse(place.key("solver").key("modifiedPressure"), true, *reason);
 }
