@@ -46,6 +46,7 @@
     X(SharedByBlock, shared_by_block, 1, block_chip)   \
     X(SharedByTeam<Real>, shared_by_team, 1, team)     \
     X(Quad<Real>, next_velocity, all, scratch)         \
+    X(Quad<Real>, unsorted_start, all, scratch)        \
     X(ClusterFit<Real>, fit_before, size.clusters, scratch)
 
 // Of the block that has the solids on its chip, see solids_on_chip.cuh; shares in the Model's order.

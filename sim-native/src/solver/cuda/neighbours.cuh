@@ -23,6 +23,17 @@ __device__ void clear_cells(const ModelView<Real>& model, const Team& team) {
     for (int c = team.thread(); c < model.grid.cells; c += team.size()) team.table()[c] = 0;
 }
 
+/// The cell of slot s in the table: the fluid's come first.
+template <class Real>
+__device__ int cell_of(const ModelView<Real>& model, const Quad<Real>& x, int s) {
+    return model.grid.cell(xyz(x)) + (s < model.fluid ? 0 : model.grid.cells);
+}
+/// The slots of a cell of the table, once it has the cells' ends.
+template <class Team>
+__device__ SlotRun slots_of(const Team& team, int cell) {
+    return {cell > 0 ? half_of(team.table(), cell - 1) : 0, half_of(team.table(), cell)};
+}
+
 /// v*, x* = x + h v*; counts the particles of each cell, the fluid's first. Ends with a barrier.
 template <class Real, class Team>
 __device__ void predict(const ModelView<Real>& model, Team& team) {
@@ -33,9 +44,11 @@ __device__ void predict(const ModelView<Real>& model, Team& team) {
         const Real inverse_mass = x.w;
         const Vec3<Real> v = predicted_velocity(model, xyz(team.velocity[s]), inverse_mass, s < model.fluid, team.h);
         const Vec3<Real> there = xyz(x) + team.h * v;
-        team.unsorted_position()[s] = quad(there, as_number<Real>(team.number()[s]));
+        const Quad<Real> unsorted = quad(there, as_number<Real>(team.number()[s]));
+        team.unsorted_position()[s] = unsorted;
         team.unsorted_velocity()[s] = quad(v, inverse_mass);
-        if (needs_cells(model)) count_up(table, model.grid.cell(there) + (s < model.fluid ? 0 : model.grid.cells));
+        team.unsorted_start()[s] = x;
+        if (needs_cells(model)) count_up(table, cell_of(model, unsorted, s));
     }
     team.barrier();
 }
@@ -65,57 +78,51 @@ __device__ void bound_solids(const ModelView<Real>& model, const Team& team, con
     }
 }
 
-/// Keys of the slots, number and slot before, in the order that slots will have: counting sort by cell, then by
-/// particle within each cell, which makes the order the same whatever order the atomics came in. Leaves the cells' ends
-/// in the table. Ends with a barrier.
+/// The keys of the particles, number and slot before: by cell, in no order within one. Leaves the cells' ends in the table. Ends
+/// with a barrier.
 template <class Real, class Team>
-__device__ void sort_keys(const ModelView<Real>& model, Team& team) {
+__device__ void scatter_keys(const ModelView<Real>& model, Team& team) {
     std::uint32_t* const table = team.table();
     std::uint32_t* const keys = team.keys();
     const auto key_of = [](int number, int s) { return static_cast<std::uint32_t>(number) << 16 | s; };
-    if (!needs_cells(model)) {
-        for (int s = team.thread(); s < model.particles; s += team.size()) keys[s] = key_of(team.number()[s], s);
-        team.barrier();
-        return;
-    }
-    exclusive_scan(team, table, 2 * model.grid.cells);
+    if (needs_cells(model)) exclusive_scan(team, table, 2 * model.grid.cells);
     for (int s = team.thread(); s < model.particles; s += team.size()) {
         const Quad<Real> there = team.unsorted_position()[s];
-        const int cell = model.grid.cell(xyz(there)) + (s < model.fluid ? 0 : model.grid.cells);
-        keys[count_up(table, cell)] = key_of(number_in(there.w), s);
-    }
-    team.barrier();
-    for (int c = team.thread(); c < 2 * model.grid.cells; c += team.size()) {
-        const int begin = c > 0 ? half_of(table, c - 1) : 0, end = half_of(table, c);
-        for (int k = begin + 1; k < end; ++k) {
-            const std::uint32_t key = keys[k];
-            int place = k;
-            for (; place > begin && keys[place - 1] > key; --place) keys[place] = keys[place - 1];
-            keys[place] = key;
-        }
+        const int place = needs_cells(model) ? count_up(table, cell_of(model, there, s)) : s;
+        keys[place] = key_of(number_in(there.w), s);
     }
     team.barrier();
 }
 
-/// Numbers the slots anew and puts everything in its new place. Ends with a barrier.
+/// The slot of the particle whose key is at place k: by how many of its cell come before it, which is the same whatever order the
+/// atomics came in.
+template <class Real, class Team>
+__device__ int slot_of_key(const ModelView<Real>& model, const Team& team, int k) {
+    if (!needs_cells(model)) return k;
+    const std::uint32_t* const keys = team.keys();
+    const std::uint32_t key = keys[k];
+    const int before = key & 0xffff;
+    const SlotRun run = slots_of(team, cell_of(model, team.unsorted_position()[before], before));
+    int slot = run.begin;
+    for (int other = run.begin; other < run.end; ++other) slot += keys[other] < key;
+    return slot;
+}
+
+/// Numbers the slots anew, in the order of their cells and within each by particle, and puts everything in its new place. Ends with
+/// a barrier.
 template <class Real, class Team>
 __device__ void sort_into_cells(const ModelView<Real>& model, Team& team) {
-    sort_keys(model, team);
-    const std::uint32_t* const keys = team.keys();
-    for (int s = team.thread(); s < model.particles; s += team.size()) {
-        const int before = keys[s] & 0xffff;
-        team.start()[s] = team.position()[before];
-        team.predicted_velocity()[s] = team.unsorted_velocity()[before];
-    }
+    scatter_keys(model, team);
     if (team.thread() == 0) team.shared().touched = 0;
     if (model.plan.contacts && team.thread() >= team.size() - 32)  // which has least to do
         bound_solids(model, team, team.unsorted_position());
-    team.barrier();
-    for (int s = team.thread(); s < model.particles; s += team.size()) {
-        const std::uint32_t key = keys[s];
-        const int number = static_cast<int>(key >> 16);
-        const Quad<Real> there = quad(xyz(team.unsorted_position()[key & 0xffff]), team.predicted_velocity()[s].w);
-        team.position()[s] = there;
+    for (int k = team.thread(); k < model.particles; k += team.size()) {
+        const std::uint32_t key = team.keys()[k];
+        const int before = key & 0xffff, number = static_cast<int>(key >> 16), s = slot_of_key(model, team, k);
+        const Quad<Real> v = team.unsorted_velocity()[before];
+        team.start()[s] = team.unsorted_start()[before];
+        team.predicted_velocity()[s] = v;
+        team.position()[s] = quad(xyz(team.unsorted_position()[before]), v.w);
         team.number()[s] = static_cast<std::uint16_t>(number);
         if (s >= model.fluid) team.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);
     }
