@@ -1,5 +1,6 @@
 package io.natator.study;
 
+import io.natator.config.Numbers;
 import io.natator.file.GeneratedPage;
 import java.util.Arrays;
 import java.util.List;
@@ -114,9 +115,9 @@ final class ComparisonReport {
     }
 
     private static String shown(Sample sample) {
-        return shown("%.4f", sample.mean())
-                + (sample.hasSpread() ? " ± " + shown("%.4f", sample.standardDeviation()) : "")
-                + " (" + sample.count() + ")";
+        String mean = sample.hasSpread() ? Numbers.withError(sample.mean(), sample.standardDeviation(), 4)
+                : shown("%.4f", sample.mean());
+        return mean + " (" + sample.count() + ")";
     }
 
     private static String shown(String format, double value) {

@@ -3,6 +3,7 @@ package io.natator.study.optimizer;
 import io.natator.config.EvolutionSettings;
 import io.natator.config.FitnessKind;
 import io.natator.config.Json;
+import io.natator.config.Numbers;
 import io.natator.file.GeneratedPage;
 import io.natator.plot.Drawing;
 import java.io.IOException;
@@ -12,7 +13,6 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
-import java.util.Locale;
 import java.util.Map;
 import java.util.stream.Collectors;
 
@@ -42,6 +42,7 @@ final class OptimizerReport {
             test, corrected by Holm for all pairs, has p < 0.05 and the bootstrap interval of the difference does not hold 0.
             `fresh.csv` and `tests.csv` hold these tables with all their digits.
             """;
+    private static final int DECIMALS = 4;
     private static final List<Double> SHARES = EqualBudget.SHARES;
 
     private OptimizerReport() {
@@ -111,9 +112,10 @@ final class OptimizerReport {
                         + shown(band.quantile(place, 0.75)) + "]")
                 .collect(Collectors.joining(" | "));
         int last = band.evaluations();
-        String deviation = band.curves().size() > 1 ? " ± " + shown(band.standardDeviation(last)) : "";
+        double mean = band.mean(last);
+        String found = band.curves().size() > 1 ? Numbers.withError(mean, band.standardDeviation(last), DECIMALS) : shown(mean);
         return "| " + band.label() + " | " + population + " | " + band.curves().size() + " | " + cells + " | "
-                + shown(band.mean(last)) + deviation + " | " + inVacuum(runs) + " |\n";
+                + found + " | " + inVacuum(runs) + " |\n";
     }
 
     private static String inVacuum(List<OptimizerRun> runs) {
@@ -144,6 +146,6 @@ final class OptimizerReport {
     }
 
     private static String shown(double value) {
-        return String.format(Locale.ROOT, "%.4f", value);
+        return Numbers.fixed(value, DECIMALS);
     }
 }

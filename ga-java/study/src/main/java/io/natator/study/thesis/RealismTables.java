@@ -1,5 +1,6 @@
 package io.natator.study.thesis;
 
+import io.natator.config.Numbers;
 import io.natator.kinematics.FishMode;
 import io.natator.kinematics.ModeFit;
 import io.natator.report.ReportDocument;
@@ -7,7 +8,6 @@ import io.natator.study.Sample;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
-import java.util.Locale;
 import java.util.function.Function;
 
 /** Table 3.2: which fish a creature swims like; and how the bodies lie and turn. */
@@ -107,7 +107,7 @@ final class RealismTables {
 
     private static String degrees(List<Double> values) {
         Sample sample = Sample.of(values);
-        return sample.hasSpread() ? String.format(Locale.ROOT, "%.0f ± %.0f", sample.mean(),
-                sample.standardDeviation()) : String.format(Locale.ROOT, "%.0f", sample.mean());
+        return sample.hasSpread() ? Numbers.withError(sample.mean(), sample.standardDeviation(), 0)
+                : Numbers.fixed(sample.mean(), 0);
     }
 }
