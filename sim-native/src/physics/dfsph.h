@@ -62,20 +62,18 @@ inline constexpr double least_wall_distance = 0.3;  ///< of the rest distance: n
 inline constexpr double corrected_density = 0.7, uncorrected_density = 0.5;
 inline constexpr double corrected_determinant = 0.4, uncorrected_determinant = 0.2;
 
-/// Density, first moments of the kernel's gradient, the way out of where neighbours crowd (particle shifting: Lind, Xu,
-/// Stansby, Rogers, 2012), and how fast they pass.
+/// Density, first moments of the kernel's gradient, and the way out of where neighbours crowd (particle shifting: Lind, Xu,
+/// Stansby, Rogers, 2012).
 template <class T>
 struct MomentSums {
     T density{};
     Symmetric3<T> moments{};
     Vec3<T> crowding{};
-    T fastest_square{};  ///< largest |v_j - v_i|^2
 
     /// `at_spacing`: 1 / W at the rest spacing. The factor 1 + 0.2 (W / W(s))^4 of the crowding is Monaghan's (2000)
     /// against pairs that clump.
     template <class R>
-    NATATOR_HD void add(const Vec3<T>& difference, const WendlandKernel<R>& kernel, R at_spacing, T volume,
-                        const Vec3<T>& relative_velocity) {
+    NATATOR_HD void add(const Vec3<T>& difference, const WendlandKernel<R>& kernel, R at_spacing, T volume) {
         const T r = length_of(difference);
         const T value = kernel.value(r), weight = volume * kernel.slope(r);
         density += volume * value;
@@ -87,9 +85,6 @@ struct MomentSums {
         moments.yz += weight * difference.y * difference.z;
         const T close = value * at_spacing, square = close * close;
         crowding += weight * (1 + R(0.2) * square * square) * difference;
-        const T square_of_speed = dot(relative_velocity, relative_velocity);
-        const T speed_square = weight > 0 ? square_of_speed : T{};  // what ends a list has no weight
-        fastest_square = smaller(-fastest_square, -speed_square) * R(-1);
     }
 
     /// L_i: the inverse of the moments, blended into the identity where too many neighbours lack.
@@ -114,11 +109,23 @@ struct MomentSums {
     }
 };
 
-/// G_ij = V_i V_j (L_i + L_j)/2 grad_i W: sum_j (v_j - v_i) G_ij is V_i times the divergence of v at i.
-template <class T, class R>
-NATATOR_HD Vec3<T> pair_gradient(const Vec3<T>& difference, T distance, const WendlandKernel<R>& kernel, T volumes,
-                                 const Symmetric3<T>& both) {
-    return (R(-0.5) * volumes * kernel.slope(distance)) * (both * difference);
+/// How fast neighbours pass a particle.
+template <class T>
+struct PassingSpeed {
+    T square{};  ///< largest |v_j - v_i|^2
+
+    /// `weight`: the neighbour's volume times the kernel's slope; what ends a list has none.
+    NATATOR_HD void add(const Vec3<T>& relative_velocity, T weight) {
+        const T its_square = dot(relative_velocity, relative_velocity);
+        const T counted = weight > 0 ? its_square : T{};
+        square = smaller(-square, -counted) * Scalar<T>(-1);
+    }
+};
+
+/// G_ij = V_i V_j (L_i + L_j)/2 grad_i W: sum_j (v_j - v_i) G_ij is V_i times the divergence of v at i. `slope`: of the kernel.
+template <class T>
+NATATOR_HD Vec3<T> pair_gradient(const Vec3<T>& difference, T slope, T volumes, const Symmetric3<T>& both) {
+    return (Scalar<T>(-0.5) * volumes * slope) * (both * difference);
 }
 
 /// Of all G_ij of a particle: what a unit of its pressure impulse does to its own rate of expansion.

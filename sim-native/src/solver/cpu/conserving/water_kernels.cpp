@@ -49,12 +49,10 @@ template <class Group, class Real>
     using Lane = typename Group::Lane;
     const WendlandKernel<Real> kernel = kernel_of(water);
     for_each_group<Group>(water, [&](int first) {
-        const Vec3<Lane> v = get3<Group>(water.velocity, first);
         MomentSums<Lane> sums;
         for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
-            const Four<Lane> moves = Group::gather(water.packed_velocity, water.neighbour + entry);
             Group::put(water.distance + entry, length_of(difference));
-            sums.add(difference, kernel, water.at_spacing, other.w, Vec3<Lane>{moves.x, moves.y, moves.z} - v);
+            sums.add(difference, kernel, water.at_spacing, other.w);
         });
         const Lane density = sums.density + Group::get(water.volume + first) * water.kernel_scale;
         const Symmetric3<Lane> l = sums.correction(density);
@@ -64,7 +62,6 @@ template <class Group, class Real>
         Group::put_quadruples(water.packed_correction + 4 * first, {l.xx, l.yy, l.zz, l.xy});
         Group::put_quadruples(water.packed_shear + 4 * first, {l.xz, l.yz, Group::get(water.solid + first), Lane{}});
         put3<Group>(water.crowding, first, sums.crowding);
-        Group::put(water.fastest_square + first, sums.fastest_square);
     });
 }
 
@@ -85,20 +82,24 @@ template <class Group, class Real>
         const Lane volume = Group::get(water.volume + first);
         const Vec3<Lane> v = get3<Group>(water.velocity, first);
         ResponseSums<Lane> sums;
+        PassingSpeed<Lane> fastest;
         Lane rate{};
         for_each_neighbour<Group>(water, first, [&](int entry, const Four<Lane>& other, const Vec3<Lane>& difference) {
             const std::int32_t* const index = water.neighbour + entry;
             const Four<Lane> l = Group::gather(water.packed_correction, index);
             const Four<Lane> shear = Group::gather(water.packed_shear, index);
             const Four<Lane> moves = Group::gather(water.packed_velocity, index);
+            const Lane slope = kernel.slope(Group::get(water.distance + entry));
             const Vec3<Lane> gradient =
-                pair_gradient(difference, Group::get(water.distance + entry), kernel, volume * other.w,
-                              own + Symmetric3<Lane>{l.x, l.y, l.z, l.w, shear.x, shear.y});
+                pair_gradient(difference, slope, volume * other.w, own + Symmetric3<Lane>{l.x, l.y, l.z, l.w, shear.x, shear.y});
+            const Vec3<Lane> relative = Vec3<Lane>{moves.x, moves.y, moves.z} - v;
             put3<Group>(water.gradient, entry, gradient);
             sums.add(gradient, moves.w);
-            rate += dot(Vec3<Lane>{moves.x, moves.y, moves.z} - v, gradient);
+            fastest.add(relative, other.w * slope);
+            rate += dot(relative, gradient);
         });
         const Lane response = sums.response(Group::get(water.mobility + first));
+        Group::put(water.fastest_square + first, fastest.square);
         put3<Group>(water.zeroth, first, sums.gradient);
         Group::put(water.response + first, response);
         put_impulse<Group>(water, first, pressure_impulse(Lane{}, rate, response, Group::get(water.density + first)), Lane{});

@@ -54,9 +54,9 @@ template <class Real>
 struct WaterKernels {
     /// Lays positions with volumes, and velocities with mobilities, out for the rest.
     void (*pack)(WaterView<Real> water);
-    /// Density, correction (also laid out), crowding, fastest_square; distance.
+    /// Density, correction (also laid out), crowding; distance.
     void (*compute_moments)(WaterView<Real> water);
-    /// gradient, zeroth and response; and, while the gradients are at hand, the impulse of a first pass of target 0.
+    /// gradient, zeroth, response and fastest_square; and, while the gradients are at hand, the impulse of a first pass of target 0.
     void (*compute_gradients)(WaterView<Real> water);
     /// Adds w_i strength sum of viscous impulses to the velocities; what neighbours gather stays as it was. `most`: see
     /// physics::viscous_share.

@@ -19,20 +19,18 @@ __device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>& v, un
 template <class Real>
 __device__ void water_moments(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> here = water.position[s], moves = water.velocity[s];
+    const Quad<Real> here = water.position[s];
     physics::MomentSums<Real> sums;
-    const auto add = [&](std::size_t, int, unsigned borders, const Quad<Real>& there, const Quad<Real>& velocity) {
+    const auto add = [&](std::size_t, int, unsigned borders, const Quad<Real>& there) {
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
-        const Quad<Real> v = seen(model, velocity, borders);
-        sums.add(difference, model.water.kernel, model.water.at_spacing, there.w, xyz(v) - xyz(moves));
+        sums.add(difference, model.water.kernel, model.water.at_spacing, there.w);
     };
-    for_each_water_neighbour<2>(slots, s, add, water.position, water.velocity);
+    for_each_water_neighbour<2>(slots, s, add, water.position);
     sums.density = sum_of_lanes(sums.density);
     physics::Symmetric3<Real>& m = sums.moments;
     m = {sum_of_lanes(m.xx), sum_of_lanes(m.yy), sum_of_lanes(m.zz),
          sum_of_lanes(m.xy), sum_of_lanes(m.xz), sum_of_lanes(m.yz)};
     sums.crowding = sum_of_lanes(sums.crowding);
-    sums.fastest_square = largest_of_lanes(sums.fastest_square);
     if (own_lane() != 0) return;
     const Real density = sums.density + here.w * model.water.kernel.scale;
     const physics::Symmetric3<Real> l = sums.correction(density);
@@ -40,9 +38,8 @@ __device__ void water_moments(const ModelView<Real>& model, const Slots<Real>& s
     water.density_of[number_in(slots.at.state_velocity[s].w)] = density;
     water.correction[s] = {l.xx, l.yy, l.zz, l.xy};
     const Real solid = number_in(slots.at.state_velocity[s].w) < model.fluid ? Real(0) : Real(1);
-    water.shear[s] = {l.xz, l.yz, physics::mobility(moves.w, here.w, model.water.density), solid};
+    water.shear[s] = {l.xz, l.yz, physics::mobility(water.velocity[s].w, here.w, model.water.density), solid};
     water.crowding[s] = quad(sums.crowding, Real(0));
-    water.fastest_square[s] = sums.fastest_square;
     water.volume[s] = here.w;
     if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
 }
@@ -54,7 +51,7 @@ __device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction,
 
 static_assert(physics::divergence_passes == 1, "its impulses are those of water_gradients");
 
-/// G_ij, the response, and the impulses of the divergence pass, as the sum of the substep so far.
+/// G_ij, the response, how fast neighbours pass, and the impulses of the divergence pass, as the sum of the substep so far.
 template <class Real>
 __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
@@ -62,25 +59,29 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
     const physics::Symmetric3<Real> own = correction_of(water.correction[s], own_shear);
     const Vec3<Real> v = xyz(water.velocity[s]);
     physics::ResponseSums<Real> sums;
+    physics::PassingSpeed<Real> fastest;
     Real rate = 0;
     const auto add = [&](std::size_t place, int, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
                          const Quad<Real>& shear, const Quad<Real>& velocity) {
         physics::Symmetric3<Real> its = correction_of(correction, shear);
         if (borders != 0) its = turned(model.water.ghost_map[borders], its);
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
-        const Vec3<Real> gradient =
-            physics::pair_gradient(difference, physics::length_of(difference), model.water.kernel, here.w * there.w, own + its);
-        const PairGradient<Real> kept(gradient);
+        const Real slope = model.water.kernel.slope(physics::length_of(difference));
+        const PairGradient<Real> kept(physics::pair_gradient(difference, slope, here.w * there.w, own + its));
         water.pair[place] = kept;
         sums.add(kept.value(), shear.z);
-        rate += dot(xyz(seen(model, velocity, borders)) - v, kept.value());
+        const Vec3<Real> relative = xyz(seen(model, velocity, borders)) - v;
+        fastest.add(relative, there.w * slope);
+        rate += dot(relative, kept.value());
     };
     for_each_water_neighbour<1>(slots, s, add, water.position, water.correction, water.shear, water.velocity);
     sums.gradient = sum_of_lanes(sums.gradient);
     sums.square = sum_of_lanes(sums.square);
     rate = sum_of_lanes(rate);
+    fastest.square = largest_of_lanes(fastest.square);
     if (own_lane() != 0) return;
     const Real response = sums.response(own_shear.z);
+    water.fastest_square[s] = fastest.square;
     water.response[s] = response;
     water.zeroth[s] = quad(sums.gradient, Real(0));
     water.impulse_sum[s] = physics::pressure_impulse(Real(0), rate, response, water.density[s]);
