@@ -156,6 +156,7 @@ void DeviceModel<Real>::set_water(const Model& model) {
     std::vector<Real> volume(model.particles());
     for (int i = 0; i < model.particles(); ++i) volume[number_of_[i]] = static_cast<Real>(volumes[i]);
     water.volume = keep(volume_, volume);
+    water.fluid_volume = view_.fluid > 0 ? volume.front() : 0;
 
     const std::vector<physics::Seam<Real>> seams = seams_of<Real>(model);
     const std::vector<physics::Border<Real>> borders = borders_of<Real>(model);

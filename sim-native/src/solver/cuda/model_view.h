@@ -111,6 +111,7 @@ struct WaterModel {
     Real effect_radius, cohesion_strength, cohesion_slope;  ///< of physics/water_effects.h
     physics::WendlandKernel<Real> kernel;
     GridView<Real> grid;
+    Real fluid_volume;           ///< of any particle of the fluid
     const Real* volume;          ///< by particle
     Vec3<Real> weight_on_walls;  ///< gravity of the fluid along axes that have ends, length/s^2
     physics::CarriedWeight<Real> carried;

@@ -2,6 +2,7 @@
 #include "effect_kernels.cuh"
 #include "water_effect_kernels.cuh"
 #include "water_force_kernels.cuh"
+#include "water_search.cuh"
 
 namespace natator::cuda {
 namespace {
@@ -59,6 +60,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         launch.template each_slot_in_turn<push_water_apart<which, many_lanes, Real>, many_lanes>(model.particles);
     }
 
+    /// And their densities.
     void find_water_neighbours() const {
         const int cells = model.water.grid.cells;
         const WaterArrays<Real>& water = slots.water;
@@ -74,10 +76,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
         else
             launch.template each_state<find_water_neighbours_large<many, Real>, water_row>(rows);
     }
-    void compute_water_gradients() const {
-        each_pair<water_moments<Real>, 4>();
-        each_pair<water_gradients<Real>, 4>();
-    }
+    void compute_water_gradients() const { each_pair<water_gradients<Real>, 4>(); }
     void solve_divergence() const {
         seldom_pass<Pass::first_parting>();
         for (int k = 1; k < physics::parting_passes; ++k) seldom_pass<Pass::parting>();

@@ -15,35 +15,6 @@ __device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>& v, un
     return borders == 0 ? v : quad(turned(model.water.ghost_map[borders], xyz(v)), v.w);
 }
 
-/// Density, correction, crowding.
-template <class Real>
-__device__ void water_moments(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> here = water.position[s];
-    physics::MomentSums<Real> sums;
-    const auto add = [&](std::size_t, int, unsigned borders, const Quad<Real>& there) {
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
-        sums.add(difference, model.water.kernel, model.water.at_spacing, there.w);
-    };
-    for_each_water_neighbour<2>(slots, s, add, water.position);
-    sums.density = sum_of_lanes(sums.density);
-    physics::Symmetric3<Real>& m = sums.moments;
-    m = {sum_of_lanes(m.xx), sum_of_lanes(m.yy), sum_of_lanes(m.zz),
-         sum_of_lanes(m.xy), sum_of_lanes(m.xz), sum_of_lanes(m.yz)};
-    sums.crowding = sum_of_lanes(sums.crowding);
-    if (own_lane() != 0) return;
-    const Real density = sums.density + here.w * model.water.kernel.scale;
-    const physics::Symmetric3<Real> l = sums.correction(density);
-    water.density[s] = density;
-    water.density_of[number_in(slots.at.state_velocity[s].w)] = density;
-    water.correction[s] = {l.xx, l.yy, l.zz, l.xy};
-    const Real solid = number_in(slots.at.state_velocity[s].w) < model.fluid ? Real(0) : Real(1);
-    water.shear[s] = {l.xz, l.yz, physics::mobility(water.velocity[s].w, here.w, model.water.density), solid};
-    water.crowding[s] = quad(sums.crowding, Real(0));
-    water.volume[s] = here.w;
-    if (density - 1 > Real(physics::overlap_tolerance)) slots.shared().high = 1;
-}
-
 template <class Real>
 __device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction, const Quad<Real>& shear) {
     return {correction.x, correction.y, correction.z, correction.w, shear.x, shear.y};
