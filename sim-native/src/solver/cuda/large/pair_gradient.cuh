@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "solver/cuda/vec3.cuh"
 
 namespace natator::cuda {
@@ -11,8 +9,8 @@ template <class Real>
 struct PairGradient {
     Quad<Real> kept;
 
-    PairGradient() = default;
-    __device__ explicit PairGradient(const Vec3<Real>& gradient) : kept(quad(gradient, Real(0))) {}
+    /// A gradient as it is kept; it becomes what value() gives.
+    __device__ static PairGradient keep(const Vec3<Real>& gradient) { return {quad(gradient, Real(0))}; }
     __device__ Vec3<Real> value() const { return xyz(kept); }
 };
 
@@ -23,18 +21,19 @@ template <>
 struct PairGradient<float> {
     uint2 kept;
 
-    PairGradient() = default;
-    __device__ explicit PairGradient(const Vec3<float>& gradient) {
+    /// A gradient as it is kept; it becomes what value() gives.
+    __device__ static PairGradient keep(Vec3<float>& gradient) {
         const float largest = fmaxf(fmaxf(fabsf(gradient.x), fabsf(gradient.y)), fabsf(gradient.z));
         const int exponent = min(max(static_cast<int>(__float_as_uint(largest) >> 23) - least_exponent, 0), 127);
-        const float to_integer = 1 / unit(static_cast<unsigned>(exponent) << 25);
-        const auto packed = [&](float component) {
-            const int whole = min(max(__float2int_rn(component * to_integer), -most), most);
-            return static_cast<std::uint64_t>(whole + offset);
+        const unsigned upper = static_cast<unsigned>(exponent) << 25;
+        const float one = unit(upper), to_integer = __uint_as_float((254u << 23) - __float_as_uint(one));  // 1 / one
+        const auto whole = [&](float component) {
+            return fminf(fmaxf(__fmaf_rn(component, to_integer, zero), zero - most), zero + most);
         };
-        const std::uint64_t bits = packed(gradient.x) | packed(gradient.y) << 19 | packed(gradient.z) << 38 |
-                                   static_cast<std::uint64_t>(exponent) << 57;
-        kept = {static_cast<unsigned>(bits), static_cast<unsigned>(bits >> 32)};
+        const Vec3<float> integer{whole(gradient.x), whole(gradient.y), whole(gradient.z)};
+        gradient = {(integer.x - zero) * one, (integer.y - zero) * one, (integer.z - zero) * one};
+        const unsigned x = last_bits(integer.x), y = last_bits(integer.y), z = last_bits(integer.z);
+        return {{x | y << 19, y >> 13 | z << 6 | upper}};
     }
 
     __device__ Vec3<float> value() const {
@@ -43,18 +42,29 @@ struct PairGradient<float> {
     }
 
 private:
-    static constexpr int offset = 1 << 18, most = offset - 1;
+    static constexpr int most = (1 << 18) - 1;
+    static constexpr float zero = (1 << 23) + (1 << 18);  ///< what stands for 0: floats of 2^23 and more have no fraction
     static constexpr int least_exponent = 40;  // of 2^-87
 
     /// What the integers count: 2^-17 of the power of two at or below the largest component. Of the upper word.
     __device__ static float unit(unsigned upper) {
         return __uint_as_float((upper >> 2 & 0x3f800000u) + (static_cast<unsigned>(least_exponent - 17) << 23));
     }
-    /// The last 19 bits, less their offset, in units of `one`: 2^23 and more are floats without a fraction.
+    __device__ static unsigned last_bits(float integer) { return __float_as_uint(integer) & 0x7ffffu; }
+    /// The last 19 bits, in units of `one`.
     __device__ static float component(unsigned bits, float one) {
-        return (__uint_as_float((bits & 0x7ffffu) | 0x4b000000u) - static_cast<float>((1 << 23) + offset)) * one;
+        return (__uint_as_float((bits & 0x7ffffu) | 0x4b000000u) - zero) * one;
     }
 };
+
+/// u G, in the order that a state's hash stands for; of numbers in double it is dot's.
+template <class Real>
+__device__ Real along(const Vec3<Real>& gradient, const Vec3<Real>& u) {
+    return dot(u, gradient);
+}
+__device__ inline float along(const Vec3<float>& gradient, const Vec3<float>& u) {
+    return __fmaf_rn(u.x, gradient.x, __fmaf_rn(u.z, gradient.z, u.y * gradient.y));
+}
 
 /// A value that is read but once in a kernel: other data shall stay in the caches.
 template <class T>

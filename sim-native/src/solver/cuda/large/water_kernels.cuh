@@ -34,16 +34,21 @@ __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>&
     Real rate = 0;
     const auto add = [&](std::size_t place, int, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
                          const Quad<Real>& shear, const Quad<Real>& velocity) {
+        Vec3<Real> x = xyz(there), its_v = xyz(velocity);
         physics::Symmetric3<Real> its = correction_of(correction, shear);
-        if (borders != 0) its = turned(model.water.ghost_map[borders], its);
-        const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);
+        if (borders != 0) {  // all at once: few warps have ghosts
+            const GhostMap<Real>& map = model.water.ghost_map[borders];
+            x = ghost_of(model.water, x, borders);
+            its_v = turned(map, its_v);
+            its = turned(map, its);
+        }
+        const Vec3<Real> difference = xyz(here) - x, relative = its_v - v;
         const Real slope = model.water.kernel.slope(physics::length_of(difference));
-        const PairGradient<Real> kept(physics::pair_gradient(difference, slope, here.w * there.w, own + its));
-        water.pair[place] = kept;
-        sums.add(kept.value(), shear.z);
-        const Vec3<Real> relative = xyz(seen(model, velocity, borders)) - v;
+        Vec3<Real> gradient = physics::pair_gradient(difference, slope, here.w * there.w, own + its);
+        water.pair[place] = PairGradient<Real>::keep(gradient);
+        sums.add(gradient, shear.z);
         fastest.add(relative, there.w * slope);
-        rate += dot(relative, kept.value());
+        rate += along(gradient, relative);
     };
     for_each_water_neighbour<1>(slots, s, add, water.position, water.correction, water.shear, water.velocity);
     sums.gradient = sum_of_lanes(sums.gradient);
