@@ -257,14 +257,20 @@ __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>
     const Quad<Real> here = water.position[s];
     Vec3<Real> given_back{}, weight{};
     const auto add = [&](std::size_t place, int other, unsigned borders, const Quad<Real>& x, const Quad<Real>& relief) {
-        const Vec3<Real> there = ghost_of(model.water, xyz(x), borders);
-        given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * xyz(seen(model, relief, borders));
-        if (!walls || borders == 0 || other >= model.fluid) return;
-        Vec3<Real> gravity = model.water.weight_on_walls;
-        if (const auto& carried = model.water.carried; carried.any())
-            gravity = gravity - carried.part(xyz(x)) * carried.gravity;
-        weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, gravity, there - xyz(x), relief.w) *
-                  water.pair[place].value();
+        Vec3<Real> there = xyz(x), its = xyz(relief);
+        if (borders != 0) {  // all at once: few warps have ghosts
+            there = ghost_of(model.water, there, borders);
+            its = turned(model.water.ghost_map[borders], its);
+            if (walls && other < model.fluid) {
+                Vec3<Real> gravity = model.water.weight_on_walls;
+                if (const auto& carried = model.water.carried; carried.any())
+                    gravity = gravity - carried.part(xyz(x)) * carried.gravity;
+                weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, gravity, there - xyz(x),
+                                                   relief.w) *
+                          water.pair[place].value();
+            }
+        }
+        given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * its;
     };
     for_each_water_neighbour<1>(slots, s, add, water.position, water.relief);
     given_back = sum_of_lanes(given_back);

@@ -55,24 +55,28 @@ __device__ void visit_entry(unsigned entry, const ::cuda::std::tuple<Value...>& 
 
 /// Calls visit(place, own, slot, borders, values...) for this thread's share of the neighbours of slot s, with what `own_at` reads at
 /// the neighbour's place in the list and with what is at its slot in each of the arrays. Those of `batch` neighbours are under
-/// way at a time.
+/// way at a time, and the entries of the next.
 template <int batch, class Real, class OwnAt, class Visit, class... Value>
 __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnAt& own_at, const Visit& visit,
                                      const Value*... array) {
     const std::size_t first = slots.water_place(s) + reversed_list(own_lane());
     const int count = own_neighbours(slots, s);
+    const auto place_of_own = [&](int k) { return first + water_row * min(k, count - 1); };
+    unsigned next[batch];
+    if (count > 0)
+        for (int k = 0; k < batch; ++k) next[k] = read_once(slots.water.neighbour + place_of_own(k));
     for (int begin = 0; begin < count; begin += batch) {
         unsigned entry[batch];
         decltype(own_at(first)) own[batch];
         ::cuda::std::tuple<Value...> there[batch];
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
-            const std::size_t place = first + water_row * min(begin + k, count - 1);
-            entry[k] = read_once(slots.water.neighbour + place);
-            own[k] = own_at(place);
+            entry[k] = next[k];
+            own[k] = own_at(place_of_own(begin + k));
+            there[k] = values_at(entry[k], array...);
         }
 #pragma unroll
-        for (int k = 0; k < batch; ++k) there[k] = values_at(entry[k], array...);
+        for (int k = 0; k < batch; ++k) next[k] = read_once(slots.water.neighbour + place_of_own(begin + batch + k));
 #pragma unroll
         for (int k = 0; k < batch; ++k) {
             if (begin + k >= count) break;
