@@ -279,6 +279,7 @@ GridView<Real> DeviceModel<Real>::grid_over(const Model& model, Real distance, R
     GridView<Real> view{};
     for (int axis = 0; axis < 3; ++axis) {
         view.low[axis] = box.low[axis];
+        view.size[axis] = 1 / box.inverse_size[axis];
         view.inverse_size[axis] = box.inverse_size[axis];
         view.count[axis] = box.count[axis];
     }

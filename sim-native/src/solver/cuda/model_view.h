@@ -20,7 +20,7 @@ struct CellRun {
 /// Cells as in the CPU's CellGrid, laid once over the scene's box: positions outside belong to its border cells.
 template <class Real>
 struct GridView {
-    Real low[3], inverse_size[3];
+    Real low[3], size[3], inverse_size[3];  ///< of a cell
     int count[3];
     int cells;
 
@@ -34,6 +34,12 @@ struct GridView {
     }
     __device__ int cell(const Vec3<Real>& x) const {
         return (coordinate(x.z, 2) * count[1] + coordinate(x.y, 1)) * count[0] + coordinate(x.x, 0);
+    }
+    /// How far a value is from the row of cells `step` beside its own, -1, 0 or 1.
+    __device__ Real distance_to_row(Real value, int axis, int step) const {
+        if (step == 0) return 0;
+        const Real in_cell = (value - low[axis]) * inverse_size[axis] - static_cast<Real>(coordinate(value, axis));
+        return physics::positive_part(step > 0 ? 1 - in_cell : in_cell) * size[axis];
     }
 
     /// Calls visit(run) for the runs of cells that may hold particles within the search distance of x. To cut them to the

@@ -6,41 +6,60 @@
 
 namespace natator::cuda {
 
-/// Calls keep(n, k) for neighbour n of a slot, which is candidate k of the water: what is within the kernel's support of it, solids and ghosts too, in the order of the
-/// cells. Returns how many there are, 0 for no slot. Lanes of a warp stay together, those that have no candidate left as well.
+/// Candidates [begin, end) of a search.
+struct Candidates {
+    int begin, end;
+};
+
+/// Those of row `around` of the nine rows of cells around x, but for cells that are further away than the kernel's support.
+template <class Real>
+__device__ Candidates candidates_around(const ModelView<Real>& model, const Slots<Real>& slots, const Vec3<Real>& x,
+                                        int around) {
+    const GridView<Real>& grid = model.water.grid;
+    const int step_y = around % 3 - 1, step_z = around / 3 - 1;
+    const int iy = grid.coordinate(x.y, 1) + step_y, iz = grid.coordinate(x.z, 2) + step_z;
+    if (iy < 0 || iy >= grid.count[1] || iz < 0 || iz >= grid.count[2]) return {0, 0};
+    const Real reach = (1 + Real(1) / 64) * model.water.radius;  // where cells end is rounded
+    const Real y = grid.distance_to_row(x.y, 1, step_y), z = grid.distance_to_row(x.z, 2, step_z);
+    const Real square = reach * reach - y * y - z * z;
+    if (!(square > 0)) return {0, 0};
+    const Real half = physics::square_root(square);
+    const int row = (iz * grid.count[1] + iy) * grid.count[0];
+    const int low = row + grid.coordinate(x.x - half, 0), high = row + grid.coordinate(x.x + half, 0);
+    const int* const table = slots.water.table;
+    return {low > 0 ? table[low - 1] : 0, min(table[high], slots.water_room.copies)};
+}
+
+/// Calls keep(near, n, k) for candidates k of a slot, in the order of the cells. Those that are `near` are its neighbours n: what is
+/// within the kernel's support of it, solids and ghosts too. Returns how many there are, 0 for no slot. A lane looks up a row of cells
+/// for all that share the slot. Lanes of a warp stay together, those that have no candidate left as well.
 template <class Real, class Keep>
 __device__ int search_water(const ModelView<Real>& model, const Slots<Real>& slots, int slot, const Keep& keep) {
+    constexpr int rows = 9;
     const int lane = own_lane(), first_lane = static_cast<int>(threadIdx.x) % 32 - lane;
-    const int s = min(slot, model.particles - 1);
     const WaterArrays<Real>& water = slots.water;
-    const GridView<Real>& grid = model.water.grid;
-    const Vec3<Real> x = xyz(water.position[s]);
+    const Vec3<Real> x = xyz(water.position[min(slot, model.particles - 1)]);
     const Real distance_squared = model.water.radius * model.water.radius;
-    const unsigned lanes_before = (1u << lane) - 1;
-    const int cx = grid.coordinate(x.x, 0), cy = grid.coordinate(x.y, 1), cz = grid.coordinate(x.z, 2);
-    const int low = max(cx - grid.reach_x, 0), high = min(cx + grid.reach_x, grid.count[0] - 1);
+    const unsigned own_lanes = ((1u << pair_lanes) - 1) << first_lane, lanes_before = ((1u << lane) - 1) << first_lane;
+    const unsigned last_copy = slots.water_room.copies - 1;
+    const Quad<Real>* const candidate = water.candidate;
+    Candidates own{0, 0};
     int n = 0;
-    for (int around = 0; around < 9; ++around) {
-        const int iy = cy + around % 3 - 1, iz = cz + around / 3 - 1;
-        int from = 0, to = 0;
-        if (slot == s && iy >= 0 && iy < grid.count[1] && iz >= 0 && iz < grid.count[2]) {
-            const int row = (iz * grid.count[1] + iy) * grid.count[0];
-            from = row + low > 0 ? water.table[row + low - 1] : 0;
-            to = min(water.table[row + high], slots.water_room.copies);
-        }
-        int most = to - from;
+#pragma unroll 1
+    for (int around = 0; around < rows; ++around) {
+        if (around % pair_lanes == 0 && slot < model.particles)
+            own = candidates_around(model, slots, x, min(around + lane, rows - 1));
+        const int begin = __shfl_sync(0xffffffff, own.begin, around % pair_lanes, pair_lanes);
+        const int end = __shfl_sync(0xffffffff, own.end, around % pair_lanes, pair_lanes);
+        int most = end - begin;
         for (int step = pair_lanes; step < 32; step *= 2) most = max(most, __shfl_xor_sync(0xffffffff, most, step));
-        for (int k = from + lane; most > 0; most -= pair_lanes, k += pair_lanes) {
-            Quad<Real> other{};
-            bool near = k < to;
-            if (near) {
-                other = water.candidate[k];
-                const Real r2 = physics::squared_length(x - xyz(other));
-                near = r2 < distance_squared && r2 > 0;
-            }
-            const unsigned found = __ballot_sync(0xffffffff, near) >> first_lane & ((1u << pair_lanes) - 1);
-            if (near) keep(n + __popc(found & lanes_before), k);
-            n += __popc(found);
+#pragma unroll 2
+        for (int k = begin + lane; most > 0; most -= pair_lanes, k += pair_lanes) {
+            const Real r2 = physics::squared_length(x - xyz(candidate[min(static_cast<unsigned>(k), last_copy)]));
+            const bool near = k < end && r2 < distance_squared && r2 > 0;
+            const unsigned found = __ballot_sync(0xffffffff, near);
+            keep(near, n + __popc(found & lanes_before), k);
+            n += __popc(found & own_lanes);
         }
     }
     return n;
@@ -88,7 +107,8 @@ __device__ void keep_moments(const ModelView<Real>& model, const Slots<Real>& sl
 /// are still in the cache.
 template <int staged, class Real>
 __device__ void find_water_neighbours_large(const ModelView<Real>& model, const Slots<Real>& slots) {
-    constexpr int stride = staged + water_lists;  // lists of a warp begin in banks of their own
+    // What does not belong into a list goes behind it, by lane; so lists of a warp begin in banks of their own.
+    constexpr int stride = staged + water_lists;
     __shared__ unsigned staging[slots_of_row * stride];
     __shared__ int longest, first_row;
     const WaterArrays<Real>& water = slots.water;
@@ -96,8 +116,8 @@ __device__ void find_water_neighbours_large(const ModelView<Real>& model, const 
     const int slot = row * slots_of_row + own;
     unsigned* const list = staging + own * stride;
     if (threadIdx.x == 0) longest = 0;
-    const int n = search_water(model, slots, slot, [&](int k, int candidate) {
-        if (k < staged) list[k] = candidate;
+    const int n = search_water(model, slots, slot, [&](bool near, int k, int candidate) {
+        list[near && k < staged ? k : staged + lane] = candidate;
     });
     __syncthreads();
     if (lane == 0) atomicMax(&longest, n);
@@ -115,7 +135,9 @@ __device__ void find_water_neighbours_large(const ModelView<Real>& model, const 
     unsigned* const place = water.neighbour + static_cast<std::size_t>(max(first_row, 0)) * water_row + own * water_lists;
     const bool on_chip = longest <= staged;
     if (!on_chip && first_row >= 0) {
-        search_water(model, slots, slot, [&](int k, int candidate) { place[place_of(k)] = candidate; });
+        search_water(model, slots, slot, [&](bool near, int k, int candidate) {
+            if (near) place[place_of(k)] = candidate;
+        });
         __syncthreads();
     }
     const Vec3<Real> x = xyz(water.position[min(slot, model.particles - 1)]);
