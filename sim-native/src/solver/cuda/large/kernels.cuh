@@ -31,13 +31,13 @@ __global__ void __launch_bounds__(block, least_blocks)
     if (s < count && !left_out<which>(slots)) work(model, slots, s, more...);
 }
 
-/// The same by a grid of any size.
+/// The same by a grid of any size, in States that have some density far above rest.
 template <auto work, Of which, int lanes, int block, class Real>
 __global__ void __launch_bounds__(block)
-    for_each_slot_in_turn(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
+    for_each_crowded_slot(const __grid_constant__ ModelView<Real> model, const __grid_constant__ Slots<Real> states,
                           int count) {
     const Slots<Real> slots = states.state(blockIdx.y);
-    if (left_out<which>(slots)) return;
+    if (left_out<which>(slots) || !slots.shared().high) return;
     const int step = static_cast<int>(gridDim.x * blockDim.x) / lanes;
     for (int s = own_index() / lanes; s < count; s += step) work(model, slots, s);
 }

@@ -56,8 +56,8 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     /// Of the passes that most substeps need not: few blocks, as those that find nothing to do cost time, too.
     template <Pass which>
     void seldom_pass() const {
-        launch.template each_slot_in_turn<water_impulses<which, many_lanes, Real>, many_lanes>(model.particles);
-        launch.template each_slot_in_turn<push_water_apart<which, many_lanes, Real>, many_lanes>(model.particles);
+        launch.template each_crowded_slot<water_impulses<which, many_lanes, Real>, many_lanes>(model.particles);
+        launch.template each_crowded_slot<push_water_apart<which, many_lanes, Real>, many_lanes>(model.particles);
     }
 
     /// And their densities.

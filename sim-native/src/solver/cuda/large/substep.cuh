@@ -49,13 +49,13 @@ struct LargeLaunch {
     void each_particle() const {
         each_slot<work, 1, large_threads, least_blocks>(model.particles);
     }
-    /// The same by blocks that fill a GPU once or twice, however many slots there are.
+    /// The same in States that have some density far above rest, by blocks that fill a GPU once or twice, however many slots there are.
     template <auto work, int lanes>
-    void each_slot_in_turn(int count) const {
+    void each_crowded_slot(int count) const {
         constexpr int filling = 2048;
         const int blocks = std::min(blocks_for(count * lanes, large_threads), blocks_for(filling, states));
         if (count > 0)
-            for_each_slot_in_turn<work, Of::running, lanes, large_threads>
+            for_each_crowded_slot<work, Of::running, lanes, large_threads>
                 <<<grid(blocks), large_threads, 0, stream>>>(model, slots, count);
     }
     /// Calls work(model, slots, more...) by all threads of the blocks for each State.

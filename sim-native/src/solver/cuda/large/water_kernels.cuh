@@ -77,7 +77,6 @@ constexpr bool parts(Pass pass) {
 /// The impulses of a Jacobi pass. `lanes` threads share a slot.
 template <Pass pass, int lanes, class Real>
 __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    if (parts(pass) && !slots.shared().high) return;
     const WaterArrays<Real>& water = slots.water;
     const Real density = water.density[s];
     ListSums<lanes, Real> rates;
@@ -122,7 +121,6 @@ __device__ void move_solid(const ModelView<Real>& model, const Slots<Real>& slot
 /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, and relief. `lanes` threads share a slot.
 template <Pass pass, int lanes, class Real>
 __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
-    if (parts(pass) && !slots.shared().high) return;
     const WaterArrays<Real>& water = slots.water;
     const Real* const impulse = pass == Pass::divergence ? water.impulse_sum : water.impulse;
     const Real own = impulse[s];
