@@ -4,6 +4,8 @@
 #include <limits>
 #include <set>
 
+#include "model/carried_weight.h"
+#include "model/water_volumes.h"
 #include "stage.h"
 
 namespace natator {
@@ -35,6 +37,12 @@ bool is_uniform_fluid(const Model& model) {
                                 (phase::group_mask | phase::self_collide | phase::self_collide_filter));
     return fluid_phases.size() == 1 && (*fluid_phases.begin() & phase::self_collide) &&
            !(*fluid_phases.begin() & phase::self_collide_filter);
+}
+
+/// What scheme conserving is told of the water's weight.
+std::string about_weight(const Model& model) {
+    if (!model.parameters.modifiedPressure) return "";
+    return solved_depth(model) < depth(model) ? ", modified pressure" : ", modified pressure (carries nothing: the water is shallow or weightless)";
 }
 
 }  // namespace
@@ -114,7 +122,7 @@ std::vector<std::string> describe_plan(const Model& model) {
     };
     add(plan.water, once("find fluid neighbours"));
     add(plan.water, once("density and gradients"));
-    add(plan.water, once(name(Stage::divergence)) + (model.parameters.modifiedPressure ? ", modified pressure" : ""));
+    add(plan.water, once(name(Stage::divergence)) + about_weight(model));
     add(plan.water && plan.viscosity, once(name(Stage::viscosity)));
     if (plan.water) forces();
     add(true, once(name(Stage::predict)));
