@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "job.h"
 #include "json_argument.h"
+#include "natator/error.h"
 
 namespace natator::cli {
 namespace {
@@ -43,7 +44,7 @@ int run_evaluate(EvaluateOptions& options) {
         // Whoever reads the pipe gets an answer too; `main` adds the line on standard error and the exit code. A person who sees
         // both needs it once.
         if (!options.plain && !isatty(STDOUT_FILENO))
-            print(error_json(id, error.what()).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+            print(error_json(id, message_of(error)).dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
         throw;
     }
 }

@@ -112,6 +112,8 @@ TEST(Goals, FitnessIsTheWeightedSum) {
     EXPECT_EQ(result.fitness(), 0.7);
     result.goals = {{Goal::Measure::distance, 2, 0.7, {}, {}}, {Goal::Measure::hold, -0.5, 0.4, {}, {}}};
     EXPECT_NEAR(result.fitness(), 1.2, 1e-15);
+    result.instability = Instability{};
+    EXPECT_EQ(result.fitness(), 0) << "what blows up goes far";
 }
 
 /// Refused with one line that holds all of `words`.

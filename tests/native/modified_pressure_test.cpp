@@ -1,6 +1,8 @@
 // Scheme conserving, solving for the modified pressure: the water's weight is carried by a hydrostatic pressure that is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -121,6 +123,50 @@ TEST(ModifiedPressure, ShallowWaterIsWhatItIsWithoutIt) {
     advance_frames(first, whole, a, 10);
     advance_frames(second, model, b, 10);
     EXPECT_EQ(a.position, b.position);
+}
+
+/// What gravity along the floor pushes against a wall is carried by nobody, and takes as many substeps as that depth of water.
+TEST(ModifiedPressure, TiltedGravityTakesSubsteps) {
+    Model model = modified(box_of_water({20, 20, 3}));
+    model.parameters.gravity = {-9, -10, 0};
+    model.parameters.substeps = model.parameters.numIterations = 1;
+    const double weight = std::hypot(9, 10);
+    EXPECT_NEAR(least_solved_depth(model), 1.5 * 0.25 + 9 * 1.9 / weight, 0.05);
+    fit_to_water(model);
+    EXPECT_GT(model.parameters.substeps, 3);
+    State<float> state = initial_state<float>(model);
+    Solver<float> solver(model);
+    advance_frames(solver, model, state, 60);
+    EXPECT_LT(std::ranges::max(solver.densities()), 1.2);
+}
+
+/// Water that stands beside an obstacle stands higher.
+TEST(ModifiedPressure, ObstaclesRaiseTheSurface) {
+    Model model = modified(lattice_of_water({4, 10, 4}));
+    model.parameters.substeps = model.parameters.numIterations = 1;
+    const auto begin = [&] { return carried_weight<double>(model).begin; };
+    const double without = begin();
+    const auto add_solid = [&](double x, double height, double inverse_mass) {
+        model.position.push_back({x, height, 0.2});
+        model.velocity.push_back(Eigen::Vector3d::Zero());
+        model.inverse_mass.push_back(inverse_mass);
+        model.phase.push_back(1);
+    };
+    add_solid(0.2, 0.3, 0);
+    const double one = begin();
+    EXPECT_NEAR(without - one, particle_volumes(model).back() / (0.4 * 0.4), 1e-12);
+    add_solid(0.2, 1.5, 0);   // above the water
+    add_solid(0.35, 0.7, 10);  // a body may leave it
+    EXPECT_EQ(begin(), one);
+}
+
+TEST(ModifiedPressure, WaterThatFallsIntoItsTankIsRefused) {
+    Model model = modified(lattice_of_water({2, 16, 2}));
+    model.parameters.substeps = model.parameters.numIterations = 1;
+    EXPECT_TRUE(carried_weight<double>(model).any());
+    model.planes[2].offset *= 2;
+    EXPECT_NE(refusal_of([&] { carried_weight<double>(model); }).find("needs a tank that is full: water begins 1.55 above the floor"),
+              std::string::npos);
 }
 
 TEST(ModifiedPressure, ThePlanNamesIt) {

@@ -52,7 +52,7 @@ const BadInput bad_scenes[] = {
     {R"({"solver":{"kernelSupport":1.5}})", "solver.kernelSupport = 1.5", "[2, 4] (rest distances of the fluid)"},
     {R"({"solver":{"modifiedPressure":1}})", "solver.modifiedPressure = 1", "true or false"},
     {R"({"scheme":"conserving","planes":[[0,1,0,0]],"solver":{"modifiedPressure":true}})", "solver.modifiedPressure = true",
-     "needs a tank with one floor"},
+     "must be false here: it needs a tank with one floor"},
     {R"({"solver":{"kinematicViscosity":-1}})", "solver.kinematicViscosity = -1", "[0, 1000] (length^2/s)"},
     {R"({"scheme":"conserving","solver":{"kinematicViscosity":0.3}})", "solver.kinematicViscosity = 0.3",
      "at most 0.24 (0.1 fluidRestDistance^2 / longest substep, settling included)"},

@@ -99,6 +99,7 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
 }  // namespace
 
 double Evaluation::fitness() const {
+    if (instability) return 0;
     if (goals.empty()) return distance;
     double sum = 0;
     for (const GoalResult& goal : goals) sum += goal.weight * goal.score;

@@ -53,7 +53,7 @@ ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation,
     ordered_json result;
     result["id"] = id;
     result["status"] = stable ? "ok" : "unstable";
-    result["fitness"] = stable ? evaluation.fitness() : 0;
+    result["fitness"] = evaluation.fitness();
     result["distance"] = stable ? ordered_json(evaluation.distance) : ordered_json();
     result["stopped"] = to_string(evaluation.stopped);
     result["simulated"] = evaluation.simulated;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 #include "borders.h"
 #include "natator/error.h"
@@ -31,13 +33,33 @@ const PeriodicAxis* periodic_along(int axis, const std::vector<PeriodicAxis>& pe
 /// Gravity of the fluid along the axes that have ends, length/s^2.
 Eigen::Vector3d weight_of(const Model& model) { return model.parameters.buoyancy * gravity_on_walls(model); }
 
+double extent_of_fluid(const Model& model, int axis) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (int i = 0; i < model.particles(); ++i) {
+        if (!model.is_fluid(i)) continue;
+        low = std::min(low, model.position[i][axis]);
+        high = std::max(high, model.position[i][axis]);
+    }
+    return std::max(high - low, 0.0);
+}
+
 /// `all`: the depth of the Model's water, likewise below.
 bool may_carry(const Model& model, double all) {
     return model.scheme == Scheme::conserving && model.parameters.modifiedPressure && !weight_of(model).isZero(0) && all > 0;
 }
 
+/// The depth of water that weighs as much as what gravity along the floor pushes against the walls, length: none of it is carried.
+double pushed_sideways(const Model& model) {
+    const Eigen::Vector3d weight = weight_of(model);
+    const int up = upright_axis(weight);
+    double pushed = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        if (axis != up) pushed += std::abs(weight[axis]) * extent_of_fluid(model, axis);
+    return pushed / weight.norm();
+}
+
 double least_solved_of(const Model& model, double all) {
-    return may_carry(model, all) ? std::min(all, least_supports * support(model)) : all;
+    return may_carry(model, all) ? std::min(all, least_supports * support(model) + pushed_sideways(model)) : all;
 }
 
 /// H h^2 of water of depth H that all passes of a substep hold up, over what they may take off, length s^2.
@@ -49,12 +71,12 @@ double held_by_passes(const Model& model) {
 
 /// The depth at which longest_substep is the Model's.
 double solved_of(const Model& model, double all) {
-    const double least = least_solved_of(model, all);
-    if (!(least < all)) return all;
+    if (!(least_solved_of(model, all) < all)) return all;
     const SolverParameters& p = model.parameters;
-    const double h = model.time_step / p.substeps, held = held_by_passes(model);
+    const double h = model.time_step / p.substeps, least = least_supports * support(model);
     const double shallow = physics::shallow_layers * p.fluidRestDistance;
-    const double most = solved_share * held / h * std::min(physics::most_excess / h, fastest_expansion(p, shallow));
+    const double held = held_by_passes(model) / h * std::min(physics::most_excess / h, fastest_expansion(p, shallow));
+    const double most = std::min(solved_share * held, held - pushed_sideways(model));
     return std::min(all, std::max(least, std::min(most, shallow)));
 }
 
@@ -63,6 +85,35 @@ double extent(const Model& model, int axis) {
     if (const PeriodicAxis* const periodic = periodic_along(axis, model.periodic)) return periodic->length();
     const TankEnds ends = tank_ends(model.planes, axis);
     return ends.high.front() - ends.low.front();
+}
+
+/// How high above the floor the surface of all water is at rest, beside the solids that are held below it; height_of(position) is
+/// that of a particle.
+template <class HeightOf>
+double surface_at_rest(const Model& model, double area, const HeightOf& height_of) {
+    const std::vector<double> volumes = particle_volumes(model);
+    const auto filled_to = [&](double surface) {
+        double volume = 0;
+        for (int i = 0; i < model.particles(); ++i)
+            if (model.is_fluid(i) || (model.inverse_mass[i] == 0 && height_of(model.position[i]) < surface)) volume += volumes[i];
+        return volume / area;
+    };
+    double surface = 0;
+    for (double higher = filled_to(surface); higher > surface; higher = filled_to(surface)) surface = higher;
+    return surface;
+}
+
+/// Water far above its surface at rest weighs more than is left to the solver.
+template <class HeightOf>
+void refuse_heaped_water(const Model& model, double surface, const HeightOf& height_of) {
+    double highest = 0;
+    for (int i = 0; i < model.particles(); ++i)
+        if (model.is_fluid(i)) highest = std::max(highest, height_of(model.position[i]));
+    if (highest <= surface + support(model)) return;
+    std::ostringstream text;
+    text << "model: parameters.modifiedPressure = true: needs a tank that is full: water begins " << highest << " above the floor, and is "
+         << surface << " deep at rest";
+    throw InputError(text.str());
 }
 
 }  // namespace
@@ -106,13 +157,13 @@ physics::CarriedWeight<Real> carried_weight(const Model& model) {
     const double towards = gravity[up] < 0 ? -1 : 1;  // the floor
     const TankEnds upright = tank_ends(model.planes, up);
     const double floor = towards < 0 ? -upright.low.front() : upright.high.front();
-    const std::vector<double> volumes = particle_volumes(model);
-    double volume = 0, area = 1;
-    for (int i = 0; i < model.particles(); ++i)
-        if (model.is_fluid(i)) volume += volumes[i];
+    double area = 1;
     for (int axis = 0; axis < 3; ++axis)
         if (axis != up) area *= extent(model, axis);
     const double reach = support(model);
+    const auto height_of = [&](const Eigen::Vector3d& x) { return floor - towards * x[up]; };
+    const double surface = surface_at_rest(model, area, height_of);
+    refuse_heaped_water(model, surface, height_of);
     const auto along = [&](double length) {
         physics::Vec3<Real> v{};
         (up == 0 ? v.x : up == 1 ? v.y : v.z) = static_cast<Real>(length);
@@ -120,7 +171,7 @@ physics::CarriedWeight<Real> carried_weight(const Model& model) {
     };
     return {.gravity = along(gravity[up]),
             .down = along(towards),
-            .begin = static_cast<Real>(floor - volume / area + solved - reach / 2),
+            .begin = static_cast<Real>(floor - surface + solved - reach / 2),
             .width = static_cast<Real>(reach)};
 }
 

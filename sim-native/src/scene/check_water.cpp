@@ -41,7 +41,7 @@ void check_modified_pressure(const Scene& scene, const Place& place) {
     const Eigen::Vector3d weight = scene.solver.buoyancy * gravity_on_walls(scene.solver, scene.periodic);
     if (!scene.solver.modifiedPressure || weight.isZero(0)) return;
     if (const auto reason = no_tank(weight, scene.planes, scene.periodic))
-        refuse(place.key("solver").key("modifiedPressure"), true, *reason);
+        refuse(place.key("solver").key("modifiedPressure"), true, "false here: it " + *reason);
 }
 
 }  // namespace

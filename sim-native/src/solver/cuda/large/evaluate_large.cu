@@ -4,6 +4,7 @@
 #include <future>
 #include <iterator>
 #include <memory>
+#include <utility>
 
 #include "large_scene.h"
 #include "parts.h"
@@ -33,6 +34,7 @@ public:
     }
     std::vector<Evaluation>& evaluations_of(int part) { return evaluations_[part / parts_.streams]; }
     const BatchTimes& times() const { return times_; }
+    const std::vector<Span>& busy() const { return large_.busy(); }
 
 private:
     const Parts& parts_;
@@ -42,17 +44,18 @@ private:
     std::vector<std::vector<Evaluation>> evaluations_;  ///< by part, of its own
 };
 
-/// The streams run side by side, so the longest counts.
+/// The streams run side by side, more or less.
 template <class Real>
 void add_times(const std::vector<std::unique_ptr<Stream<Real>>>& streams, BatchTimes& times) {
     BatchTimes all;
+    std::vector<Span> busy;
     for (const auto& stream : streams) {
         all.settling = std::max(all.settling, stream->times().settling);
-        all.kernel = std::max(all.kernel, stream->times().kernel);
+        busy.insert(busy.end(), stream->busy().begin(), stream->busy().end());
         all.at_a_time += stream->times().at_a_time;
     }
     times.settling += all.settling;
-    times.kernel += all.kernel;
+    times.kernel += busy_seconds(std::move(busy));
     times.at_a_time = std::max(times.at_a_time, all.at_a_time);
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "busy_time.h"
 #include "company.h"
 #include "evaluate/companions.h"
 #include "evaluate/perturb.h"
@@ -58,14 +59,14 @@ public:
         const std::vector<Quad<Real>> bodies = places_of_bodies();
         for (int k = 0; k < runner_.states(); ++k)
             records_[k].start(frame_of(begin[k], false, bodies, k));
-        const HostClock watch;
+        const HostTime begin_of_frames = std::chrono::steady_clock::now();
         const auto frames = static_cast<int>(std::lround(scene_.duration / scene_.time_step));
         for (int frame = 0; frame < frames && let_rest(count); ++frame) {
             update.start_time = frame * scene_.time_step;
             note(runner_.run(update, times_ ? times_->profile : nullptr), update);
         }
+        busy_.push_back({begin_of_frames, std::chrono::steady_clock::now()});
         if (times_) {
-            times_->kernel += watch.seconds();
             times_->at_a_time = std::max(times_->at_a_time, count);
         }
         const std::vector<Real> densities = runner_.densities();
@@ -80,6 +81,9 @@ public:
         });
         forget_starts(first + count);
     }
+
+    /// When frames were computed.
+    const std::vector<Span>& busy() const { return busy_; }
 
 private:
     using Runner = LargeRunner<Real>;
@@ -239,6 +243,7 @@ private:
     const Company& company_;
     bool keeps_starts_;
     BatchTimes* times_;
+    std::vector<Span> busy_;
     Runner runner_;
     std::vector<Progress> progress_;
     std::vector<SwimRecord> records_;
