@@ -25,7 +25,7 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// How a scene is run, without a say in what comes out. What it points to must live as long as what it is given to.
+/// Execution options. None of them changes the result. What it points to must live as long as what it is given to.
 struct Execution {
     StageProfile* profile = nullptr;     ///< where the time goes; null costs nothing
     const SettledStateCache* starts = nullptr;  ///< where settled starts are kept; null settles every time

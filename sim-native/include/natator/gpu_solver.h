@@ -32,7 +32,7 @@ struct GpuSolverOptions {
 /// between threads. A library built without CUDA has this class too; making one then throws NoDevice. As those of Solver, members that
 /// take a State throw InputError if it is not of so many particles, clusters and springs as the Model.
 ///
-/// Real is float or double. Members throw std::bad_alloc when the device's memory does not do and std::runtime_error,
+/// Real is float or double. Members throw std::bad_alloc when the device's memory is insufficient and std::runtime_error,
 /// naming the call, when the device fails.
 template <class Real>
 class GpuSolver {
@@ -56,8 +56,8 @@ public:
     /// which must fit the model (check_gait): throws InputError if it has not one value for each actuator.
     std::optional<Instability> frame(State<Real>& state, const Gait& gait);
 
-    /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids, and for
-    /// all before the first update.
+    /// Density of each particle in units of rest density: in scheme flex at the last update's final positions, in
+    /// conserving at those of the start of its last substep. 0 for solids, and for all before the first update.
     std::vector<Real> densities() const;
     /// As Solver::pressures gives it; empty before the first update, without water, and in scheme flex.
     std::vector<Real> pressures() const;

@@ -77,7 +77,8 @@ public:
     double muscle_work() const;
     /// Change of the body's mean x over ground since the start, length.
     double distance() const;
-    /// Density of each particle in the present state, in units of rest density; 0 for solids.
+    /// Density of each particle in units of rest density, 0 for solids: of the present state at the start and in scheme
+    /// flex; after a step in conserving at the positions of the start of its last substep.
     std::vector<Real> densities();
     const std::optional<Instability>& instability() const { return instability_; }
 

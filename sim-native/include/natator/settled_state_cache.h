@@ -11,8 +11,8 @@ namespace natator {
 
 /// Settled starts of scenes in a folder, one file each, so that a scene settles once and not in every evaluation.
 /// A start is found by its whole content: all that settling depends on, with the precision, the instruction set and the
-/// build of the program, stands in the file and is compared byte by byte. Safe with several processes at once. The
-/// cache never fails: what cannot be read is not there, what cannot be written is not kept.
+/// build of the program, stands in the file and is compared byte by byte. Safe with several processes at once.
+/// Never throws: unreadable entries are misses, failed writes are ignored.
 class SettledStateCache {
 public:
     explicit SettledStateCache(std::filesystem::path folder);

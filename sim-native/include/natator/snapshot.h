@@ -9,7 +9,8 @@
 
 namespace natator {
 
-/// All particles at the end of a frame, in the order of the Model.
+/// All particles at the end of a frame, in the order of the Model. Places are in the coordinates of the tank, also where it
+/// moves along with the swimmer (Scene::moving_tank); a trajectory's are over ground. Densities as Solver::densities gives them.
 struct Snapshot {
     double time = 0;                        ///< s since the end of settling
     std::vector<Eigen::Vector3d> position;  ///< length
@@ -17,7 +18,7 @@ struct Snapshot {
     std::vector<double> density;            ///< in units of rest density; 0 for solids
 };
 
-/// A wish for one Snapshot. Taking it changes nothing in the run.
+/// Request for one snapshot at a given time. Taking it changes nothing in the run.
 struct SnapshotRequest {
     double at = 0;  ///< s; taken after the first frame that ends at this time or later, of time 0 after the first frame
     std::function<void(const Model&, const Snapshot&)> take;  ///< empty = no snapshot; not called if the run ends before

@@ -64,10 +64,12 @@ public:
     /// Counts it anew from here.
     void clear_muscle_work();
 
-    /// Density of each particle at the last update's final positions, in units of rest density; 0 for solids.
+    /// Density of each particle in units of rest density, 0 for solids: in scheme flex at the last update's final positions,
+    /// in conserving at those of the start of its last substep.
     std::vector<Real> densities();
-    /// Pressure of each fluid particle in the last substep, mass/(length s^2): the virial of its density
-    /// constraint. Right inside the fluid, too low where a wall takes part of the load. Empty in scheme flex.
+    /// Pressure of each fluid particle in the last substep, mass/(length s^2): in scheme conserving the sum of the substep's
+    /// pressure impulses over h plus the carried pressure (modifiedPressure). Right inside the fluid, too low where a wall
+    /// takes part of the load. Empty in scheme flex.
     std::vector<Real> pressures() const;
     /// Mean force of the water on each particle over the last update, mass length/s^2: pressure, buoyancy with it, and
     /// viscosity, of the water before walls and of its mirror images behind them. Summed over a body's particles, or over
