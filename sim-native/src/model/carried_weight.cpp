@@ -14,11 +14,11 @@
 namespace natator {
 namespace {
 
-constexpr double most_weight = 2;         ///< g H h^2 / s^2 of water of depth H that a pass holds up, in what it may take off
-constexpr double solved_share = 2.0 / 3;  ///< of the depth that passes hold up: with all of it, water bobs at some depths
-constexpr double least_supports = 1.5;    ///< of water that is not carried
+constexpr double most_weight = 2;         ///< largest g H h^2 / s^2 that a pass supports, per density excess
+constexpr double solved_share = 2.0 / 3;  ///< of the depth that passes support: the full one oscillates at times
+constexpr double least_supports = 1.5;    ///< least depth that is left to the passes, in kernel supports
 
-/// Along which gravity is largest: the floor is across it.
+/// The axis along which gravity is largest; the floor is normal to it.
 int upright_axis(const Eigen::Vector3d& gravity) {
     int axis = 0;
     gravity.cwiseAbs().maxCoeff(&axis);
@@ -33,6 +33,7 @@ const PeriodicAxis* periodic_along(int axis, const std::vector<PeriodicAxis>& pe
 /// Gravity of the fluid along the axes that have ends, length/s^2.
 Eigen::Vector3d weight_of(const Model& model) { return model.parameters.buoyancy * gravity_on_walls(model); }
 
+/// Length of the water along an axis.
 double extent_of_fluid(const Model& model, int axis) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     for (int i = 0; i < model.particles(); ++i) {
@@ -43,7 +44,7 @@ double extent_of_fluid(const Model& model, int axis) {
     return std::max(high - low, 0.0);
 }
 
-/// `all`: the depth of the Model's water, likewise below.
+/// Whether weight of the water can be carried. `all`: depth of the water, length; the same in the functions below.
 bool may_carry(const Model& model, double all) {
     return model.scheme == Scheme::conserving && model.parameters.modifiedPressure && !weight_of(model).isZero(0) && all > 0;
 }
@@ -62,14 +63,14 @@ double least_solved_of(const Model& model, double all) {
     return may_carry(model, all) ? std::min(all, least_supports * support(model) + pushed_sideways(model)) : all;
 }
 
-/// H h^2 of water of depth H that all passes of a substep hold up, over what they may take off, length s^2.
+/// Largest H h^2 that the pressure passes can support, per unit of the density excess that they may remove, length s^2.
 double held_by_passes(const Model& model) {
     const SolverParameters& p = model.parameters;
     const int passes = physics::divergence_passes + p.numIterations;
     return most_weight * passes * p.fluidRestDistance * p.fluidRestDistance / weight_on_walls(model);
 }
 
-/// The depth at which longest_substep is the Model's.
+/// The depth D that is left to the passes, length: a share of the one at which longest_substep is the Model's, within limits.
 double solved_of(const Model& model, double all) {
     if (!(least_solved_of(model, all) < all)) return all;
     const SolverParameters& p = model.parameters;
@@ -80,7 +81,7 @@ double solved_of(const Model& model, double all) {
     return std::min(all, std::max(least, std::min(most, shallow)));
 }
 
-/// Of the tank, along an axis.
+/// Length of the tank along an axis.
 double extent(const Model& model, int axis) {
     if (const PeriodicAxis* const periodic = periodic_along(axis, model.periodic)) return periodic->length();
     const TankEnds ends = tank_ends(model.planes, axis);
@@ -133,7 +134,7 @@ double weight_on_walls(const Model& model) {
     return gravity_on_walls(model).norm() * std::max(1.0, std::abs(model.parameters.buoyancy));
 }
 
-/// A pass holds up g H h^2/s^2 = most_weight times what it may take off of a density.
+/// A pass supports g H h^2/s^2 = most_weight times the density excess that it may remove.
 double longest_substep(const Model& model, double depth) {
     const SolverParameters& p = model.parameters;
     const double held = held_by_passes(model) / depth;

@@ -16,7 +16,7 @@ double fluid_density(const Model& model, const std::vector<double>& volumes);
 /// Of the fluid along the gravity that presses it on walls, length; 0 without.
 double depth(const Model& model);
 
-/// Rate at which velocities may take off a density above rest, 1/s: see physics::velocity_excess. The surface rises at this
+/// Rate at which velocities may remove an excess of density, 1/s: see physics::velocity_excess. The surface rises at this
 /// times the depth, so deep water expands more slowly: it would throw itself up without end. `depth`: see there.
 double fastest_expansion(const SolverParameters& parameters, double depth);
 

@@ -153,14 +153,14 @@ NATATOR_HD T mobility(T inverse_mass, T volume, T fluid_density) {
     return inverse_mass > 0 || !(fluid_density > 0) ? inverse_mass : 1 / (fluid_density * volume);
 }
 
-/// The most that velocities may take off of a density above rest in a substep of length h.
+/// The largest excess of density that velocities may remove in a substep of length h.
 template <class T>
 NATATOR_HD T velocity_limit(T h, T fastest_expansion) {
     return smaller(T(most_excess), h * fastest_expansion);
 }
 
-/// What the velocities take off of a density above rest in a substep; negative below it. The speed that this gives does not
-/// leave again, so it is at most `most`, a velocity_limit.
+/// The excess of density that the velocities remove in a substep; negative below rest density. The speed that this gives does
+/// not leave again, so it is at most `most`, a velocity_limit.
 template <class T>
 NATATOR_HD T velocity_excess(T density, Scalar<T> most) {
     return smaller(density - 1, T{} + most);
@@ -200,7 +200,7 @@ NATATOR_HD T kept_impulse(T fastest_square, Scalar<T> strength) {
     return strength * fastest_square;
 }
 
-/// What is taken off of a particle's own pressure push, in units of sum_j G_ij.
+/// What is subtracted from a particle's own pressure push, in units of sum_j G_ij.
 ///
 /// That sum should be 0 but is not where neighbours lie unevenly, and then the pressure p that a particle has in common with
 /// its neighbours pushes it by -2 p sum_j G_ij, to where they lie less densely. This is what keeps particles apart, and also

@@ -59,7 +59,7 @@ bool is_of_file(const json& creature) {
     return !fields::has(creature, "slices") && (!shaped || fields::has(creature, "name"));
 }
 
-/// Merges a patch onto a scene. What it takes off of a creature whose file still has it stays null, for the file.
+/// Merges a patch onto a scene. What it removes from a creature whose file still has it stays null, for the file.
 void patch_scene(json& scene, const json& patch) {
     const json before = scene.value("creature", json::object());
     scene.merge_patch(patch);
