@@ -15,7 +15,7 @@ namespace natator {
 namespace {
 
 constexpr double most_weight = 2;         ///< largest g H h^2 / s^2 that a pass supports, per density excess
-constexpr double solved_share = 2.0 / 3;  ///< of the depth that passes support: the full one oscillates at times
+constexpr double solved_share = 2.0 / 3;  ///< of the depth that passes support: all of it oscillates at some depths
 constexpr double least_supports = 1.5;    ///< least depth that is left to the passes, in kernel supports
 
 /// The axis along which gravity is largest; the floor is normal to it.
