@@ -13,7 +13,10 @@ import java.util.function.Consumer;
 /** The end of what a program writes to standard error. Running it reads to the end of that, for a thread of its own. */
 public final class ErrorTail implements Runnable {
 
-    private static final int KEPT_BYTES = 4096;
+    /** Stands between lines where all are one. */
+    static final String LINE_END = " | ";
+    /** At least so many of the last bytes are told, and up to twice as many. */
+    static final int KEPT_BYTES = 4096;
     private static final long GRACE_MILLISECONDS = 5000;
 
     private final InputStream stderr;
@@ -66,10 +69,8 @@ public final class ErrorTail implements Runnable {
             ByteArrayOutputStream line = new ByteArrayOutputStream();
             byte[] buffer = new byte[KEPT_BYTES];
             for (int count = stderr.read(buffer); count >= 0; count = stderr.read(buffer)) {
-                if (kept.size() + count > 2 * KEPT_BYTES) {
-                    kept.reset();
-                }
                 kept.write(buffer, 0, count);
+                trim(kept);
                 for (int i = 0; i < count; i++) {
                     if (buffer[i] != '\n') {
                         line.write(buffer[i]);
@@ -83,7 +84,16 @@ public final class ErrorTail implements Runnable {
             if (line.size() > 0) {
                 lines.accept(line.toString(StandardCharsets.UTF_8));
             }
-            return kept.toString(StandardCharsets.UTF_8).strip().replaceAll("\\s*\\R\\s*", " | ");
+            return kept.toString(StandardCharsets.UTF_8).strip().replaceAll("\\s*\\R\\s*", LINE_END);
+        }
+    }
+
+    /** Drops what is not of the end, now and then. */
+    private static void trim(ByteArrayOutputStream kept) {
+        if (kept.size() > 2 * KEPT_BYTES) {
+            byte[] all = kept.toByteArray();
+            kept.reset();
+            kept.write(all, all.length - KEPT_BYTES, KEPT_BYTES);
         }
     }
 }
