@@ -19,7 +19,7 @@ public final class ConvergeProgram {
     private static final int TIMES_AS_LONG = 16;
     /** It has an answer, without the runs that became unstable. */
     private static final int UNSTABLE = 3;
-    private static final String PROGRESS = "natator-sim: converge: ";
+    private static final String PROGRESS = NativeProgram.Output.NAME + NativeProgram.Output.PROGRESS;
 
     private final ExecutionSettings execution;
 

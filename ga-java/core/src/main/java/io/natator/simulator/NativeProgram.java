@@ -41,6 +41,8 @@ final class NativeProgram implements AutoCloseable {
     record Output(int exitStatus, String text, String errorText) {
 
         static final String NAME = "natator-sim: ";
+        /** What follows the name where a line tells of a finished run of {@code converge}. */
+        static final String PROGRESS = "converge: ";
         private static final int BAD_INPUT = 2;
 
         /**
@@ -50,17 +52,24 @@ final class NativeProgram implements AutoCloseable {
          * @param subject for example {@code scene pool/eel}
          */
         RuntimeException failure(String subject) {
-            return exitStatus == BAD_INPUT && errorText.startsWith(NAME) ? new RefusedSceneException(reason(subject))
+            return exitStatus == BAD_INPUT && ownWords() != null ? new RefusedSceneException(reason(subject))
                     : new RequestRejectedException(reason(subject), false);
+        }
+
+        /** What follows the program's name where that last begins a line; null if none does, or if that line tells of progress. */
+        private String ownWords() {
+            int last = (ErrorTail.LINE_END + errorText).lastIndexOf(ErrorTail.LINE_END + NAME);
+            String said = last < 0 ? PROGRESS : errorText.substring(last + NAME.length());
+            return said.startsWith(PROGRESS) ? null : said;
         }
 
         /** Its own words, or how it ended, after the name of what it was asked for unless they have it. */
         private String reason(String subject) {
-            if (!errorText.startsWith(NAME)) {
+            String said = ownWords();
+            if (said == null) {
                 return subject + ": simulator ended with exit status " + exitStatus
                         + (errorText.isEmpty() ? "" : ", errors " + ResultReader.shown(errorText));
             }
-            String said = errorText.substring(NAME.length());
             return said.contains("\"" + subject.replaceFirst("^scene ", "") + "\"") ? said : subject + ": " + said;
         }
     }

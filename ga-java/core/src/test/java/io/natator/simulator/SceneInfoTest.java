@@ -38,6 +38,19 @@ class SceneInfoTest {
                 .hasMessage("scene pool/eel: " + reason);
     }
 
+    /** What it told of its progress is no reason. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', value = {
+        "2;natator-sim: converge: base: run 1 of 2;natator-sim: disk full|disk full",
+        "2;natator-sim: converge: base: run 1 of 2;level substeps;natator-sim: gait: expected a number;see --help|gait: expected a number / see --help",
+        "134;natator-sim: converge: base: run 1 of 2;terminate called|simulator ended with exit status 134"})
+    void theReasonIsTheLastThatTheProgramSays(String lines, String reason) {
+        String[] said = lines.split(";", 2);
+
+        assertThat(failure(Integer.parseInt(said[0]), said[1].replace(";", ErrorTail.LINE_END)).getMessage().replace(" | ", " / "))
+                .startsWith("scene pool/eel: " + reason).matches(message -> said[0].equals("134") || message.endsWith(reason));
+    }
+
     private static RuntimeException failure(int status, String errors) {
         return new NativeProgram.Output(status, "", errors).failure("scene pool/eel");
     }
