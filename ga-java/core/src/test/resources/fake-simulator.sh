@@ -160,7 +160,7 @@ answer() {
 
 # describe SCENE OVERRIDES; bodies of 1.8 and more it does not take
 describe() {
-    local actuators
+    local actuators goals=
     if [[ $2 =~ \"length\":1\.[89] ]]; then
         echo "natator-sim: creature.profile.length: the body does not fit into the tank" >&2
         exit 2
@@ -171,12 +171,13 @@ describe() {
     thesis/creature-2 | pool/creature-2) actuators=8 ;;
     thesis/creature-3 | pool/creature-3) actuators=5 ;;
     thesis/* | pool/* | fault/*) actuators=2 ;;
+    goals/*) actuators=2 goals=',"goals":["turn"]' ;;
     *)
         echo "natator-sim: scene is \"$1\"; expected a named scene or a file" >&2
         exit 2
         ;;
     esac
-    echo "{\"scene\":\"$1\",\"creature\":\"any\",\"actuators\":$actuators,\"particles\":5950,\"duration\":4.0,\"timeStep\":0.0166,\"substeps\":4,\"iterations\":4,\"bodyLength\":1.2,\"bodyParticles\":142}"
+    echo "{\"scene\":\"$1\",\"creature\":\"any\",\"actuators\":$actuators,\"particles\":5950,\"duration\":4.0,\"timeStep\":0.0166,\"substeps\":4,\"iterations\":4,\"bodyLength\":1.2,\"bodyParticles\":142$goals}"
 }
 
 mode=$1

@@ -169,6 +169,20 @@ class BadUsageTest extends FakeSimulatorTest {
         assertThat(folder.resolve("run")).doesNotExist();
     }
 
+    /** Goals are the fitness, from which a drift cannot be taken off. */
+    @ParameterizedTest
+    @ValueSource(strings = {"", "--dry-run", "--islands 2 --migrate-every 1"})
+    void netFitnessIsNotForGoals(String options) {
+        List<String> all = new ArrayList<>(List.of("--scene", "goals/turn", "--fitness", "net"));
+        all.addAll(Stream.of(options.split(" ")).filter(one -> !one.isEmpty()).toList());
+
+        assertThat(evolve("run", all.toArray(String[]::new))).isEqualTo(2);
+
+        assertThat(err.toString().lines()).hasSize(1);
+        assertThat(err.toString()).startsWith("natator evolve: --fitness net is for scenes without goals, and goals/turn has some");
+        assertThat(folder.resolve("run")).doesNotExist();
+    }
+
     /** Neither the run's folder nor those of islands are in the way of the corrected command. */
     @ParameterizedTest
     @ValueSource(strings = {"", "--dry-run", "--islands 2 --migrate-every 1"})

@@ -145,6 +145,7 @@ public final class EvolutionRun {
     private Outcome run(ExecutionSettings execution, Evaluator evaluator, Exchange exchange, LongSupplier found,
             List<EvolutionListener> listeners) throws InterruptedException {
         SceneInfo scene = SceneInfo.of(settings.scene(), settings.overrides(), execution.simulator());
+        checkFitness(settings, scene);
         double duration = settings.duration() != null ? settings.duration() : scene.duration();
         EvaluationCounter counter = new EvaluationCounter(folder, duration, found);
         List<EvolutionListener> all = new ArrayList<>(List.of(folder, counter));
@@ -176,9 +177,19 @@ public final class EvolutionRun {
      * gaits apart by. What the simulator does not measure in the scene it refuses with the first result.
      *
      * @param evaluator carries out the evaluations; closed with this one
+     * @throws InvalidInputException if the scene has goals, and the run would have another fitness
      */
     public static Evaluator telling(EvolutionSettings settings, Evaluator evaluator, SceneInfo scene) {
+        checkFitness(settings, scene);
         return measuring(settings, settings.objectives() != null ? rewarding(settings, evaluator) : evaluator, scene);
+    }
+
+    /** Goals are what is rewarded where a scene has any, so that there is no distance to take a drift off. */
+    private static void checkFitness(EvolutionSettings settings, SceneInfo scene) {
+        if (settings.fitness() == FitnessKind.NET && scene.goals() != null && !scene.goals().isEmpty()) {
+            throw new InvalidInputException("--fitness net is for scenes without goals, and " + settings.scene()
+                    + " has some, which are its fitness; expected --objectives net, alone or together with goals");
+        }
     }
 
     /** An evaluator whose results tell what the optimizer asks for. */

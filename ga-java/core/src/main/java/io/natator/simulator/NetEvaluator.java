@@ -8,7 +8,7 @@ import java.util.function.Consumer;
 
 /**
  * Measures, beside each distance swum forwards, what the same gait drifts in vacuum in the same time. What swims
- * backwards is not measured there: it has no fitness anyway.
+ * backwards is not measured there: it has no distance to take a drift off.
  */
 public final class NetEvaluator implements Evaluator {
 
@@ -27,7 +27,7 @@ public final class NetEvaluator implements Evaluator {
         Map<Long, SimulationResult> inWater = new HashMap<>();
         List<SimulationRequest> inVacuum = new ArrayList<>();
         evaluator.evaluateAll(requests, result -> {
-            if (result.fitness() > 0) {
+            if (result.distanceOrZero() > 0) {
                 inWater.put(result.id(), result);
                 inVacuum.add(VacuumRequests.of(asked.get(result.id()), result.simulated()));
             } else {

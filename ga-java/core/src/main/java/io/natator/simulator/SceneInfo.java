@@ -24,12 +24,18 @@ import java.util.List;
  * @param iterations of a substep
  * @param bodyLength head to tail at rest, in scene units; 0 without a creature, null from a program that does not say
  * @param bodyParticles particles of its creature; null likewise
+ * @param goals      what its goals measure, or null where it has none
  */
 @JsonIgnoreProperties(ignoreUnknown = true)
 public record SceneInfo(@JsonProperty(required = true) String scene, @JsonProperty(required = true) int actuators,
         @JsonProperty(required = true) long particles, @JsonProperty(required = true) double duration,
         @JsonProperty(required = true) double timeStep, @JsonProperty(required = true) int substeps,
-        @JsonProperty(required = true) int iterations, Double bodyLength, Integer bodyParticles) {
+        @JsonProperty(required = true) int iterations, Double bodyLength, Integer bodyParticles, List<String> goals) {
+
+    /** Copies the list. */
+    public SceneInfo {
+        goals = goals == null ? null : List.copyOf(goals);
+    }
 
     /**
      * Asks the simulator about a scene.
