@@ -17,8 +17,9 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
 
     /** The verdict on a winner. */
     public static ControlVerdict of(Controls controls) {
-        double unit = controls.bodyLength() != null && controls.bodyLength() > 0 ? controls.bodyLength() : 1;
-        String name = unit == 1 ? "units" : "body lengths";
+        Verdict.Length length = Verdict.Length.of(controls.bodyLength());
+        double unit = length.unit();
+        String name = length.name();
         double net = controls.net();
         if (net / unit < Verdict.LEAST_DISTANCE) {
             return new ControlVerdict(Verdict.Kind.DOES_NOT_SWIM, "does not swim: moves "
@@ -37,18 +38,18 @@ public record ControlVerdict(Verdict.Kind kind, String text) {
         String speed = Numbers.withError(net / controls.duration() / unit, controls.water().speed().sd() / unit, 2) + " " + name
                 + "/s more than a resting body";
         String end = controls.water().endsAtWall() ? Verdict.UNTIL_WALL : "";
-        List<String> doubts = doubts(controls, net, unit);
+        List<String> doubts = doubts(controls, net, length);
         return doubts.isEmpty() ? new ControlVerdict(Verdict.Kind.SWIMS, "swims: " + speed + end + reasons(controls))
                 : new ControlVerdict(Verdict.Kind.UNPROVEN, "may swim: " + speed + end + "; but " + String.join("; ", doubts));
     }
 
-    private static List<String> doubts(Controls controls, double net, double unit) {
+    private static List<String> doubts(Controls controls, double net, Verdict.Length length) {
         List<String> doubts = new ArrayList<>();
-        if (!Verdict.getsFar(net, controls.error(), unit)) {
+        if (!Verdict.getsFar(net, controls.error(), length.unit())) {
             doubts.add("its runs differ too much to tell");
         }
-        if (controls.water().endsAtWall() && controls.water().distance().mean() / unit < Verdict.WAY_TO_WALL) {
-            doubts.add("the wall is nearer than " + Verdict.WAY_TO_WALL + (unit == 1 ? " units" : " body lengths"));
+        if (controls.water().endsAtWall() && controls.water().distance().mean() / length.unit() < Verdict.WAY_TO_WALL) {
+            doubts.add("the wall is nearer than " + Verdict.WAY_TO_WALL + " " + length.name());
         }
         if (drift(controls) + error(controls.vacuum(), controls) >= Verdict.LEAST_LEFT) {
             doubts.add("it moves " + Numbers.withError(drift(controls), error(controls.vacuum(), controls), 1)

@@ -18,10 +18,9 @@ public final class ConvergenceText {
     }
 
     private static String speed(Convergence convergence) {
-        boolean isMeasured = convergence.bodyLength() != null && convergence.bodyLength() > 0;
-        double unit = isMeasured ? convergence.bodyLength() : 1;
-        return Numbers.withError(convergence.estimate().speed() / unit, convergence.estimate().error() / unit, 3)
-                + (isMeasured ? " body lengths/s" : " units/s") + " at time step and spacing 0";
+        Verdict.Length length = Verdict.Length.of(convergence.bodyLength());
+        return Numbers.withError(convergence.estimate().speed() / length.unit(), convergence.estimate().error() / length.unit(), 3)
+                + " " + length.name() + "/s at time step and spacing 0";
     }
 
     private static String change(Convergence.Level level) {

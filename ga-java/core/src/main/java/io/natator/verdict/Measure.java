@@ -40,8 +40,9 @@ public record Measure(String name, String value, String expected, Outcome outcom
      * @param controls what {@code natator check} found, or null
      */
     public static List<Measure> of(BestGait best, Controls controls) {
-        double unit = best.bodyLength() != null && best.bodyLength() > 0 ? best.bodyLength() : 1;
-        String name = unit == 1 ? "units" : "body lengths";
+        Verdict.Length length = Verdict.Length.of(best.bodyLength());
+        double unit = length.unit();
+        String name = length.name();
         List<Measure> all = new ArrayList<>();
         FreshRuns fresh = best.fresh();
         double way = fresh == null ? best.result().distanceOrZero() : fresh.base().distance().mean();
@@ -49,7 +50,7 @@ public record Measure(String name, String value, String expected, Outcome outcom
         if (fresh == null) {
             boolean isKnown = Verdict.isMeasurable(best.vacuum(), best.bodyLength());
             all.add(new Measure("way, one run", Numbers.fixed(way / unit, 2) + " " + name,
-                    isKnown ? least : "more than " + Verdict.LEAST_DISTANCE + " body lengths",
+                    isKnown ? least : "more than " + Verdict.LEAST_DISTANCE + " " + Verdict.Length.BODIES,
                     isKnown ? outcome(Verdict.getsFar(way, 0, unit)) : Outcome.NOT_MEASURED));
         } else {
             SwimSample base = fresh.base();

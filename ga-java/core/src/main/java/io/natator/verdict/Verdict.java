@@ -82,8 +82,7 @@ public record Verdict(Kind kind, String text, String advice) {
         if (water.failure() != null) {
             return unproven("not judged: " + water.failure(), LONGER);
         }
-        Length length = bodyLength != null && bodyLength > 0 ? new Length(bodyLength, "body lengths")
-                : new Length(1, "units");
+        Length length = Length.of(bodyLength);
         double way = water.distance() / length.unit();
         if (isMeasurable(vacuum, bodyLength) && Math.abs(way) < LEAST_DISTANCE) {
             return new Verdict(Kind.DOES_NOT_SWIM, "does not swim: moves " + length.distance(water)
@@ -211,16 +210,28 @@ public record Verdict(Kind kind, String text, String advice) {
         }
     }
 
-    /** What lengths are told in. */
-    private record Length(double unit, String name) {
+    /**
+     * What lengths are told in.
+     *
+     * @param unit in scene units
+     * @param name of many of it
+     */
+    record Length(double unit, String name) {
+
+        static final String BODIES = "body lengths";
+
+        /** Body lengths, or scene units where the length is null or 0 since it is unknown. */
+        static Length of(Double bodyLength) {
+            return bodyLength != null && bodyLength > 0 ? new Length(bodyLength, BODIES) : new Length(1, "units");
+        }
 
         /** With a digit more than the limit that it is set beside. */
-        String distance(Swim swim) {
+        private String distance(Swim swim) {
             return with(swim.distance(), swim.fresh() == null ? null : swim.fresh().base().distance(), 3) + " " + name;
         }
 
         /** Mean and standard deviation, and the mean at half the time step. */
-        String speed(Swim swim) {
+        private String speed(Swim swim) {
             if (swim.fresh() == null) {
                 return with(swim.speed(), null, 2) + " " + name + "/s";
             }

@@ -88,6 +88,16 @@ class ControlVerdictTest {
         assertThat(ControlVerdict.of(controls).kind()).isEqualTo(kind);
     }
 
+    /** The length of its body is known, though it is the unit. */
+    @ParameterizedTest
+    @CsvSource({"0.74, 0.188 ± 0.004 body lengths/s more", "0.40, nearer than 0.5 body lengths", "0.01, body lengths further"})
+    void aBodyOfLengthOneIsMeasuredByItself(double way, String text) {
+        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.0, sample(way, 0.01, "touched-plane"), sample(-0.01, 0),
+                sample(0, 0), null, sample(way, 0), sample(way, 0), null, null, 0.9);
+
+        assertThat(ControlVerdict.of(controls).text()).contains(text).doesNotContain("units");
+    }
+
     /** Where there is a GPU it must swim on that too; a program without clamp or water is not asked for them. */
     @ParameterizedTest
     @CsvSource({"0.7, SWIMS, on cuda (95 %)", "0.1, UNPROVEN, on cuda 15 % of its way is left"})

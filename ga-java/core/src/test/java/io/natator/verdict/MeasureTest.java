@@ -62,6 +62,17 @@ class MeasureTest {
                 tuple("mirrored", "", NOT_MEASURED));
     }
 
+    /** The length of its body is known, though it is the unit. */
+    @Test
+    void aBodyOfLengthOneIsMeasuredByItself() {
+        Controls controls = new Controls(GAIT, null, "conserving", 4.0, 1.0, sample(1.9), sample(0.0), sample(0.0), null, sample(1.8),
+                sample(1.9), null, null, null);
+        BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, null, 2.5, 0.625, result(2.5), 1.0, result(0), 2.5, 1, null);
+
+        assertThat(Measure.of(best, controls)).filteredOn(one -> List.of("way, one run", "resting muscles").contains(one.name()))
+                .hasSize(2).allSatisfy(one -> assertThat(one.value() + one.expected()).contains("body lengths").doesNotContain("units"));
+    }
+
     @Test
     void aRunThatGoesOnIsNotJudgedByUnits() {
         BestGait best = new BestGait("pool/creature-1", List.of(1.0), GAIT, 0.001, 0.001, result(0.001), null, null);
