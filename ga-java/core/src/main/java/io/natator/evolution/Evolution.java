@@ -44,15 +44,9 @@ public final class Evolution {
      *
      * @param evaluator carries out the simulations; stays open
      * @param listeners told of everything in this order
-     * @param recorded  simulations that an interrupted run had finished, in the order of their ids from 0; empty for a
-     *                  new run
+     * @param recorded  simulations that an interrupted run had finished, but for the first where it has dropped them; none for a new run
+     * @param exchange  with other islands
      */
-    public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
-            List<EvaluationRecord> recorded) {
-        this(settings, evaluator, listeners, new Recorded(0, recorded), Exchange.NONE);
-    }
-
-    /** The same of a run that may have dropped the first of its simulations, and on an island. */
     public Evolution(EvolutionSettings settings, Evaluator evaluator, List<EvolutionListener> listeners,
             Recorded recorded, Exchange exchange) {
         this.settings = settings;
