@@ -42,7 +42,7 @@ class SceneInfoTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "2;natator-sim: converge: base: run 1 of 2;natator-sim: disk full|disk full",
-        "2;natator-sim: converge: base: run 1 of 2;level substeps;natator-sim: gait: expected a number;see --help|gait: expected a number / see --help",
+        "2;natator-sim: converge: base: run 1 of 2;level substeps;natator-sim: gait: unknown;see --help|gait: unknown / see --help",
         "134;natator-sim: converge: base: run 1 of 2;terminate called|simulator ended with exit status 134"})
     void theReasonIsTheLastThatTheProgramSays(String lines, String reason) {
         String[] said = lines.split(";", 2);
