@@ -60,13 +60,10 @@ public record SimulationRequest(long id, String scene, Gait gait, Double duratio
         return withOverrides(MergePatch.both(overrides, change));
     }
 
-    /**
-     * This request without early stops: neither a wall nor lack of progress ends it, nor arriving at a goal. The scene has no goals then,
-     * and the result no scores, since a merge patch takes an array as a whole and has no way to set the {@code stop} of each.
-     */
+    /** This request without early stops: neither a wall nor lack of progress ends it. Arriving at a goal that stops still does. */
     public SimulationRequest withoutStops() {
         ObjectNode patch = JsonNodeFactory.instance.objectNode();
-        patch.putNull("goals").putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
+        patch.putObject("stopping").put("planeContact", false).put("noProgressAfter", 0);
         return withChange(patch);
     }
 }

@@ -77,19 +77,4 @@ class RealProtocolTest {
             assertThat(ResultReader.read(answer).distance()).as(answer).isCloseTo(0, within(1e-4));
         }
     }
-
-    /** Arriving stops a run if it is not told otherwise; this goal is reached at once. */
-    @Test
-    void noGoalEndsWhatIsToLast() throws Exception {
-        SimulationRequest swim = new SimulationRequest(9, "goals/turn", new Gait(2, Collections.nCopies(8, 0.5), Collections.nCopies(8, 0.5)),
-                0.2, null, Json.parse("{\"goals\":[{\"measure\":\"turn\",\"target\":-0.1,\"within\":0.0999}]}", JsonNode.class));
-        List<String> ends = new ArrayList<>();
-        for (SimulationRequest request : List.of(swim, swim.withoutStops(), VacuumRequests.of(swim, 0.2))) {
-            try (NativeProgram program = new NativeProgram(SIMULATOR, Duration.ofMinutes(5))) {
-                ends.add(ResultReader.read(program.call(List.of("evaluate"), Json.line(request) + "\n").text()).stopped());
-            }
-        }
-
-        assertThat(ends).containsExactly("reached", "completed", "completed");
-    }
 }
