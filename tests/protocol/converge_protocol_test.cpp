@@ -141,6 +141,9 @@ TEST_F(ConvergeTest, BadInputIsRefusedInOneLine) {
     refused({"converge", "-", "--levels", "time/3"}, swim.dump(), "time/3");
     refused({"converge", "-", "--levels", "time/2,time/2"}, swim.dump(), "--levels: time/2 is given twice; must be given once");
     refused({"converge", "-", "--levels", "time/2", "--levels", "spacing/2,time/2"}, swim.dump(), "--levels: time/2 is given twice");
+    const std::vector<double> eight(8, 0.1);
+    const json beside_pillars = {{"id", 1}, {"scene", "company/pillars"}, {"gait", {{"frequency", 1}, {"amplitude", eight}, {"phase", eight}}}};
+    refused({"converge", "-"}, beside_pillars.dump(), "half the spacing is not known of companions and obstacles");
     refused({"converge", "-", "--starts", "1"}, swim.dump(), "--starts");
     refused({"converge", "no-such-file.json"}, "", "no-such-file.json");
     refused({"converge", "-"}, "[]", "request");

@@ -41,6 +41,9 @@ Level Level::named(const std::string& name) {
 json refined(const Scene& scene, const Level& level, int substeps) {
     json overrides = {{"solver", json::object()}};
     if (level.space > 1) {
+        if (!scene.companions.empty() || !scene.obstacles.empty())
+            throw InputError("level " + quoted(level.name) + ": half the spacing is not known of companions and obstacles; "
+                             "the levels of this scene are time/2 and time/4");
         overrides["solver"] = refined_distances(scene.solver, level.space);
         if (scene.fluid) overrides["fluid"] = refined_fluid(*scene.fluid, level.space);
         if (scene.creature) overrides["creature"]["refinement"] = level.space * scene.creature->refinement;

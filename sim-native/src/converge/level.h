@@ -25,6 +25,7 @@ struct Level {
 ///   solidRestDistance, fluidRestDistance, collisionDistance and both margins; fluid.clearance. A particle of the fluid
 ///   has 1/n^3 of the mass. The body's particles are divided by creature.refinement (model/refine_body.h).
 /// Duration, gait, tank, gravity, kinematicViscosity and all that has no length stay as they are.
+/// Throws InputError for half the spacing of a scene with companions or obstacles, whose particles nothing makes finer.
 nlohmann::json refined(const Scene& scene, const Level& level, int substeps);
 
 }  // namespace natator
