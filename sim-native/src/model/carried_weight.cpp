@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "borders.h"
@@ -33,17 +32,6 @@ const PeriodicAxis* periodic_along(int axis, const std::vector<PeriodicAxis>& pe
 /// Gravity of the fluid along the axes that have ends, length/s^2.
 Eigen::Vector3d weight_of(const Model& model) { return model.parameters.buoyancy * gravity_on_walls(model); }
 
-/// Length of the water along an axis.
-double extent_of_fluid(const Model& model, int axis) {
-    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (int i = 0; i < model.particles(); ++i) {
-        if (!model.is_fluid(i)) continue;
-        low = std::min(low, model.position[i][axis]);
-        high = std::max(high, model.position[i][axis]);
-    }
-    return std::max(high - low, 0.0);
-}
-
 /// Whether weight of the water can be carried. `all`: depth of the water, length; the same in the functions below.
 bool may_carry(const Model& model, double all) {
     return model.scheme == Scheme::conserving && model.parameters.modifiedPressure && !weight_of(model).isZero(0) && all > 0;
@@ -55,7 +43,7 @@ double pushed_sideways(const Model& model) {
     const int up = upright_axis(weight);
     double pushed = 0;
     for (int axis = 0; axis < 3; ++axis)
-        if (axis != up) pushed += std::abs(weight[axis]) * extent_of_fluid(model, axis);
+        if (axis != up) pushed += std::abs(weight[axis]) * extent_of_fluid(model, Eigen::Vector3d::Unit(axis));
     return pushed / weight.norm();
 }
 

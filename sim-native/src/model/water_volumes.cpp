@@ -77,10 +77,7 @@ double fluid_density(const Model& model, const std::vector<double>& volumes) {
     return volume > 0 ? mass / volume : 0;
 }
 
-double depth(const Model& model) {
-    const Eigen::Vector3d down = gravity_on_walls(model);
-    if (down.isZero(0)) return 0;
-    const Eigen::Vector3d direction = down.normalized();
+double extent_of_fluid(const Model& model, const Eigen::Vector3d& direction) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     for (int i = 0; i < model.particles(); ++i) {
         if (!model.is_fluid(i)) continue;
@@ -88,6 +85,11 @@ double depth(const Model& model) {
         high = std::max(high, direction.dot(model.position[i]));
     }
     return std::max(high - low, 0.0);
+}
+
+double depth(const Model& model) {
+    const Eigen::Vector3d down = gravity_on_walls(model);
+    return down.isZero(0) ? 0 : extent_of_fluid(model, down.normalized());
 }
 
 double fastest_expansion(const SolverParameters& parameters, double depth) {

@@ -13,6 +13,9 @@ std::vector<double> particle_volumes(const Model& model);
 /// Mass density of the fluid, from the mean mass of its particles, mass/length^3; 0 without any that moves.
 double fluid_density(const Model& model, const std::vector<double>& volumes);
 
+/// How far the fluid reaches along a direction of length 1, length; 0 without any.
+double extent_of_fluid(const Model& model, const Eigen::Vector3d& direction);
+
 /// Of the fluid along the gravity that presses it on walls, length; 0 without.
 double depth(const Model& model);
 

@@ -28,10 +28,11 @@ template <class Real>
 __device__ int cell_of(const ModelView<Real>& model, const Quad<Real>& x, int s) {
     return model.grid.cell(xyz(x)) + (s < model.fluid ? 0 : model.grid.cells);
 }
-/// The slots of a cell of the table, once it has the cells' ends.
+/// The slots of some cells of the table, once it has the cells' ends.
 template <class Team>
-__device__ SlotRun slots_of(const Team& team, int cell) {
-    return {cell > 0 ? half_of(team.table(), cell - 1) : 0, half_of(team.table(), cell)};
+__device__ SlotRun slots_between(const Team& team, int first, int last) {
+    const std::uint32_t* const table = team.table();
+    return {first > 0 ? half_of(table, first - 1) : 0, half_of(table, last)};
 }
 
 /// v*, x* = x + h v*; counts the particles of each cell, the fluid's first. Ends with a barrier.
@@ -102,7 +103,8 @@ __device__ int slot_of_key(const ModelView<Real>& model, const Team& team, int k
     const std::uint32_t* const keys = team.keys();
     const std::uint32_t key = keys[k];
     const int before = key & 0xffff;
-    const SlotRun run = slots_of(team, cell_of(model, team.unsorted_position()[before], before));
+    const int cell = cell_of(model, team.unsorted_position()[before], before);
+    const SlotRun run = slots_between(team, cell, cell);
     int slot = run.begin;
     for (int other = run.begin; other < run.end; ++other) slot += keys[other] < key;
     return slot;
@@ -143,9 +145,8 @@ template <class Real, class R, bool on_chip>
 __device__ SlotRun slots_in(const ModelView<Real>& model, const StateTeam<R, on_chip>& team, bool solids,
                             const CellRun& run) {
     if (run.last < run.first) return {0, 0};
-    const std::uint32_t* const table = team.table();
     const int offset = solids ? model.grid.cells : 0;
-    return {run.first + offset > 0 ? half_of(table, run.first + offset - 1) : 0, half_of(table, run.last + offset)};
+    return slots_between(team, run.first + offset, run.last + offset);
 }
 
 /// Is a predicted position nearer to x than the search distance, but not there?
