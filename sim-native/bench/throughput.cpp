@@ -63,7 +63,7 @@ public:
                 std::to_string(fluid_),
                 std::to_string(batch),
                 device,
-                cuda::by_whole_gpu(scene_, model_, batch, options()) ? "whole GPU" : "block",
+                cuda::by_whole_gpu(scene_, model_, options()) ? "whole GPU" : "block",
                 std::to_string(model_.particles()),
                 std::to_string(model_.parameters.substeps),
                 std::to_string(model_.parameters.numIterations),

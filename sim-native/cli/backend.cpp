@@ -23,7 +23,7 @@ void add_gpu_options(CLI::App* command, BackendChoice& choice) {
     command->add_flag(
         "--whole-gpu", choice.whole_gpu,
         "Compute by kernels of the whole GPU, however small the scene, whose last digits may differ: what scheme conserving always "
-        "does, and scenes of more than 20 000 particles where that is faster. Slower for most others.");
+        "does, and scenes of more than 65 535 particles. Slower for others.");
 }
 
 void refuse_gpu_options_for_cpu(const BackendChoice& choice) {

@@ -185,7 +185,7 @@ TEST_P(GpuTeams, OfManyBlocksGiveTheBitsOfFewer) {
     for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
         const std::vector<std::uint64_t> all = hashes_of(scene, members, precision);
         EXPECT_NE(all[0], all[1]);
-        for (const int count : {1, 9, 20, 50})
+        for (const int count : {1, 2, 4, 9, 20, 50})
             EXPECT_EQ(hashes_of(scene, {members.begin(), members.begin() + count}, precision),
                       std::vector(all.begin(), all.begin() + count))
                 << "the first " << count;
@@ -201,6 +201,8 @@ INSTANTIATE_TEST_SUITE_P(
                   R"({"obstacles": [{"shape": "sphere", "centre": [2.4, 0.6, 0.6], "radius": 0.2}]})"},
         SolidCase{"OfThreeBodies", R"({"companions": [{"creature": {"name": "creature-3", "rearCentre": [0.6, 0.6, 0.25]}},
                                                       {"creature": {"name": "creature-4", "rearCentre": [2.2, 0.6, 0.9]}}]})"},
+        SolidCase{"InOtherWater", R"({"solver": {"cohesion": 0.02, "solidPressure": 0.5, "viscosity": 0, "damping": 0}})"},
+        SolidCase{"WithManyNeighbours", R"({"fluid": {"spacing": 0.07}})"},
         SolidCase{"WithEffects", R"({"solver": {"restitution": 0.5, "adhesion": 20, "cohesion": 0.02, "surfaceTension": 0.5,
                                      "vorticityConfinement": 0.5, "freeSurfaceDrag": 1, "dissipation": 3,
                                      "shockPropagation": 1.5}})"}),

@@ -120,16 +120,24 @@ export -f generation serve_generation
 export simulator
 check serve-150-requests bash -uo pipefail -c serve_generation
 
-# --- memory accesses and races, on short runs of all schemes ----------------------------------------------------------------
+# --- memory accesses and races, on short runs of all schemes and teams -----------------------------------------------------
 
 sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null)
-short_runs() {  # the last one with so few iterations that most of the water's weight is carried
-    local run
-    for run in '"flex","overrides":{' '"conserving","overrides":{' \
-        '"conserving","overrides":{"solver":{"modifiedPressure":true,"substeps":1,"numIterations":1},'; do
-        printf '{"id":1,"scene":"bench/small-tank","duration":0.0167,"gait":{"frequency":1,"amplitude":[0.9,0.7],"phase":[0,0.3]},'
-        printf '"scheme":%s"settling":{"updates":2}}}\n' "$run"
+runs_of() {  # how many, scene, settling updates, scheme with the begin of its overrides
+    local k
+    for (( k = 0; k < $1; ++k )); do
+        printf '{"id":1,"scene":"%s","duration":0.0167,"gait":{"frequency":1.%02d,"amplitude":[0.9,0.7],"phase":[0,0.3]},' "$2" $k
+        printf '"scheme":%s"settling":{"updates":%d}}}\n' "$4" "$3"
     done
+}
+short_runs() {
+    # flex: by many blocks, by one, by some each; few substeps of the others, with which racecheck is slow
+    runs_of 1 bench/small-tank 2 '"flex","overrides":{'
+    runs_of 1 bench/small-tank 0 '"flex","precision":"double","overrides":{"solver":{"substeps":1},'
+    runs_of 6 thesis/creature-1 0 '"flex","overrides":{"solver":{"substeps":1},'
+    runs_of 1 bench/small-tank 2 '"conserving","overrides":{'
+    # with so few iterations that most of the water's weight is carried
+    runs_of 1 bench/small-tank 2 '"conserving","overrides":{"solver":{"modifiedPressure":true,"substeps":1,"numIterations":1},'
 }
 sanitize() {  # tool; the tests take racecheck longer than anyone waits
     local path
@@ -145,7 +153,7 @@ sanitize() {  # tool; the tests take racecheck longer than anyone waits
 }
 for tool in memcheck racecheck; do
     if [[ -n $sanitizer ]]; then
-        export -f sanitize short_runs
+        export -f sanitize short_runs runs_of
         export sanitizer simulator tests build
         check "$tool" bash -uo pipefail -c "sanitize $tool"
     else

@@ -143,7 +143,7 @@ TEST_P(WholeGpu, AStateMayTakeMoreThanTwoGibibytes) {
     EXPECT_EQ(gpu.neighbour_counts()[middle], GetParam() == Scheme::flex ? 18 : 80);
 }
 
-/// Scenes that batches compute by blocks or by the whole GPU, as suits them.
+/// Scenes that batches compute by blocks, or by the whole GPU where that is asked for.
 class EitherWay : public OnGpu<testing::TestWithParam<const char*>> {
 protected:
     Scene scene() const {
@@ -167,12 +167,12 @@ TEST_P(EitherWay, GivesTheSameBits) {
     members[1].gait.power = 2.5;
     members[2].gait.offset.assign(members[2].gait.amplitude.size(), 0.1);
     const Model model = build_model(scene);
-    ASSERT_FALSE(cuda::by_whole_gpu(scene, model, 6, {}));
-    ASSERT_TRUE(cuda::by_whole_gpu(scene, model, 1, {}));
-    ASSERT_TRUE(cuda::by_whole_gpu(scene, model, 6, {.precision = Precision::double_precision}));
+    ASSERT_FALSE(cuda::by_whole_gpu(scene, model, {}));
+    ASSERT_TRUE(cuda::by_whole_gpu(scene, model, {.whole_gpu = true}));
+    ASSERT_TRUE(cuda::by_whole_gpu(scene, model, {.precision = Precision::double_precision}));
     Scene with_effect = scene;
     with_effect.solver.surfaceTension = 0.5;
-    ASSERT_TRUE(cuda::by_whole_gpu(with_effect, build_model(with_effect), 6, {}));
+    ASSERT_TRUE(cuda::by_whole_gpu(with_effect, build_model(with_effect), {}));
     const std::vector<Evaluation> blocks = evaluate_on_gpu(scene, members),
                                   whole = evaluate_on_gpu(scene, members, {.whole_gpu = true});
     for (std::size_t k = 0; k < members.size(); ++k) {
@@ -186,6 +186,7 @@ TEST_P(EitherWay, GivesTheSameBits) {
         EXPECT_EQ(blocks[k].course->forward, whole[k].course->forward) << k;
     }
     EXPECT_NE(blocks[0].hash, blocks[4].hash);
+    EXPECT_EQ(evaluate_on_gpu(scene, {members[0]})[0].hash, whole[0].hash) << "by more blocks";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EitherWay,

@@ -51,9 +51,9 @@ struct BatchOptions {
     bool keep_starts = true;      ///< what begins as in one of the last batches is not settled again: the same bits, sooner
 };
 
-/// Evaluates gaits in one scene on a GPU: each by a block of threads, or where members are few by a cluster of blocks; or, in
-/// scheme `conserving`, with `options.whole_gpu`, for few members of more than 20 000 particles and for any of more than 65 535, side
-/// by side by kernels of the whole GPU. Member k of the result belongs to member k. The result of a member is the same, bit by bit, whatever the others
+/// Evaluates gaits in one scene on a GPU: each by a block of threads, or where members are few by several; or, in scheme
+/// `conserving`, with `options.whole_gpu`, for more than 65 535 particles, and for more than 20 000 in double or with effects, side by
+/// side by kernels of the whole GPU. Member k of the result belongs to member k. The result of a member is the same, bit by bit, whatever the others
 /// and their number. A batch that does not fit into the device's memory is computed in parts. Of an unstable member the CPU does the last substep
 /// again, to name its stage. Throws InputError when a gait does not fit the scene or the scene needs what the GPU's
 /// stages do not do, NoDevice without that GPU or if this library was built without CUDA.

@@ -13,7 +13,7 @@ namespace natator {
 
 /// How a State is computed on a GPU. Up to 20 000 particles, by blocks of its own and by the whole GPU have bits of their own.
 enum class GpuPath {
-    by_size,           ///< as evaluate_on_gpu does one: blocks for up to 20 000 particles in scheme `flex`, else the whole GPU
+    by_size,           ///< blocks for up to 20 000 particles in scheme `flex`, else the whole GPU; the bits are those of evaluate_on_gpu
     block,             ///< by blocks of threads, as a member of a batch; scheme `flex`, at most 65535 particles
     whole_gpu,         ///< by the whole GPU
     whole_gpu_search,  ///< the same with contacts searched anew in each iteration, as where their lists overflow

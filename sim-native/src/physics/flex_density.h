@@ -13,7 +13,7 @@ template <class T>
 struct FlexDensity {
     T sum{};
 
-    NATATOR_HD void add(T left) { sum += positive_square(left); }
+    NATATOR_HD void add(T left) { add_positive_square(sum, left); }
     template <class R>
     NATATOR_HD T density(T solids, R density_scale) const {
         return (sum + solids) * density_scale;
@@ -29,7 +29,7 @@ struct FlexPush {
 
     NATATOR_HD void add(const Vec3<T>& difference, const Distance<T>& distance, T left, T compressions) {
         const T t = positive_part(left);
-        sum += compressions * t * distance.inverse_r * difference;
+        add_product(sum, compressions * t * distance.inverse_r, difference);
         constraints = count_positive(constraints, t);
     }
     template <class R>
@@ -43,7 +43,7 @@ template <class T>
 struct FlexSmoothing {
     Vec3<T> sum{};
 
-    NATATOR_HD void add(T left, const Vec3<T>& relative_velocity) { sum += positive_square(left) * relative_velocity; }
+    NATATOR_HD void add(T left, const Vec3<T>& relative_velocity) { add_product(sum, positive_square(left), relative_velocity); }
 };
 
 }  // namespace natator::physics::inline NATATOR_SET

@@ -120,6 +120,16 @@ NATATOR_HD T positive_square(T v) {
     return v > 0 ? v * v : T{};
 #endif
 }
+/// Adds positive_square(v); on a GPU with one rounding, wherever the compiler would have computed the product.
+template <class T>
+NATATOR_HD void add_positive_square(T& sum, T v) {
+#if defined(__CUDA_ARCH__)
+    const T t = positive_part(v);
+    sum = fma(t, t, sum);
+#else
+    sum += positive_square(v);
+#endif
+}
 /// counter + 1 where v is positive.
 template <class T>
 NATATOR_HD T count_positive(T counter, T v) {

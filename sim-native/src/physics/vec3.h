@@ -41,6 +41,16 @@ NATATOR_HD Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
     return a = a - b;
 }
 
+/// Adds s v; on a GPU with one rounding, wherever the compiler would have computed the product.
+template <class S, class T>
+NATATOR_HD void add_product(Vec3<T>& sum, S s, const Vec3<T>& v) {
+#if defined(__CUDA_ARCH__)
+    sum = {fma(s, v.x, sum.x), fma(s, v.y, sum.y), fma(s, v.z, sum.z)};
+#else
+    sum += s * v;
+#endif
+}
+
 /// The order of the sum is part of what a state's hash stands for; of numbers in double it is another one, for the same
 /// reason.
 template <class T, class U>

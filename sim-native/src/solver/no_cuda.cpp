@@ -34,7 +34,7 @@ FetchRoof measure_fetch_roof(const Scene&, const std::vector<Gait>&, int, int) {
 double measure_copy_bandwidth(int) {
     refuse();
 }
-bool by_whole_gpu(const Scene&, const Model&, int, const BatchOptions&) {
+bool by_whole_gpu(const Scene&, const Model&, const BatchOptions&) {
     refuse();
 }
 

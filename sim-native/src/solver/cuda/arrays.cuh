@@ -60,7 +60,18 @@
     X(ClusterView<Real>, chip_cluster, room.clusters, block_chip)                                       \
     X(ClusterFit<Real>, chip_fit, room.clusters, block_chip)
 
+// Of each block of a team whose threads share slots, see shared_slots.cuh: what it reads in every iteration.
+#define NATATOR_SHARED_SLOT_ARRAYS(X)                                                                                \
+    X(Index, rank, room.ranks, scratch)                            /* among its cell's, by slot before */           \
+    X(Index, searched, room.ranks, scratch)                        /* fluid that may have contacts, in no order */  \
+    X(Word, chip_table, room.chip_cells, block_chip)                /* ends of all cells */                          \
+    X(Index, chip_neighbour, most_listed_on_chip * room.chip_slots, block_chip)     /* of its own fluid slots, the first of each */  \
+    X(Index, chip_neighbour_count, room.chip_slots, block_chip)                                                     \
+    X(Index, chip_contact, most_listed_on_chip * room.chip_touched, block_chip)     /* of its own touched slots, likewise */         \
+    X(Index, chip_touched, room.chip_touched, block_chip)          /* which they are */                             \
+    X(Index, chip_contact_count, room.chip_touched, block_chip)
+
 // Their order is that of the offsets which the kernel keeps in registers: in another it is 1.6 % slower on an H100.
 #define NATATOR_TEAM_ARRAYS(X) \
     NATATOR_CHIP_ARRAYS(X) NATATOR_TEAM_ONLY_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) \
-    X(Index, own_staging, room.staging, block_chip) NATATOR_CHIP_SOLID_ARRAYS(X)
+    X(Index, own_staging, room.staging, block_chip) NATATOR_CHIP_SOLID_ARRAYS(X) NATATOR_SHARED_SLOT_ARRAYS(X)

@@ -12,42 +12,17 @@ namespace natator::cuda {
 namespace {
 
 template <class Real>
-const void* kernel(const ModelView<Real>& model, bool on_chip) {
-    return model.plan.effects() ? batch_kernel<Real, true>(on_chip) : batch_kernel<Real, false>(on_chip);
+const void* kernel(const ModelView<Real>& model, TeamKind kind) {
+    return model.plan.effects() ? batch_kernel<Real, true>(kind) : batch_kernel<Real, false>(kind);
 }
 
-/// What a launch of so many teams is asked with; `cluster` is part of it.
-cudaLaunchConfig_t configuration(const Teams& teams, int count, cudaLaunchAttribute& cluster) {
-    cluster.id = cudaLaunchAttributeClusterDimension;
-    cluster.val.clusterDim = {static_cast<unsigned>(teams.blocks), 1, 1};
-    cudaLaunchConfig_t launch{};
-    launch.gridDim = dim3(count * teams.blocks);
-    launch.blockDim = dim3(threads);
-    launch.dynamicSmemBytes = teams.layout.chip_bytes;
-    launch.attrs = &cluster;
-    launch.numAttrs = teams.blocks > 1 ? 1 : 0;
-    return launch;
-}
-
-/// How many such clusters the current device holds at a time; 0 where it holds none, or the kernel was compiled for devices
-/// that have none.
-int resident_clusters(const void* function, const cudaFuncAttributes& attributes, const Teams& teams) {
-    if (attributes.ptxVersion < 90) return 0;  // ClusterTeam's blocks are teams of their own there
-    cudaLaunchAttribute cluster;
-    const cudaLaunchConfig_t launch = configuration(teams, 1, cluster);
-    int count = 0;
-    const bool known =
-        cudaFuncSetAttribute(function, cudaFuncAttributeNonPortableClusterSizeAllowed, 1) == cudaSuccess &&
-        cudaOccupancyMaxActiveClusters(&count, function, &launch) == cudaSuccess;
-    if (!known) cudaGetLastError();  // forgets that it was asked
-    return known ? count : 0;
-}
-
-/// How many teams the current device holds at a time; 0 if a block does not fit on its chip, or a team on the device.
+/// How many blocks of such teams the current device holds at a time; 0 if one does not fit on its chip.
 template <class Real>
-int resident(const ModelView<Real>& model, const Teams& teams) {
-    if (teams.on_chip && model.plan.effects()) return 0;  // no such kernel: they are rare, and take long to compile
-    const void* const function = kernel(model, teams.on_chip);
+int resident_blocks(const ModelView<Real>& model, const Teams& teams) {
+    // There are no others with effects, which are rare, and take long to compile; nor in double.
+    if (teams.kind != TeamKind::blocks && model.plan.effects()) return 0;
+    if (teams.kind == TeamKind::many_blocks && std::is_same_v<Real, double>) return 0;
+    const void* const function = kernel(model, teams.kind);
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, function), "kernel");
     const int most_bytes =
@@ -56,18 +31,20 @@ int resident(const ModelView<Real>& model, const Teams& teams) {
     // The limit belongs to the kernel, for all Models and threads: one of this Model alone could come between another's
     // limit and its launch.
     check(cudaFuncSetAttribute(function, cudaFuncAttributeMaxDynamicSharedMemorySize, most_bytes), "shared memory");
-    if (teams.blocks > 1) return resident_clusters(function, attributes, teams);
     int count = 0;
-    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads, teams.layout.chip_bytes), "occupancy");
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads_of(teams.kind), teams.layout.chip_bytes), "occupancy");
     return count * device_attribute(cudaDevAttrMultiProcessorCount);
 }
 
-/// What a frame of 4 substeps takes a team, microseconds, nearly: measured on an H100 in float, with 1267 to 64 000 particles.
+/// What a frame of 4 substeps takes a team, microseconds, nearly: measured on an H100 in float, with 1267 to 47 027 particles.
 double time_of(const Teams& teams, int particles) {
-    if (teams.on_chip) return 115 + 0.229 * particles;
     const double of_block = static_cast<double>(particles) / teams.blocks;
-    if (!teams.layout.splits_solids) return 315 + 0.27 * of_block;
-    return particles > most_particles_by_blocks_alone ? 255 + 0.323 * of_block : 280 + 0.2 * of_block;  // whose positions no cache holds
+    switch (teams.kind) {
+        case TeamKind::block: return 115 + 0.229 * particles;
+        case TeamKind::many_blocks: return 175 + 0.98 * of_block;
+        case TeamKind::blocks: break;
+    }
+    return teams.layout.splits_solids ? std::max(340.0, 205 + 0.327 * of_block) : 300 + 0.25 * of_block;
 }
 
 }  // namespace
@@ -79,18 +56,27 @@ Teams best_teams(const ModelView<Real>& model, int states) {
     const bool small = device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin) < small_chip;
     Teams best{};
     double least = 0;
-    const auto consider = [&](bool on_chip, int blocks) {
-        Teams teams{.on_chip = on_chip, .blocks = blocks, .layout = layout_of(model, on_chip, blocks, small ? few_rows : rows)};
-        teams.count = resident(model, teams);
+    const auto consider = [&](TeamKind kind, int blocks) {
+        if (kind == TeamKind::many_blocks && !splits_solids(model, blocks)) return;
+        Teams teams{.kind = kind, .blocks = blocks, .layout = layout_of(model, kind, blocks, small ? few_rows : rows)};
+        teams.count = resident_blocks(model, teams) / blocks;
         if (teams.count == 0) return;
         const double time = time_of(teams, model.particles) * std::max(1.0, static_cast<double>(states) / teams.count);
         if (best.count > 0 && time >= least) return;
         best = teams;
         least = time;
     };
-    consider(true, 1);
-    const int most_blocks = device_attribute(cudaDevAttrClusterLaunch) ? most_blocks_of_team : 1;
-    for (int blocks = 1; blocks <= most_blocks; blocks *= 2) consider(false, blocks);
+    consider(TeamKind::block, 1);
+    consider(TeamKind::blocks, 1);
+    // However many teams there are at a time, each has as many blocks as there are for it.
+    const int blocks = device_attribute(cudaDevAttrCooperativeLaunch) ? device_attribute(cudaDevAttrMultiProcessorCount) : 1;
+    for (int count = 1, last = 0; count <= blocks / 2; ++count) {
+        const int of_team = std::min(blocks / count, most_blocks_of_team);
+        if (of_team == last) continue;
+        consider(TeamKind::blocks, of_team);
+        consider(TeamKind::many_blocks, of_team);
+        last = of_team;
+    }
     if (best.count == 0) throw InputError("backend cuda: a block of threads does not fit on the device's chip");
     return best;
 }
@@ -99,9 +85,16 @@ template <class Real>
 void launch_batch(const BatchView<Real>& batch, const Teams& teams) {
     BatchView<Real> argument = batch;
     void* arguments[] = {&argument};
-    cudaLaunchAttribute cluster;
-    const cudaLaunchConfig_t launch = configuration(teams, std::min(teams.count, batch.states), cluster);
-    check(cudaLaunchKernelExC(&launch, kernel(batch.model, teams.on_chip), arguments), "launch");
+    cudaLaunchAttribute all_at_once{};  // a team's blocks wait for each other
+    all_at_once.id = cudaLaunchAttributeCooperative;
+    all_at_once.val.cooperative = 1;
+    cudaLaunchConfig_t launch{};
+    launch.gridDim = dim3(teams.blocks, std::min(teams.count, batch.states));
+    launch.blockDim = dim3(threads_of(teams.kind));
+    launch.dynamicSmemBytes = teams.layout.chip_bytes;
+    launch.attrs = &all_at_once;
+    launch.numAttrs = teams.blocks > 1 ? 1 : 0;
+    check(cudaLaunchKernelExC(&launch, kernel(batch.model, teams.kind), arguments), "launch");
 }
 
 template Teams best_teams(const ModelView<float>&, int);

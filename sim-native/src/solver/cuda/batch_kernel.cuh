@@ -52,6 +52,7 @@ struct BatchView {
     // By team.
     Layout layout;
     char* scratch;
+    unsigned* arrivals;  ///< [team * arrivals_of_team], 0 at first
 
     unsigned long long* profile;  ///< cycles by Stage, of all teams; null if nobody asks
 
@@ -60,9 +61,9 @@ struct BatchView {
     int* updates_done;  ///< by State
 };
 
-/// How States are computed: each by the threads of a block that has it on its chip, or of a cluster of blocks.
+/// How States are computed.
 struct Teams {
-    bool on_chip;
+    TeamKind kind;
     int blocks;     ///< of a team
     Layout layout;  ///< of what a team works on
     int count = 0;  ///< that are on the device at a time
@@ -79,6 +80,6 @@ void launch_batch(const BatchView<Real>& batch, const Teams& teams);
 /// The kernel that launch_batch starts, with the code of effects (Plan::effects), which is there off chip only, or
 /// without; each in a source of its own.
 template <class Real, bool effects>
-const void* batch_kernel(bool on_chip);
+const void* batch_kernel(TeamKind kind);
 
 }  // namespace natator::cuda

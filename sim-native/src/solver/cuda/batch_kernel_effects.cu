@@ -2,7 +2,7 @@
 
 namespace natator::cuda {
 
-template const void* batch_kernel<float, true>(bool);
-template const void* batch_kernel<double, true>(bool);
+template const void* batch_kernel<float, true>(TeamKind);
+template const void* batch_kernel<double, true>(TeamKind);
 
 }  // namespace natator::cuda

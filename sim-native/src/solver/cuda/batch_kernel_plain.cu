@@ -2,7 +2,7 @@
 
 namespace natator::cuda {
 
-template const void* batch_kernel<float, false>(bool);
-template const void* batch_kernel<double, false>(bool);
+template const void* batch_kernel<float, false>(TeamKind);
+template const void* batch_kernel<double, false>(TeamKind);
 
 }  // namespace natator::cuda

@@ -50,6 +50,9 @@ public:
         path_ = DeviceBuffer<double>(static_cast<std::size_t>(batch.states) * (batch.updates + 1));
         DeviceBuffer<unsigned> next_ticket(1);
         DeviceBuffer<int> updates_done(batch.states);
+        DeviceBuffer<unsigned> arrivals(static_cast<std::size_t>(arrivals_of_team) * teams_->count);
+        arrivals.clear();
+        batch.arrivals = arrivals.data();
         next_ticket.clear();
         updates_done.clear();
         batch.progress = progress_.data();

@@ -49,9 +49,6 @@ __device__ Quad<Real> far_away() {
     return {Real(physics::far_away), Real(physics::far_away), Real(physics::far_away), Real(0)};
 }
 
-constexpr int pair_lanes = 8;  ///< threads that share the pairs of a slot
-constexpr int slots_of_warp = 32 / pair_lanes;
-
 /// The sum over the threads that share a slot, the same in all of them.
 template <class Real>
 __device__ Real sum_of_lanes(Real value) {

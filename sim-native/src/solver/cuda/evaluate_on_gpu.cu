@@ -182,7 +182,7 @@ std::vector<Evaluation> evaluate_in_parts(Batch<Real>& batch, const std::vector<
 template <class Real>
 std::vector<Evaluation> evaluate(const Scene& scene, const Model& model, const std::vector<BatchMember>& members,
                                  const BatchOptions& options) {
-    if (by_whole_gpu(scene, model, static_cast<int>(members.size()), options))
+    if (by_whole_gpu(scene, model, options))
         return evaluate_large<Real>(scene, model, members, options);
     Batch<Real> batch(scene, model, options);
     return evaluate_in_parts(batch, members);

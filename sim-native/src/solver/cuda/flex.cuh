@@ -9,16 +9,33 @@
 
 namespace natator::cuda {
 
-/// rho_i - 1 of the fluid in a slot.
+/// What a pair adds to the density of what is in x.
+template <class Real>
+struct DensityPart {
+    Real left;
+    __device__ void add_to(physics::FlexDensity<Real>& sum) const { sum.add(left); }
+};
+template <class Real>
+__device__ DensityPart<Real> density_part(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& there) {
+    return {1 - physics::length_of(x - there) * model.inverse_radius};
+}
+
+/// rho_i - 1 of the fluid in a slot, whose fluid neighbours have this sum.
+template <class Real, class Team>
+__device__ Real compression_with(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x,
+                                 const physics::FlexDensity<Real>& fluid) {
+    physics::FlexDensity<Real> solids;
+    if (model.plan.solid_pressure)
+        for_each_contact(model, team, s,
+                         [&](int other) { density_part(model, x, xyz(team.position()[other])).add_to(solids); });
+    return fluid.density(model.solid_pressure * solids.sum, model.density_scale) - 1;
+}
 template <class Real, class Team>
 __device__ Real compression_of(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x) {
-    const auto left = [&](int other) {
-        return 1 - physics::length_of(x - xyz(team.position()[other])) * model.inverse_radius;
-    };
-    physics::FlexDensity<Real> fluid, solids;
-    for_each_neighbour(model, team, s, [&](int other) { fluid.add(left(other)); });
-    if (model.plan.solid_pressure) for_each_contact(model, team, s, [&](int other) { solids.add(left(other)); });
-    return fluid.density(model.solid_pressure * solids.sum, model.density_scale) - 1;
+    physics::FlexDensity<Real> fluid;
+    for_each_neighbour(model, team, s,
+                       [&](int other) { density_part(model, x, xyz(team.position()[other])).add_to(fluid); });
+    return compression_with(model, team, s, x, fluid);
 }
 
 /// The product rounded by itself, as if it were stored: never fused with what it is added to.
@@ -95,6 +112,21 @@ struct Correction {
     }
 };
 
+/// What the contact of slot s, which is here, with another that is there pushes it by; w: its share of it. `push` is called if they
+/// touch; start_of(slot) is where a slot was.
+template <class Real, class Team, class StartOf, class Push>
+__device__ void push_by_contact(const ModelView<Real>& model, const Team& team, int s, const Quad<Real>& here, int other,
+                                const Quad<Real>& there, const StartOf& start_of, const Push& push) {
+    const Vec3<Real> difference = xyz(here) - xyz(there);
+    const Real r = norm(difference);
+    const Real depth = model.solid_rest_distance - r;
+    if (!(depth > 0)) return;
+    const Vec3<Real> by = physics::contact_push(difference, r, depth, particle_friction(model), [&] {
+        return (xyz(here) - start_of(s)) - (xyz(there) - start_of(other));
+    });
+    push(quad(by, physics::weight_share(here.w, partner_weight(model, team, s, other))));
+}
+
 /// Writes what the contacts of the slots in a unit push them by.
 template <class Real, class Team>
 __device__ void push_touched(const ModelView<Real>& model, const Team& team, int unit) {
@@ -103,17 +135,9 @@ __device__ void push_touched(const ModelView<Real>& model, const Team& team, int
         if (s >= 0) {
             const Quad<Real> here = team.position()[s];
             for_each_contact_of(model, team, s, lane, pair_lanes, [&](int other) {
-                const Quad<Real> there = team.position()[other];
-                const Vec3<Real> difference = xyz(here) - xyz(there);
-                const Real r = norm(difference);
-                const Real depth = model.solid_rest_distance - r;
-                if (!(depth > 0)) return;
-                const Vec3<Real> by =
-                    physics::contact_push(difference, r, depth, particle_friction(model), [&] {
-                        return (xyz(here) - xyz(team.start()[s])) - (xyz(there) - xyz(team.start()[other]));
-                    });
-                push.sum += physics::weight_share(here.w, partner_weight(model, team, s, other)) * by;
-                push.constraints += 1;
+                push_by_contact(model, team, s, here, other, team.position()[other],
+                                [&](int slot) { return xyz(team.start()[slot]); },
+                                [&](const Quad<Real>& by) { push.add(by); });
             });
         }
         const Quad<Real> all{sum_of_lanes(push.sum.x), sum_of_lanes(push.sum.y), sum_of_lanes(push.sum.z),
@@ -122,40 +146,45 @@ __device__ void push_touched(const ModelView<Real>& model, const Team& team, int
     });
 }
 
-/// rho_i - 1, but at least `least`, of slot s beside its position in `next`.
+/// Writes rho_i - 1, but at least 0, of slot s, which is in x, beside its position in `next`.
 template <class Real, class Team>
-__device__ void compute_density_of(const ModelView<Real>& model, const Team& team, int s, Real least) {
-    const Vec3<Real> x = xyz(team.position()[s]);
-    const Real above = s < model.fluid ? compression_of(model, team, s, x) : Real(0);
+__device__ void set_compression(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& x, Real above) {
     if (model.plan.free_surface_drag && s < model.fluid) team.density()[s] = above + 1;
-    team.next()[s] = quad(x, s < model.fluid ? max(above, least) : Real(0));
+    team.next()[s] = quad(x, s < model.fluid ? max(above, Real(0)) : Real(0));
+}
+template <class Real, class Team>
+__device__ void compute_density_of(const ModelView<Real>& model, const Team& team, int s) {
+    const Vec3<Real> x = xyz(team.position()[s]);
+    set_compression(model, team, s, x, s < model.fluid ? compression_of(model, team, s, x) : Real(0));
 }
 
 /// The densities of all slots, and what else depends on positions alone: fits of clusters and pushes of contacts. Ends with a
 /// barrier.
 template <class Real, class Team>
-__device__ void compute_density(const ModelView<Real>& model, Team& team, Real least) {
+__device__ void compute_density(const ModelView<Real>& model, Team& team) {
     const int touched = touched_units<Real>(model, team), slots = (model.particles + 31) / 32;
     for_each_unit(team, model.clusters + touched, slots, [&](int unit) {
         if (unit < model.clusters) return fit_cluster(model, team, unit);
         if (unit < model.clusters + touched) return push_touched(model, team, unit - model.clusters);
         const int s = (unit - model.clusters - touched) * 32 + threadIdx.x % 32;
-        if (s < model.particles) compute_density_of(model, team, s, least);
+        if (s < model.particles) compute_density_of(model, team, s);
     });
     team.barrier();
 }
 
-template <class Real, class Team>
-__device__ Correction<Real> density_constraint(const ModelView<Real>& model, const Team& team, int s,
-                                               const Quad<Real>& here, Real inverse_mass) {
-    physics::FlexPush<Real> push;
-    for_each_neighbour(model, team, s, [&](int other) {
-        const Quad<Real> there = team.next()[other];
-        const Vec3<Real> difference = xyz(here) - xyz(there);
-        const physics::Distance<Real> distance = physics::distance_of(difference);
-        push.add(difference, distance, 1 - distance.r * model.inverse_radius, here.w + there.w);
-    });
-    return {push.correction(inverse_mass, model.radius), push.constraints};
+/// What a pair adds to the push of what is here by the density constraint; w: rho - 1 of both.
+template <class Real>
+struct PushPart {
+    Vec3<Real> difference;
+    physics::Distance<Real> distance;
+    Real left, compressions;
+    __device__ void add_to(physics::FlexPush<Real>& sum) const { sum.add(difference, distance, left, compressions); }
+};
+template <class Real>
+__device__ PushPart<Real> push_part(const ModelView<Real>& model, const Quad<Real>& here, const Quad<Real>& there) {
+    const Vec3<Real> difference = xyz(here) - xyz(there);
+    const physics::Distance<Real> distance = physics::distance_of(difference);
+    return {difference, distance, 1 - distance.r * model.inverse_radius, here.w + there.w};
 }
 
 /// A spring as one of its ends sees it.
@@ -279,15 +308,24 @@ __host__ __device__ int solid_units(const ModelView<Real>& model, bool shared) {
     return (model.solids + in_unit - 1) / in_unit;
 }
 
-/// Corrects fluid slot s.
-template <class Real, class Team>
-__device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s) {
+/// Corrects fluid slot s; push_of(here) is what the density constraint pushes it by.
+template <class Real, class Team, class PushOf>
+__device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s, const PushOf& push_of) {
     const Quad<Real> here = team.next()[s];
     const Real inverse_mass = team.position()[s].w;
     const Touch touch = touch_of(model, team, s);
-    Correction<Real> correction = density_constraint(model, team, s, here, inverse_mass);
+    const physics::FlexPush<Real> push = push_of(here);
+    Correction<Real> correction{push.correction(inverse_mass, model.radius), push.constraints};
     if (model.plan.cohesion) correction.sum = correction.sum + inverse_mass * cohesion_push(model, team, s);
     apply(model, team, s, xyz(here), inverse_mass, correction, touch);
+}
+template <class Real, class Team>
+__device__ void correct_fluid(const ModelView<Real>& model, const Team& team, int s) {
+    correct_fluid(model, team, s, [&](const Quad<Real>& here) {
+        physics::FlexPush<Real> push;
+        for_each_neighbour(model, team, s, [&](int other) { push_part(model, here, team.next()[other]).add_to(push); });
+        return push;
+    });
 }
 
 /// Every correction from the same positions: first of the solids, which take longest.
@@ -311,17 +349,29 @@ __device__ Vec3<Real> moved_per_second(const Team& team, int s) {
     return {rounded_product(frequency, way.x), rounded_product(frequency, way.y), rounded_product(frequency, way.z)};
 }
 
-/// The velocity that slot s leaves the substep with; for viscosity, movement_of(slot) is what a fluid slot moved by per second.
-template <class Real, class Team, class MovementOf>
-__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s, const MovementOf& movement_of) {
-    const Vec3<Real> x = xyz(team.position()[s]), u = moved_per_second<Real>(team, s);
-    physics::FlexSmoothing<Real> smoothing;
-    const bool viscous = model.plan.viscosity && s < model.fluid;
-    if (viscous)
-        for_each_neighbour(model, team, s, [&](int other) {
-            const Real r = physics::length_of(x - xyz(team.position()[other]));
-            smoothing.add(1 - r * model.inverse_radius, movement_of(other) - u);
-        });
+/// What a pair adds to the viscosity of what is in x and moved by u per second.
+template <class Real>
+struct SmoothingPart {
+    Real left;
+    Vec3<Real> relative_velocity;
+    __device__ void add_to(physics::FlexSmoothing<Real>& sum) const { sum.add(left, relative_velocity); }
+};
+template <class Real>
+__device__ SmoothingPart<Real> smoothing_part(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& u,
+                                              const Vec3<Real>& there, const Vec3<Real>& movement) {
+    return {1 - physics::length_of(x - there) * model.inverse_radius, movement - u};
+}
+
+template <class Real>
+__device__ bool is_viscous(const ModelView<Real>& model, int s) {
+    return model.plan.viscosity && s < model.fluid;
+}
+
+/// The velocity that slot s, which moved by u per second, leaves the substep with.
+template <class Real, class Team>
+__device__ Vec3<Real> velocity_with(const ModelView<Real>& model, const Team& team, int s, const Vec3<Real>& u,
+                                    const physics::FlexSmoothing<Real>& smoothing) {
+    const bool viscous = is_viscous(model, s);
     const Vec3<Real> predicted = xyz(team.predicted_velocity()[s]);
     const physics::VelocityRule<Real> rule{viscous,
                                            team.h * model.viscosity,
@@ -332,6 +382,26 @@ __device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& tea
                                            model.plan.clamp_speed,
                                            model.max_speed};
     return flex_velocity(u, model.density_scale * smoothing.sum, predicted, rule);
+}
+
+/// The same; for viscosity, movement_of(slot) is what a fluid slot moved by per second.
+template <class Real, class Team, class MovementOf>
+__device__ Vec3<Real> new_velocity(const ModelView<Real>& model, const Team& team, int s, const MovementOf& movement_of) {
+    const Vec3<Real> x = xyz(team.position()[s]), u = moved_per_second<Real>(team, s);
+    physics::FlexSmoothing<Real> smoothing;
+    if (is_viscous(model, s))
+        for_each_neighbour(model, team, s, [&](int other) {
+            smoothing_part(model, x, u, xyz(team.position()[other]), movement_of(other)).add_to(smoothing);
+        });
+    return velocity_with(model, team, s, u, smoothing);
+}
+
+/// Writes the velocity of slot s; true if it and the position are finite.
+template <class Real, class Team>
+__device__ bool set_new_velocity(const Team& team, int s, const Vec3<Real>& v) {
+    const Quad<Real> here = team.position()[s];
+    team.next_velocity()[s] = quad(here.w > 0 ? v : xyz(team.predicted_velocity()[s]), Real(0));
+    return isfinite(here.x + here.y + here.z) && isfinite(v.x + v.y + v.z);
 }
 
 /// True if all that this thread wrote is finite.
@@ -349,10 +419,7 @@ __device__ bool update_velocities(const ModelView<Real>& model, Team& team) {
     for_each_unit(team, 0, (model.particles + 31) / 32, [&](int unit) {
         const int s = unit * 32 + threadIdx.x % 32;
         if (s >= model.particles) return;
-        const Quad<Real> here = team.position()[s];
-        const Vec3<Real> v = new_velocity(model, team, s, movement_of);
-        finite &= isfinite(here.x + here.y + here.z) && isfinite(v.x + v.y + v.z);
-        team.next_velocity()[s] = quad(here.w > 0 ? v : xyz(team.predicted_velocity()[s]), Real(0));
+        finite &= set_new_velocity(team, s, new_velocity(model, team, s, movement_of));
     });
     return finite;
 }

@@ -32,7 +32,7 @@ private:
 /// none has so much that all had better share it.
 template <class Real>
 bool splits_solids(const ModelView<Real>& model, int blocks) {
-    constexpr int most_solids = threads / 2, fewest_blocks = 8, most_fluid = 3000;
+    constexpr int most_solids = 512, fewest_blocks = 8, most_fluid = 3000;
     if (model.fluid > most_fluid * blocks) return false;
     constexpr std::size_t most_bytes = 64 << 10;
     const std::size_t bytes = model.solids * sizeof(Quad<Real>) + 2 * model.springs * sizeof(ChipSpring<Real>) +
@@ -40,33 +40,50 @@ bool splits_solids(const ModelView<Real>& model, int blocks) {
     return blocks >= fewest_blocks && model.solids > 0 && model.solids <= most_solids && bytes <= most_bytes;
 }
 
+/// Slots of the fluid that each block has where threads share them; the last block has none.
+template <class Real>
+int slots_of_block(const ModelView<Real>& model, int blocks) {
+    const int units = (model.fluid + shared_slots_of_warp - 1) / shared_slots_of_warp, others = std::max(blocks - 1, 1);
+    return (units + others - 1) / others * shared_slots_of_warp;
+}
+
 /// `on_chip` says where a team's arrays are; else each of its blocks has `staging_rows` neighbours' room for each thread on
 /// the chip, and one row more for what is no neighbour. Throws InputError for lists that offsets cannot reach.
 template <class Real>
-Layout layout_of(const ModelView<Real>& model, bool on_chip, int blocks, std::size_t staging_rows) {
-    using Index = typename StateTeam<Real, true>::Index;
-    using Word = typename StateTeam<Real, true>::Word;
+Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::size_t staging_rows) {
+    const bool on_chip = kind == TeamKind::block;
+    using Index = typename StateTeam<Real, TeamKind::block>::Index;
+    using Word = typename StateTeam<Real, TeamKind::block>::Word;
     const ModelView<Real>& size = model;
     const Plan& plan = model.plan;
     const std::size_t all = model.particles + 1, fluid = model.fluid, solids = model.solids;
+    const int threads = threads_of(kind);
     const std::size_t row = threads * sizeof(Index), least_rows = 25;
     Layout at{};
     at.splits_solids = !on_chip && splits_solids(model, blocks);
+    const bool shared = kind == TeamKind::many_blocks;
+    at.slots_of_block = shared ? slots_of_block(model, blocks) : 0;
+    const auto if_shared = [&](std::size_t count) { return shared ? count : 0; };
     const auto if_split = [&](int count) -> std::size_t { return at.splits_solids ? count : 0; };
     const struct {
         std::size_t next, cells, neighbours, fluid_contacts, solid_contacts, staging;
         std::size_t solids, solid_bounds, spring_shares, members, clusters;
+        std::size_t ranks, chip_cells, chip_slots, chip_touched;
     } room{on_chip ? std::max(all, least_rows * row / sizeof(Quad<Real>)) : all,
-           static_cast<std::size_t>(model.grid.cells),
+           static_cast<std::size_t>(model.grid.words()),
            fluid * ((model.most_neighbours + 7) / 8),
            plan.contacts ? fluid * solids : 0,
            plan.contacts ? solids * model.particles : 0,
-           on_chip ? 0 : (staging_rows + 1) * threads,
+           kind == TeamKind::blocks ? (staging_rows + 1) * threads : 0,
            if_split(model.solids),
            if_split(model.solids + 1),
            if_split(2 * model.springs),
            if_split(model.members),
-           if_split(model.clusters)};
+           if_split(model.clusters),
+           if_shared(all),
+           if_shared(model.grid.words()),
+           if_shared(at.slots_of_block),
+           if_shared(most_touched_on_chip)};
     Pieces block_chip, scratch;
     Pieces& team = on_chip ? block_chip : scratch;
 #define NATATOR_TAKE(type, name, count, place) at.name = place.template take<type>(count);

@@ -5,7 +5,7 @@
 
 namespace natator::cuda {
 
-/// Mean x of the body's particles, summed by one warp in a fixed order. Ends with a barrier.
+/// Mean x of the body's particles, summed by the team's first warp in a fixed order, whose first thread writes it.
 template <class Real, class Team>
 __device__ void measure_path(const ModelView<Real>& model, const Team& team, double* mean_x) {
     if (const int lane = team.thread(); lane < 32) {
@@ -15,7 +15,6 @@ __device__ void measure_path(const ModelView<Real>& model, const Team& team, dou
         sum = sum_of_warp(sum);
         if (lane == 0) *mean_x = model.body > 0 ? sum / model.body : 0;
     }
-    team.barrier();
 }
 
 /// Mean z of the body's last slice. Ends with a barrier.

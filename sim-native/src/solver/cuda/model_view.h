@@ -26,6 +26,9 @@ struct GridView {
 
     static constexpr int reach_x = 4;
 
+    /// Of a table that has two counts in each, one of the fluid and one of the solids for every cell; full chunks of four.
+    __host__ __device__ int words() const { return (cells + 3) / 4 * 4; }
+
     __device__ int coordinate(Real value, int axis) const {
         const Real cells_from_low = (value - low[axis]) * inverse_size[axis];
         if (!(cells_from_low > 0)) return 0;  // also for NaN

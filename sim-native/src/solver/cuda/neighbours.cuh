@@ -20,7 +20,7 @@ __device__ Vec3<Real> predicted_velocity(const ModelView<Real>& model, const Vec
 /// Nothing is in any cell. Barriers follow before they are counted.
 template <class Real, class Team>
 __device__ void clear_cells(const ModelView<Real>& model, const Team& team) {
-    for (int c = team.thread(); c < model.grid.cells; c += team.size()) team.table()[c] = 0;
+    for (int c = team.thread(); c < model.grid.words(); c += team.size()) team.table()[c] = 0;
 }
 
 /// The cell of slot s in the table: the fluid's come first.
@@ -31,7 +31,7 @@ __device__ int cell_of(const ModelView<Real>& model, const Quad<Real>& x, int s)
 /// The slots of some cells of the table, once it has the cells' ends.
 template <class Team>
 __device__ SlotRun slots_between(const Team& team, int first, int last) {
-    const std::uint32_t* const table = team.table();
+    const std::uint32_t* const table = team.cell_ends();
     return {first > 0 ? half_of(table, first - 1) : 0, half_of(table, last)};
 }
 
@@ -49,7 +49,9 @@ __device__ void predict(const ModelView<Real>& model, Team& team) {
         team.unsorted_position()[s] = unsorted;
         team.unsorted_velocity()[s] = quad(v, inverse_mass);
         team.unsorted_start()[s] = x;
-        if (needs_cells(model)) count_up(table, cell_of(model, unsorted, s));
+        if (!needs_cells(model)) continue;
+        const int rank = count_up(table, cell_of(model, unsorted, s));
+        if constexpr (Team::shares_slots) team.rank()[s] = static_cast<typename Team::Index>(rank);
     }
     team.barrier();
 }
@@ -79,6 +81,38 @@ __device__ void bound_solids(const ModelView<Real>& model, const Team& team, con
     }
 }
 
+/// Sums of all cells' counts up to each, by every block for itself. Ends with a barrier of the block.
+template <class Real, class Team>
+__device__ void scan_cells_on_chip(const ModelView<Real>& model, const Team& team) {
+    const auto* const counts = reinterpret_cast<const uint4*>(team.table());  // eight of them
+    auto* const ends = reinterpret_cast<uint4*>(team.chip_table());
+    const int chunks = model.grid.words() / 4, share = (chunks + Team::threads - 1) / Team::threads;
+    const int begin = min(static_cast<int>(threadIdx.x) * share, chunks), end = min(begin + share, chunks);
+    std::uint32_t sum = 0;
+    for (int i = begin; i < end; ++i) {
+        const uint4 own = counts[i];
+        const std::uint32_t both = (own.x + own.y) + (own.z + own.w);  // no half of it overflows
+        sum += (both & 0xffff) + (both >> 16);
+    }
+    int all;
+    sum = static_cast<std::uint32_t>(sum_before<Team::warps>(static_cast<int>(sum), team.of_block().sums, all));
+    const auto up_to = [&](std::uint32_t word) {
+        const std::uint32_t first = sum + (word & 0xffff);
+        sum = first + (word >> 16);
+        return first | sum << 16;
+    };
+    for (int i = begin; i < end; ++i) {
+        const uint4 own = counts[i];
+        uint4 to;
+        to.x = up_to(own.x);
+        to.y = up_to(own.y);
+        to.z = up_to(own.z);
+        to.w = up_to(own.w);
+        ends[i] = to;
+    }
+    __syncthreads();
+}
+
 /// The keys of the particles, number and slot before: by cell, in no order within one. Leaves the cells' ends in the table. Ends
 /// with a barrier.
 template <class Real, class Team>
@@ -86,10 +120,22 @@ __device__ void scatter_keys(const ModelView<Real>& model, Team& team) {
     std::uint32_t* const table = team.table();
     std::uint32_t* const keys = team.keys();
     const auto key_of = [](int number, int s) { return static_cast<std::uint32_t>(number) << 16 | s; };
-    if (needs_cells(model)) exclusive_scan(team, table, 2 * model.grid.cells);
+    if (needs_cells(model)) {
+        if constexpr (Team::shares_slots)
+            scan_cells_on_chip(model, team);
+        else
+            exclusive_scan(team, table, 2 * model.grid.cells);
+    }
     for (int s = team.thread(); s < model.particles; s += team.size()) {
         const Quad<Real> there = team.unsorted_position()[s];
-        const int place = needs_cells(model) ? count_up(table, cell_of(model, there, s)) : s;
+        int place = s;
+        if (needs_cells(model)) {
+            const int cell = cell_of(model, there, s);
+            if constexpr (Team::shares_slots)
+                place = slots_between(team, cell, cell).begin + team.rank()[s];
+            else
+                place = count_up(table, cell);
+        }
         keys[place] = key_of(number_in(there.w), s);
     }
     team.barrier();
@@ -110,21 +156,56 @@ __device__ int slot_of_key(const ModelView<Real>& model, const Team& team, int k
     return slot;
 }
 
+/// Is it in the box around the solids?
+template <class Team, class Real>
+__device__ bool near_solids(const Team& team, const Vec3<Real>& x) {
+    const auto& shared = team.shared();
+    const Real at[3] = {x.x, x.y, x.z};
+    for (int axis = 0; axis < 3; ++axis)
+        if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return false;
+    return true;
+}
+
+/// May what is here touch plane k in this substep?
+template <class Real>
+__device__ bool is_near_plane(const ModelView<Real>& model, int k, const Quad<Real>& here) {
+    return here.w > 0 && distance_to(model.plane[k].surface, xyz(here)) <= model.plane_search_distance;
+}
+/// Planes that slot s may touch in this substep.
+template <class Real, class Team>
+__device__ void note_near_planes(const ModelView<Real>& model, const Team& team, int s, const Quad<Real>& here) {
+    unsigned planes = 0;
+    for (int k = 0; k < model.planes; ++k) planes |= static_cast<unsigned>(is_near_plane(model, k, here)) << k;
+    team.plane_contact()[s] = static_cast<typename Team::Index>(planes);
+}
+
+/// Planes of slot s, and whether the search looks for its contacts, where a team has a warp for those of each slot.
+template <class Real, class Team>
+__device__ void note_surroundings(const ModelView<Real>& model, const Team& team, int s, const Quad<Real>& here) {
+    note_near_planes(model, team, s, here);
+    if (!model.plan.contacts || s >= model.fluid) return;
+    if (near_solids(team, xyz(here)))
+        team.searched()[atomicAdd(&team.shared().near, 1)] = static_cast<typename Team::Index>(s);
+    else
+        team.contact_count()[s] = 0;
+}
+
 /// Numbers the slots anew, in the order of their cells and within each by particle, and puts everything in its new place. Ends with
 /// a barrier.
 template <class Real, class Team>
 __device__ void sort_into_cells(const ModelView<Real>& model, Team& team) {
-    scatter_keys(model, team);
-    if (team.thread() == 0) team.shared().touched = 0;
+    if (team.thread() == 0) team.shared().touched = team.shared().near = 0;
     if (model.plan.contacts && team.thread() >= team.size() - 32)  // which has least to do
         bound_solids(model, team, team.unsorted_position());
+    scatter_keys(model, team);
     for (int k = team.thread(); k < model.particles; k += team.size()) {
         const std::uint32_t key = team.keys()[k];
         const int before = key & 0xffff, number = static_cast<int>(key >> 16), s = slot_of_key(model, team, k);
         const Quad<Real> v = team.unsorted_velocity()[before];
         team.start()[s] = team.unsorted_start()[before];
         team.predicted_velocity()[s] = v;
-        team.position()[s] = quad(xyz(team.unsorted_position()[before]), v.w);
+        const Quad<Real> here = team.position()[s] = quad(xyz(team.unsorted_position()[before]), v.w);
+        if constexpr (Team::shares_slots) note_surroundings(model, team, s, here);
         team.number()[s] = static_cast<std::uint16_t>(number);
         if (s >= model.fluid) team.slot_of_solid()[number - model.fluid] = static_cast<std::uint16_t>(s);
     }
@@ -141,8 +222,8 @@ __device__ bool collides(const ModelView<Real>& model, int i, int j) {
 }
 
 /// The slots in a run of cells, of the fluid or the solids.
-template <class Real, class R, bool on_chip>
-__device__ SlotRun slots_in(const ModelView<Real>& model, const StateTeam<R, on_chip>& team, bool solids,
+template <class Real, class R, TeamKind kind>
+__device__ SlotRun slots_in(const ModelView<Real>& model, const StateTeam<R, kind>& team, bool solids,
                             const CellRun& run) {
     if (run.last < run.first) return {0, 0};
     const int offset = solids ? model.grid.cells : 0;
@@ -198,19 +279,18 @@ __device__ int search_contacts(const ModelView<Real>& model, const Team& team, i
     return n;
 }
 
-/// The same by a warp, each of them visited by one lane. What a thread finds one after another takes a solid, which is
-/// near many, longer than all else takes.
-template <class Real, class Team, class Visit>
-__device__ int search_contacts_by_warp(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
+/// Calls visit(k, slot) for the slots near x that are wanted(slot), of the fluid first, then of the solids, in the order of their
+/// cells; returns how many there are. By a warp, each of them visited by one lane.
+template <class Real, class Team, class Wanted, class Visit>
+__device__ int search_by_warp(const ModelView<Real>& model, const Team& team, const Vec3<Real>& x, bool in_fluid, bool in_solids,
+                              const Wanted& wanted, const Visit& visit) {
     constexpr unsigned all_lanes = 0xffffffff;
     constexpr int runs = GridView<Real>::runs;
     const int lane = threadIdx.x % 32;
-    const Vec3<Real> x = xyz(team.base()[s]);
-    const int i = team.number()[s];
     // A run for each lane, the fluid's first, and where its slots end among those of all runs.
     const bool solids = lane >= runs;
     SlotRun run{0, 0};
-    if (lane < 2 * runs && (solids || touches_fluid(model, s)))
+    if (lane < 2 * runs && (solids ? in_solids : in_fluid))
         run = slots_in(model, team, solids, model.grid.run(x, lane % runs));
     int end = run.end - run.begin;
     for (int step = 1; step < 2 * runs; step *= 2) {
@@ -218,33 +298,42 @@ __device__ int search_contacts_by_warp(const ModelView<Real>& model, const Team&
         if (lane >= step) end += before;
     }
     const int count = __shfl_sync(all_lanes, end, 2 * runs - 1);
+    constexpr int at_once = Team::shares_slots ? 3 : 1;  // fetched before the first is looked at, where latency is what counts
     int n = 0;
-    for (int k = lane; k - lane < count; k += 32) {
-        int before = 0;  // runs that end before candidate k; every lane takes part in all shuffles
-        for (int step = 16; step > 0; step /= 2)
-            if (__shfl_sync(all_lanes, end, before + step - 1) <= k) before += step;
-        const int other = __shfl_sync(all_lanes, run.end - end, before) + k;
-        const bool found = k < count && is_near(model, x, team.base()[other]) && may_touch(model, team, i, other);
-        const unsigned all_found = __ballot_sync(all_lanes, found);
-        if (found) visit(n + __popc(all_found & ((1u << lane) - 1)), other);
-        n += __popc(all_found);
+    for (int first = 0; first < count; first += 32 * at_once) {
+        int other[at_once];
+        bool near[at_once];
+#pragma unroll
+        for (int u = 0; u < at_once; ++u) {
+            const int k = first + 32 * u + lane;
+            int before = 0;  // runs that end before candidate k; every lane takes part in all shuffles
+            for (int step = 16; step > 0; step /= 2)
+                if (__shfl_sync(all_lanes, end, before + step - 1) <= k) before += step;
+            other[u] = __shfl_sync(all_lanes, run.end - end, before) + k;
+            near[u] = k < count && is_near(model, x, team.base()[k < count ? other[u] : 0]);
+        }
+#pragma unroll
+        for (int u = 0; u < at_once; ++u) {
+            const bool found = near[u] && wanted(other[u]);
+            const unsigned all_found = __ballot_sync(all_lanes, found);
+            if (found) visit(n + __popc(all_found & ((1u << lane) - 1)), other[u]);
+            n += __popc(all_found);
+        }
     }
     return n;
 }
 
-/// Is it in the box around the solids?
-template <class Team, class Real>
-__device__ bool near_solids(const Team& team, const Vec3<Real>& x) {
-    const auto& shared = team.shared();
-    const Real at[3] = {x.x, x.y, x.z};
-    for (int axis = 0; axis < 3; ++axis)
-        if (at[axis] < shared.solids_low[axis] || at[axis] > shared.solids_high[axis]) return false;
-    return true;
+/// search_contacts by a warp. What a thread finds one after another takes a solid, which is near many, longer than all else takes.
+template <class Real, class Team, class Visit>
+__device__ int search_contacts_by_warp(const ModelView<Real>& model, const Team& team, int s, const Visit& visit) {
+    const int i = team.number()[s];
+    return search_by_warp(model, team, xyz(team.base()[s]), touches_fluid(model, s), true,
+                          [&](int other) { return may_touch(model, team, i, other); }, visit);
 }
 
 /// What lists the contacts of a slot.
-template <class Real, class R, bool on_chip>
-__device__ auto contact_lister(const ModelView<Real>& model, const StateTeam<R, on_chip>& team, int s) {
+template <class Real, class R, TeamKind kind>
+__device__ auto contact_lister(const ModelView<Real>& model, const StateTeam<R, kind>& team, int s) {
     const bool fluid = s < model.fluid;
     std::uint16_t* const list = fluid ? team.fluid_contact() + s : team.solid_contact() + (s - model.fluid);
     const std::size_t stride = fluid ? model.fluid : model.solids;
@@ -264,23 +353,17 @@ __device__ void note_contacts(const Team& team, int s, int contacts) {
     if (contacts > 0) note_touched(team, s);
 }
 
-/// Planes that slot s may touch in this substep.
+/// Lists the contacts of a slot that may have some, by a warp.
 template <class Real, class Team>
-__device__ void note_near_planes(const ModelView<Real>& model, const Team& team, int s, const Quad<Real>& here) {
-    unsigned planes = 0;
-    for (int k = 0; k < model.planes; ++k)
-        if (distance_to(model.plane[k].surface, xyz(here)) <= model.plane_search_distance) planes |= 1u << k;
-    team.plane_contact()[s] = static_cast<typename Team::Index>(here.w > 0 ? planes : 0);
+__device__ void find_contacts_by_warp(const ModelView<Real>& model, const Team& team, int s) {
+    const int contacts = search_contacts_by_warp(model, team, s, contact_lister(model, team, s));
+    if (threadIdx.x % 32 == 0) note_contacts(team, s, contacts);
 }
-
 /// Lists contacts and planes of a solid, by a warp.
 template <class Real, class Team>
 __device__ void find_neighbours_of_solid(const ModelView<Real>& model, const Team& team, int s) {
-    int contacts = 0;
-    if (model.plan.contacts) contacts = search_contacts_by_warp(model, team, s, contact_lister(model, team, s));
-    if (threadIdx.x % 32 != 0) return;
-    if (model.plan.contacts) note_contacts(team, s, contacts);
-    note_near_planes(model, team, s, team.base()[s]);
+    if (model.plan.contacts) find_contacts_by_warp(model, team, s);
+    if (threadIdx.x % 32 == 0) note_near_planes(model, team, s, team.base()[s]);
 }
 
 /// Entry k of the list of fluid neighbours of slot s.
@@ -304,12 +387,12 @@ __device__ void list_fluid_neighbours(const ModelView<Real>& model, Team& team, 
     int n = 0;
     if (model.plan.uniform_fluid)
         for_each_candidate(model, team, false, x, [&](int other, bool near) {
-            staging[min(n, staged) * threads] = static_cast<std::uint16_t>(other);
+            staging[min(n, staged) * Team::threads] = static_cast<std::uint16_t>(other);
             n += near;
         });
     else
         for_each_candidate(model, team, false, x, [&](int other, bool near) {
-            staging[min(n, staged) * threads] = static_cast<std::uint16_t>(other);
+            staging[min(n, staged) * Team::threads] = static_cast<std::uint16_t>(other);
             n += near && felt(other);
         });
     const std::uint16_t beyond = static_cast<std::uint16_t>(model.particles);
@@ -322,10 +405,10 @@ __device__ void list_fluid_neighbours(const ModelView<Real>& model, Team& team, 
         });
         for (int k = n; k % 8 != 0; ++k) list_entry(model, team, s, k) = beyond;
     } else {
-        for (int k = n; k % 8 != 0; ++k) staging[k * threads] = beyond;
+        for (int k = n; k % 8 != 0; ++k) staging[k * Team::threads] = beyond;
         for (int k = 0; k < n; k += 8) {
             const auto two = [&](int e) {
-                return staging[(k + e) * threads] | static_cast<unsigned>(staging[(k + e + 1) * threads]) << 16;
+                return staging[(k + e) * Team::threads] | static_cast<unsigned>(staging[(k + e + 1) * Team::threads]) << 16;
             };
             team.neighbour()[static_cast<std::size_t>(k / 8) * model.fluid + s] = {two(0), two(2), two(4), two(6)};
         }

@@ -3,41 +3,41 @@
 // Where a team has many blocks, the last of them computes springs and clusters by itself, with the solids on its chip, and the
 // others have the fluid meanwhile: a fit, four steps in double one after the other, takes as long as the densities of the fluid,
 // and nothing but solids waits for it. The formulas and the bits are those of flex.cuh.
-#include "flex.cuh"
+#include "shared_slots.cuh"
 
 namespace natator::cuda {
 
 /// Calls work(k) for k = 0 .. count - 1 by the threads of this block.
-template <class Work>
-__device__ void for_each_in_block(int count, const Work& work) {
+template <class Team, class Work>
+__device__ void for_each_in_block(const Team&, int count, const Work& work) {
 #pragma unroll 1  // it seldom goes round twice
-    for (int k = static_cast<int>(threadIdx.x); k < count; k += threads) work(k);
+    for (int k = static_cast<int>(threadIdx.x); k < count; k += Team::threads) work(k);
 }
 
 /// What springs and clusters are, for an update whose rest lengths are known. Barriers follow before it is read.
 template <class Real, class Team>
 __device__ void load_constraints_of_solids(const ModelView<Real>& model, const Team& team) {
     if (!team.has_solids()) return;
-    for_each_in_block(model.solids + 1, [&](int i) {
+    for_each_in_block(team, model.solids + 1, [&](int i) {
         team.chip_springs_begin()[i] = model.spring_shares_begin[i];
         team.chip_members_begin()[i] = model.cluster_shares_begin[i];
     });
-    for_each_in_block(2 * model.springs, [&](int e) {
+    for_each_in_block(team, 2 * model.springs, [&](int e) {
         const Share share = model.spring_share[e];
         team.chip_spring()[e] = {share.other, team.rest_length()[share.constraint], model.spring[share.constraint].rule};
     });
-    for_each_in_block(model.members, [&](int e) {
+    for_each_in_block(team, model.members, [&](int e) {
         team.chip_member_share()[e] = model.cluster_share[e];
         team.chip_member()[e] = quad(model.offset[e], as_number<Real>(model.member[e]));
     });
-    for_each_in_block(model.clusters, [&](int k) { team.chip_cluster()[k] = model.cluster[k]; });
+    for_each_in_block(team, model.clusters, [&](int k) { team.chip_cluster()[k] = model.cluster[k]; });
 }
 
 /// Where the solids are, and the fits as they are. Ends with a barrier of the block.
 template <class Real, class Team>
 __device__ void load_solids(const ModelView<Real>& model, const Team& team) {
-    for_each_in_block(model.solids, [&](int i) { team.chip_solid()[i] = team.position()[team.slot_of_solid()[i]]; });
-    for_each_in_block(model.clusters, [&](int k) { team.chip_fit()[k] = team.fit()[k]; });
+    for_each_in_block(team, model.solids, [&](int i) { team.chip_solid()[i] = team.position()[team.slot_of_solid()[i]]; });
+    for_each_in_block(team, model.clusters, [&](int k) { team.chip_fit()[k] = team.fit()[k]; });
     __syncthreads();
 }
 
@@ -46,7 +46,7 @@ template <class Real, class Team>
 __device__ void fit_clusters_on_chip(const ModelView<Real>& model, const Team& team) {
     const int of_solids = (model.solids + 31) / 32, first = static_cast<int>(threadIdx.x) / 32 - of_solids;
     if (first < 0) return;
-    for (int k = first; k < model.clusters; k += warps - of_solids) {
+    for (int k = first; k < model.clusters; k += Team::warps - of_solids) {
         const int begin = team.chip_cluster()[k].begin, end = team.chip_cluster()[k].end;
         const Quad<Real>* const member = team.chip_member() + begin;
         ClusterFit<Real>& fit = team.chip_fit()[k];
@@ -77,7 +77,7 @@ __device__ void correct_solids_on_chip(const ModelView<Real>& model, const Team&
                            return SpringEnd<Real>{xyz(other), other.w, spring.rest_length, spring.rule};
                        });
     }
-    team.wait();
+    team.wait_for_others();
     if (!there) return;
     add_clusters<1>(correction, xyz(here), team.chip_members_begin()[i], team.chip_members_begin()[i + 1],
                     [&](int e) {
@@ -92,23 +92,22 @@ __device__ void correct_solids_on_chip(const ModelView<Real>& model, const Team&
 /// begun. Ends with a barrier of the blocks that have the fluid.
 template <class Real, class Team>
 __device__ void compute_density_beside_solids(const ModelView<Real>& model, Team& team, int touched) {
-    if (team.has_solids()) {
-        team.arrive();
-        return fit_clusters_on_chip(model, team);
-    }
+    if (team.has_solids()) return fit_clusters_on_chip(model, team);
+    if constexpr (Team::shares_slots) return compute_density_by_lanes(model, team, touched);
     const int of_fluid = fluid_units(model);
     for_each_unit(team, team.blocks() - 1, touched, of_fluid, [&](int unit) {
         if (unit < touched) return push_touched(model, team, unit);
         const int s = fluid_slot(unit - touched, of_fluid);
-        if (s < model.fluid) compute_density_of(model, team, s, Real(0));
+        if (s < model.fluid) compute_density_of(model, team, s);
     });
-    team.barrier();
+    team.barrier_of_others();
 }
 
-/// The other half. A barrier follows.
+/// The other half. A barrier follows, behind which the block of the solids does not wait for the others.
 template <class Real, class Team>
 __device__ void apply_corrections_beside_solids(const ModelView<Real>& model, Team& team) {
     if (team.has_solids()) return correct_solids_on_chip(model, team);
+    if constexpr (Team::shares_slots) return correct_fluid_by_lanes(model, team);
     const int of_fluid = fluid_units(model);
     for_each_unit(team, team.blocks() - 1, 0, of_fluid, [&](int unit) {
         const int s = fluid_slot(unit, of_fluid);

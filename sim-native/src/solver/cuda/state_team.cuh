@@ -35,6 +35,13 @@ struct Trace {
     Quad<Real>* velocity = nullptr;   ///< [substep * particles + slot], at the slots of the last iteration
 };
 
+inline constexpr int pair_lanes = 8;  ///< threads that share the pairs of a slot
+inline constexpr int slots_of_warp = 32 / pair_lanes;
+inline constexpr int slot_lanes = 4;  ///< threads that share a slot of the fluid, see shared_slots.cuh
+inline constexpr int shared_slots_of_warp = 32 / slot_lanes;
+inline constexpr int most_touched_on_chip = 32;  ///< slots
+inline constexpr int most_listed_on_chip = 32;  ///< neighbours of a slot, or contacts
+
 /// Slots one behind the other.
 struct SlotRun {
     int begin, end;
@@ -63,6 +70,7 @@ struct Layout {
 #undef NATATOR_OFFSET
     unsigned chip_bytes, scratch_bytes;
     bool splits_solids;  ///< one of the team's blocks has the solids on its chip
+    int slots_of_block;  ///< of the fluid, where threads share slots
     int staged;  ///< neighbours that a thread has room for while it searches them
 };
 
@@ -76,7 +84,8 @@ struct Shared {
 /// The same of a team.
 template <class Real>
 struct SharedByTeam : Shared<Real> {
-    int flags[2];                         ///< of ClusterTeam::any
+    int near;                             ///< slots of the fluid that may have contacts, where threads share slots
+    int flags[2];                         ///< of GridTeam::any
     int block_sums[most_blocks_of_team];  ///< of exclusive_scan
     unsigned ticket;                      ///< that the team works on
     Stopwatch watch;
@@ -84,27 +93,26 @@ struct SharedByTeam : Shared<Real> {
 
 /// Numbers that the threads of one of a team's blocks share, on the chip.
 struct SharedByBlock {
-    std::uint64_t arrivals;  ///< of ClusterTeam
     int next_unit[2];        ///< of work that warps take as they get free, see for_each_unit
-    int sums[warps];         ///< of exclusive_scan
+    int sums[32];            ///< of exclusive_scan
 };
 
-/// A team and all that it works on while it advances one State: a block that has the State on its chip, or the blocks of
-/// a cluster, which have it in device memory. Slots are numbered anew in every substep, as on the CPU: first the fluid,
+/// A team and all that it works on while it advances one State: a block that has the State on its chip, or several
+/// blocks, which have it in device memory. Slots are numbered anew in every substep, as on the CPU: first the fluid,
 /// then the solids, each in the order of its cells and within a cell by particle, so that the order, and with it every
 /// sum, depends on positions alone. One more slot is far from all others: what ends lists points there.
-template <class R, bool on_chip>
-class StateTeam : public std::conditional_t<on_chip, BlockTeam, ClusterTeam> {
+template <class R, TeamKind kind>
+class StateTeam : public std::conditional_t<kind == TeamKind::block, BlockTeam, GridTeam<kind>> {
+    static constexpr bool on_chip = kind == TeamKind::block;
+
 public:
     using Real = R;
+    static constexpr int warps = StateTeam::threads / 32;
+    static constexpr bool shares_slots = kind == TeamKind::many_blocks;  ///< several threads have a slot of the fluid
 
     /// `chip` is this block's own, `scratch` the team's.
-    __device__ StateTeam(const Layout& layout, char* chip, char* scratch) : at_(layout), chip_(chip), scratch_(scratch) {
-        if constexpr (StateTeam::of_several_blocks) this->begin(&of_block().arrivals, shared().flags);
-    }
-    /// Every thread leaves by this.
-    __device__ void leave() const {
-        if constexpr (StateTeam::of_several_blocks) this->end();
+    __device__ StateTeam(const Layout& layout, char* chip, char* scratch, unsigned* arrivals) : at_(layout), chip_(chip), scratch_(scratch) {
+        if constexpr (StateTeam::of_several_blocks) this->begin(arrivals, shared().flags);
     }
 
     /// Has each solid several threads? Solids take longest, and several blocks would wait for them; one has enough to do
@@ -112,8 +120,18 @@ public:
     __device__ static constexpr bool shares_solids() { return StateTeam::blocks() > 1; }
 
     /// Has one block the solids, and the others the fluid? It is the last.
-    __device__ bool splits_solids() const { return !on_chip && at_.splits_solids; }
+    __device__ bool splits_solids() const { return shares_slots || (!on_chip && at_.splits_solids); }
     __device__ bool has_solids() const { return splits_solids() && StateTeam::block() == StateTeam::blocks() - 1; }
+
+    // The threads that have springs and their lengths: of the block that has the solids, or all; other blocks call none of these.
+    __device__ int solid_thread() const { return splits_solids() ? static_cast<int>(threadIdx.x) : StateTeam::thread(); }
+    __device__ int solid_threads() const { return splits_solids() ? StateTeam::threads : StateTeam::size(); }
+    __device__ void solid_barrier() const {
+        if (splits_solids())
+            __syncthreads();
+        else
+            StateTeam::barrier();
+    }
 
     using Index = std::uint16_t;
     using Word = std::uint32_t;  // of two cells
@@ -122,6 +140,9 @@ public:
     __device__ type* name() const { return reinterpret_cast<type*>(place() + at_.name); }
     NATATOR_TEAM_ARRAYS(NATATOR_ACCESSOR)
 #undef NATATOR_ACCESSOR
+    __device__ Word* cell_ends() const { return shares_slots ? chip_table() : table(); }  ///< once slots are numbered
+    __device__ int slots_of_block() const { return at_.slots_of_block; }
+    __device__ int first_slot() const { return StateTeam::block() * at_.slots_of_block; }  ///< of this block
     __device__ Word* keys() const { return reinterpret_cast<Word*>(next()); }  ///< while slots are numbered
     /// While pairs are searched, entry k of a thread of this block at [k * threads + its number in the block].
     __device__ Index* staging() const { return on_chip ? reinterpret_cast<Index*>(next()) : own_staging(); }
@@ -165,8 +186,8 @@ __device__ void for_each_unit(Team& team, int blocks, int few, int many, const W
     if (threadIdx.x == 0) next_unit[turn ^ 1] = 0;  // for the next call; nobody uses it any more
     for (int unit = threadIdx.x / 32; unit < own;) {
         work(unit < own_few ? unit * blocks + team.block() : few + skipped + unit - own_few);
-        if (own <= warps) return;
-        if (threadIdx.x % 32 == 0) unit = warps + atomicAdd(&next_unit[turn], 1);
+        if (own <= Team::warps) return;
+        if (threadIdx.x % 32 == 0) unit = Team::warps + atomicAdd(&next_unit[turn], 1);
         unit = __shfl_sync(0xffffffff, unit, 0);
     }
 }
@@ -222,7 +243,8 @@ __device__ inline int count_up(std::uint32_t* table, int cell) {
 }
 
 /// The sum of the values of the threads before this one in its block; `total` gets that of all of them.
-__device__ inline int sum_before(int value, int* sums_of_warps, int& total) {
+template <int warps>
+__device__ int sum_before(int value, int* sums_of_warps, int& total) {
     const int lane = threadIdx.x % 32, warp = threadIdx.x / 32;
     const auto sum_up_to_lane = [lane](int sum) {
         for (int step = 1; step < 32; step *= 2) {
@@ -235,7 +257,7 @@ __device__ inline int sum_before(int value, int* sums_of_warps, int& total) {
     if (lane == 31) sums_of_warps[warp] = of_warp;
     __syncthreads();
     if (warp == 0) {
-        const int own = sums_of_warps[lane], up_to = sum_up_to_lane(own);
+        const int own = lane < warps ? sums_of_warps[lane] : 0, up_to = sum_up_to_lane(own);
         sums_of_warps[lane] = up_to - own;
         if (lane == 31) total = up_to;
     }
@@ -246,19 +268,20 @@ __device__ inline int sum_before(int value, int* sums_of_warps, int& total) {
 /// Replaces the cells' counts by the sums of all before each; every thread of the team calls it. Ends with a barrier.
 template <class Team>
 __device__ void exclusive_scan(const Team& team, std::uint32_t* table, int count) {
-    static_assert(warps == 32);
     const int words = (count + 1) / 2;
     const int share = (words + team.size() - 1) / team.size();
-    const int begin = min((team.block() * threads + static_cast<int>(threadIdx.x)) * share, words);
+    const int begin = min((team.block() * Team::threads + static_cast<int>(threadIdx.x)) * share, words);
     const int end = min(begin + share, words);
     std::uint32_t sum = 0;
     for (int i = begin; i < end; ++i) sum += (table[i] & 0xffff) + (table[i] >> 16);
     int* const block_sums = team.shared().block_sums;
     auto before = static_cast<std::uint32_t>(
-        sum_before(static_cast<int>(sum), team.of_block().sums, block_sums[team.block()]));
+        sum_before<Team::warps>(static_cast<int>(sum), team.of_block().sums, block_sums[team.block()]));
     if constexpr (Team::of_several_blocks) {
         team.barrier();
-        for (int b = 0; b < team.block(); ++b) before += static_cast<std::uint32_t>(block_sums[b]);
+        unsigned of_blocks = 0;
+        for (int b = static_cast<int>(threadIdx.x) % 32; b < team.block(); b += 32) of_blocks += static_cast<unsigned>(block_sums[b]);
+        before += __reduce_add_sync(0xffffffff, of_blocks);
     }
     for (int i = begin; i < end; ++i) {
         const std::uint32_t word = table[i];

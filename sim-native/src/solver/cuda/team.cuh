@@ -6,14 +6,22 @@
 
 namespace natator::cuda {
 
-inline constexpr int threads = 1024;  ///< of a block that advances a State, alone or with others
-inline constexpr int warps = threads / 32;
-inline constexpr int most_blocks_of_team = 16;  ///< of a thread-block cluster on an H100
+inline constexpr int most_blocks_of_team = 144;
+
+/// The threads that advance a State: those of a block that has it on its chip, of several blocks that have it in device memory, or
+/// of so many that several threads share each slot of the fluid.
+enum class TeamKind { block, blocks, many_blocks };
+
+/// Of a block of such a team. Where blocks have little to do, fewer wait for each other, and each has more registers.
+constexpr int threads_of(TeamKind kind) {
+    return kind == TeamKind::many_blocks ? 512 : 1024;
+}
 
 /// The threads that advance one State: a block's. The code of a State's stages knows no more of threads than this. All
 /// of them call barrier() and any().
 struct BlockTeam {
     static constexpr bool of_several_blocks = false;
+    static constexpr int threads = threads_of(TeamKind::block);  ///< of a block
 
     __device__ static int thread() { return static_cast<int>(threadIdx.x); }
     __device__ static constexpr int size() { return threads; }
@@ -24,66 +32,81 @@ struct BlockTeam {
     __device__ static bool any(bool value) { return __syncthreads_or(value); }
 };
 
-/// The threads of the blocks of a thread-block cluster, so that one State has several multiprocessors. The warps of the
-/// blocks are numbered in turn, so that little work is spread over all of them.
-///
-/// Its barrier is one of each block, then one of the blocks by a warp of each: in that of the cluster itself every warp waits
-/// for what it has written and forgets what the multiprocessor has read.
-class ClusterTeam {
+/// How many blocks of a team have come so far, where others wait for them.
+class Arrivals {
+public:
+    __device__ void begin(unsigned* count) { count_ = count; }
+    /// This block has: what its threads wrote before a barrier of the block is seen by all who wait.
+    __device__ void add() const {
+        if (threadIdx.x == 0) asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(count_) : "memory");
+    }
+    /// So many more are waited for from now on.
+    __device__ void expect(int blocks) const { expected_ += static_cast<unsigned>(blocks); }
+    /// A barrier of the block, too.
+    __device__ void wait() const {
+        if (threadIdx.x == 0) {
+            unsigned seen;
+            do asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(seen) : "l"(count_) : "memory");
+            while (static_cast<int>(seen - expected_) < 0);
+        }
+        __syncthreads();
+    }
+
+private:
+    unsigned* count_ = nullptr;
+    mutable unsigned expected_ = 0;
+};
+inline constexpr int arrivals_of_team = 64;  ///< numbers of a team's Arrivals, on cache lines of their own
+
+/// The threads of several blocks, which are all on the device at a time: a row of the grid. The warps of the blocks are numbered
+/// in turn, so that little work is spread over all of them.
+template <TeamKind kind>
+class GridTeam {
 public:
     static constexpr bool of_several_blocks = true;
+    static constexpr int threads = threads_of(kind);
 
-    ClusterTeam() = default;
-    ClusterTeam(const ClusterTeam&) = delete;  // each counts the barriers
-    ClusterTeam& operator=(const ClusterTeam&) = delete;
+    GridTeam() = default;
+    GridTeam(const GridTeam&) = delete;  // each counts the barriers
+    GridTeam& operator=(const GridTeam&) = delete;
 
     __device__ static int thread() {
         return (static_cast<int>(threadIdx.x) / 32 * blocks() + block()) * 32 + static_cast<int>(threadIdx.x) % 32;
     }
     __device__ static int size() { return blocks() * threads; }
-#if __CUDA_ARCH__ >= 900
-    __device__ static int blocks() { return static_cast<int>(cooperative_groups::this_cluster().num_blocks()); }
-    __device__ static int block() { return static_cast<int>(cooperative_groups::this_cluster().block_rank()); }
-    /// Before the first barrier and after the last: `arrivals` of this block and `flags` of the team are its room.
-    __device__ void begin(std::uint64_t* arrivals, int* flags) {
-        arrivals_ = static_cast<unsigned>(__cvta_generic_to_shared(arrivals));
+    __device__ static int blocks() { return static_cast<int>(gridDim.x); }
+    __device__ static int block() { return static_cast<int>(blockIdx.x); }
+    /// Before the first barrier: `arrivals` are 0, `flags` room.
+    __device__ void begin(unsigned* arrivals, int* flags) {
+        all_.begin(arrivals);
+        others_.begin(arrivals + arrivals_of_team / 2);
         flags_ = flags;
         if (thread() == 0) flags[0] = flags[1] = 0;
-        if (threadIdx.x == 0)
-            asm volatile("mbarrier.init.shared::cta.b64 [%0], %1;" ::"r"(arrivals_), "r"(blocks()) : "memory");
-        cooperative_groups::this_cluster().sync();
+        barrier();
     }
-    __device__ static void end() { cooperative_groups::this_cluster().sync(); }
-    /// What a thread of the cluster has written before it is seen by all behind it.
+    /// What a thread of the team has written before it is seen by all behind it.
     __device__ void barrier() const {
+        arrive();
+        if (blocks() > 1) wait();
+    }
+    // The same in halves, for a block that goes on meanwhile.
+    __device__ void arrive() const {
         __syncthreads();
         if (blocks() == 1) return;
-        arrive();
-        wait();
+        all_.add();
+        all_.expect(blocks());
     }
-    // The same in halves, for a block that has nothing to say and goes on meanwhile; the second is a barrier of the block, too.
-    __device__ void arrive() const {
-        if (static_cast<int>(threadIdx.x) < blocks()) arrive_at(threadIdx.x);
-    }
-    __device__ void wait() const {
-        if (threadIdx.x < 32)
-            while (!all_arrived(turn_)) {}
-        turn_ ^= 1;
+    __device__ void wait() const { all_.wait(); }
+    /// A barrier of all blocks but the last, which waits by wait_for_others().
+    __device__ void barrier_of_others() const {
         __syncthreads();
+        others_.add();
+        wait_for_others();
     }
-#else  // no clusters: each block is one by itself
-    __device__ static int blocks() { return 1; }
-    __device__ static int block() { return 0; }
-    __device__ void begin(std::uint64_t*, int* flags) {
-        flags_ = flags;
-        if (threadIdx.x == 0) flags[0] = flags[1] = 0;
-        __syncthreads();
+    __device__ void wait_for_others() const {
+        others_.expect(blocks() - 1);
+        others_.wait();
     }
-    __device__ static void end() {}
-    __device__ static void barrier() { __syncthreads(); }
-    __device__ static void arrive() {}
-    __device__ static void wait() { __syncthreads(); }
-#endif
     /// Of two flags that begin with 0, each call sets the one that the call before it does not read.
     __device__ bool any(bool value) const {
         const bool in_block = __syncthreads_or(value);
@@ -95,34 +118,8 @@ public:
     }
 
 private:
-#if __CUDA_ARCH__ >= 900
-    __device__ void arrive_at(unsigned block) const {
-        asm volatile(
-            "{\n\t"
-            ".reg .b32 there;\n\t"
-            "mapa.shared::cluster.u32 there, %0, %1;\n\t"
-            "mbarrier.arrive.release.cluster.shared::cluster.b64 _, [there];\n\t"
-            "}" ::"r"(arrivals_),
-            "r"(block)
-            : "memory");
-    }
-    __device__ bool all_arrived(unsigned turn) const {
-        int done = 0;
-        asm volatile(
-            "{\n\t"
-            ".reg .pred done;\n\t"
-            "mbarrier.try_wait.parity.acquire.cluster.shared::cta.b64 done, [%1], %2;\n\t"
-            "selp.s32 %0, 1, 0, done;\n\t"
-            "}"
-            : "=r"(done)
-            : "r"(arrivals_), "r"(turn)
-            : "memory");
-        return done != 0;
-    }
-#endif
-    unsigned arrivals_ = 0;  ///< of blocks at the barrier: an mbarrier on the chip
+    Arrivals all_, others_;
     int* flags_ = nullptr;
-    mutable unsigned turn_ = 0;
     mutable int calls_ = 0;
 };
 

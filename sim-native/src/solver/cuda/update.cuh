@@ -11,23 +11,23 @@
 
 namespace natator::cuda {
 
-/// Rest lengths as the State or the Model has them. Ends with a barrier.
+/// Rest lengths as the State or the Model has them, by the threads that have the springs. Ends with a barrier of them.
 template <class Real, class Team>
 __device__ void rest(const BatchView<Real>& batch, int state, Team& team) {
     const ModelView<Real>& model = batch.model;
-    for (int s = team.thread(); s < model.springs; s += team.size())
+    for (int s = team.solid_thread(); s < model.springs; s += team.solid_threads())
         team.rest_length()[s] =
             batch.rest_length ? batch.rest_length[state * model.springs + s] : model.spring[s].rest_length;
-    team.barrier();
+    team.solid_barrier();
 }
 
-/// Sets the muscles for update `number`. Ends with a barrier.
+/// Sets the muscles for update `number`, likewise.
 template <class Real, class Team>
 __device__ void actuate(const BatchView<Real>& batch, int state, int number, double time, Team& team) {
     const ModelView<Real>& model = batch.model;
     const GaitView& gait = batch.gait;
     if (!gait.frequency && !batch.muscle_length) return;
-    for (int m = team.thread(); m < model.muscles; m += team.size()) {
+    for (int m = team.solid_thread(); m < model.muscles; m += team.solid_threads()) {
         const MuscleView muscle = model.muscle[m];
         if (batch.muscle_length) {
             const std::size_t row = static_cast<std::size_t>(state) * batch.updates + number;
@@ -42,7 +42,7 @@ __device__ void actuate(const BatchView<Real>& batch, int state, int number, dou
         team.rest_length()[muscle.spring] =
             static_cast<Real>(physics::muscle_length(muscle.rest_length, muscle.lateral, drive));
     }
-    team.barrier();
+    team.solid_barrier();
 }
 
 template <class Real, class Team>
@@ -73,12 +73,18 @@ struct TeamStages {
     __device__ void sort_into_cells() { cuda::sort_into_cells(model, team); }
     template <class AfterStage>
     __device__ void find_neighbours(const AfterStage&) {
-        cuda::find_neighbours(model, team);
+        if constexpr (Team::shares_slots)
+            find_neighbours_by_lanes(model, team);
+        else
+            cuda::find_neighbours(model, team);
     }
     __device__ void begin_iterations() {
         if constexpr (Team::of_several_blocks) {
-            touched = touched_units<Real>(model, team);
-            if (team.has_solids()) load_solids(model, team);
+            touched = Team::shares_slots ? team.shared().touched : touched_units<Real>(model, team);
+            if (team.has_solids())
+                load_solids(model, team);
+            else if constexpr (Team::shares_slots)
+                load_contacts(model, team, touched);
         }
         if constexpr (effects)
             if (model.plan.dissipation) for_each(model.particles, [&](int s) { count_overlaps(model, team, s); });
@@ -86,20 +92,32 @@ struct TeamStages {
     __device__ void compute_density_and_fits() {
         if constexpr (Team::of_several_blocks)
             if (team.splits_solids()) return compute_density_beside_solids(model, team, touched);
-        compute_density(model, team, Real(0));
+        if constexpr (!Team::shares_slots) compute_density(model, team);  // those always split
     }
     __device__ void apply_corrections() {
         correct();
+        if constexpr (Team::of_several_blocks)
+            if (team.has_solids()) return team.arrive();
         team.barrier();
     }
     __device__ void correct() {
         if constexpr (Team::of_several_blocks)
             if (team.splits_solids()) return apply_corrections_beside_solids(model, team);
-        cuda::apply_corrections(model, team);
+        if constexpr (!Team::shares_slots) cuda::apply_corrections(model, team);
     }
     __device__ void update_velocities() {
-        finite = cuda::update_velocities(model, team);
+        wait_for_fluid();
+        clear_cells(model, team);
+        if constexpr (Team::shares_slots)
+            finite = update_velocities_by_lanes(model, team);
+        else
+            finite = cuda::update_velocities(model, team);
         finite = !team.any(!finite);
+    }
+    /// The block of the solids went through the iterations without waiting for the others' corrections.
+    __device__ void wait_for_fluid() {
+        if constexpr (Team::of_several_blocks)
+            if (team.has_solids()) team.wait();
     }
     __device__ void damp_contacts() {
         for_each(model.particles, [&](int s) { damp(model, team, s); });
@@ -148,12 +166,15 @@ struct AfterTeamStage {
         const int particles = stages.model.particles, iterations = stages.model.iterations;
         if (stage != Stage::iteration) stages.team.book(stage);
         if (stage == Stage::cells) record(stages.team, particles, stages.trace.predicted, stages.number);
-        if (stage == Stage::iteration)
+        if (stage == Stage::iteration && stages.trace.iterated) {
+            stages.wait_for_fluid();
             record(stages.team, particles, stages.trace.iterated, stages.number * iterations + stages.iteration++);
+            stages.team.barrier();
+        }
     }
 };
 
-/// Particles of infinite mass keep their place; the cells are ready for the next substep. Ends with a barrier.
+/// Particles of infinite mass keep their place.
 template <class Real, class Team>
 __device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, Team& team, int number) {
     for (int s = team.thread(); s < model.particles; s += team.size()) {
@@ -162,8 +183,6 @@ __device__ void commit(const ModelView<Real>& model, const Trace<Real>& trace, T
         team.velocity[s] = v;
         if (trace.velocity) trace.velocity[static_cast<std::size_t>(number) * model.particles + s] = v;
     }
-    clear_cells(model, team);
-    team.barrier();
 }
 
 /// Notes the lowest particle that is not finite, and gives the State its values from before the substep back.
@@ -206,14 +225,15 @@ __device__ void report(const BatchView<Real>& batch, int state, Team& team) {
                                         (model.plan.contacts ? team.contact_count()[s] : 0);
     }
     if (!batch.density || !model.plan.fluid) return;
-    compute_density(model, team, Real(-1));
     for (int s = team.thread(); s < model.fluid; s += team.size())
-        batch.density[static_cast<std::size_t>(state) * model.fluid + team.number()[s]] = team.next()[s].w + 1;
+        batch.density[static_cast<std::size_t>(state) * model.fluid + team.number()[s]] =
+            compression_of(model, team, s, xyz(team.position()[s])) + 1;
 }
 
 /// Measures the frame that has ended and decides whether the State stops early. Ends with a barrier.
 template <class Real, class Team>
 __device__ void end_frame(const BatchView<Real>& batch, int state, int update, Team& team) {
+    team.barrier();
     Progress& progress = batch.progress[state];
     double* const path = batch.path + static_cast<std::size_t>(state) * (batch.updates + 1);
     measure_path(batch.model, team, path + update + 1);
@@ -247,17 +267,20 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Team
     }
     if (team.thread() == 0)
         team.position()[model.particles] = team.start()[model.particles] = team.next()[model.particles] = far_away<Real>();
-    clear_cells(model, team);
     for (int k = team.thread(); k < model.clusters; k += team.size()) team.fit()[k] = fit[k];
     team.h = static_cast<Real>(batch.time_step) / static_cast<Real>(batch.substeps);
     const bool last = number + 1 == batch.updates;
     const Trace<Real> trace = last ? batch.trace : Trace<Real>{};
     const double time = batch.start_time + (batch.settling ? 0 : number * batch.time_step);
-    rest(batch, state, team);
-    actuate(batch, state, number, time, team);
-    if constexpr (Team::of_several_blocks) load_constraints_of_solids(model, team);
-    if (!batch.settling && number == 0)
+    if (!team.splits_solids() || team.has_solids()) {
+        rest(batch, state, team);
+        actuate(batch, state, number, time, team);
+        if constexpr (Team::of_several_blocks) load_constraints_of_solids(model, team);
+    }
+    if (!batch.settling && number == 0) {
+        team.barrier();
         measure_path(model, team, batch.path + static_cast<std::size_t>(state) * (batch.updates + 1));
+    }
     team.book(Stage::load);
 
     for (int k = 0; k < batch.substeps; ++k) {

@@ -15,23 +15,17 @@ bool has_room_by_blocks(const Model& model) {
     return particles <= most_particles_of_a_block && 2 * solids * (particles + fluid) <= most_bytes;
 }
 
-/// By clusters of 16 blocks a few States take 0.26 ms + 20 ns a particle for a frame of 4 substeps, all at once; by the whole GPU
-/// 0.5 ms + 3.2 ns a particle of each: measured on an H100 in float, with 22 000 to 64 000 particles.
-bool are_blocks_faster(int particles, int members) {
-    return members > 6.3 - 76500.0 / particles;
-}
-
 }  // namespace
 
 bool goes_either_way(const Model& model) {
     return model.scheme == Scheme::flex && model.particles() > most_particles_by_blocks_alone;
 }
 
-bool by_whole_gpu(const Scene& scene, const Model& model, int members, const BatchOptions& options) {
+bool by_whole_gpu(const Scene& scene, const Model& model, const BatchOptions& options) {
     if (options.whole_gpu || model.scheme != Scheme::flex || !scene.goals.empty() || !scene.companions.empty()) return true;
     if (!goes_either_way(model)) return false;
     if (options.precision != Precision::single_precision || make_plan(model).effects()) return true;
-    return !has_room_by_blocks(model) || device_attribute(cudaDevAttrClusterLaunch) == 0 || !are_blocks_faster(model.particles(), members);
+    return !has_room_by_blocks(model) || device_attribute(cudaDevAttrCooperativeLaunch) == 0;
 }
 
 }  // namespace natator::cuda

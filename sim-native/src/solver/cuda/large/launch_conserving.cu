@@ -105,7 +105,7 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void solve_solids_together() const {
         if (model.solids > 2 * few_threads)
-            launch.template each_state<solids_large<Real>, threads>(1);
+            launch.template each_state<solids_large<Real>, BlockTeam::threads>(1);
         else if (model.solids > 0)
             launch.template each_state<solids_large<Real>, few_threads>(1);
     }

@@ -127,7 +127,7 @@ void launch_body_places(const LargeLaunch<Real>& launch, Quad<Real>* places) {
 
 template <class Real>
 void launch_measure(const LargeLaunch<Real>& launch) {
-    at_the_end(launch).template report_states<measure_large<Real>, threads>();
+    at_the_end(launch).template report_states<measure_large<Real>, BlockTeam::threads>();
 }
 
 template <class Real>

@@ -148,6 +148,7 @@ public:
     __device__ static int size() { return static_cast<int>(blockDim.x); }
     __device__ static void barrier() { __syncthreads(); }
     __device__ static bool any(bool value) { return __syncthreads_or(value); }
+    static constexpr bool shares_slots = false;
     __host__ __device__ static constexpr bool shares_solids() { return true; }
 
 #define NATATOR_ACCESSOR(type, name, ...) \
