@@ -44,7 +44,8 @@ const void* batch_kernel(TeamKind kind) {
     if constexpr (!effects) {
         if (kind == TeamKind::block) return reinterpret_cast<const void*>(&advance<Real, TeamKind::block, effects>);
         if constexpr (std::is_same_v<Real, float>)
-            if (kind == TeamKind::many_blocks) return reinterpret_cast<const void*>(&advance<Real, TeamKind::many_blocks, effects>);
+            if (kind == TeamKind::many_blocks)
+                return reinterpret_cast<const void*>(&advance<Real, TeamKind::many_blocks, effects>);
     }
     return reinterpret_cast<const void*>(&advance<Real, TeamKind::blocks, effects>);
 }

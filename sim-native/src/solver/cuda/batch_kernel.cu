@@ -19,7 +19,7 @@ const void* kernel(const ModelView<Real>& model, TeamKind kind) {
 /// How many blocks of such teams the current device holds at a time; 0 if one does not fit on its chip.
 template <class Real>
 int resident_blocks(const ModelView<Real>& model, const Teams& teams) {
-    // There are no others with effects, which are rare, and take long to compile; nor in double.
+    // Other kernels are not there with effects, which are rare, and take long to compile; nor for many blocks in double.
     if (teams.kind != TeamKind::blocks && model.plan.effects()) return 0;
     if (teams.kind == TeamKind::many_blocks && std::is_same_v<Real, double>) return 0;
     const void* const function = kernel(model, teams.kind);
@@ -32,7 +32,8 @@ int resident_blocks(const ModelView<Real>& model, const Teams& teams) {
     // limit and its launch.
     check(cudaFuncSetAttribute(function, cudaFuncAttributeMaxDynamicSharedMemorySize, most_bytes), "shared memory");
     int count = 0;
-    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads_of(teams.kind), teams.layout.chip_bytes), "occupancy");
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&count, function, threads_of(teams.kind), teams.layout.chip_bytes),
+          "occupancy");
     return count * device_attribute(cudaDevAttrMultiProcessorCount);
 }
 
@@ -57,7 +58,7 @@ Teams best_teams(const ModelView<Real>& model, int states) {
     Teams best{};
     double least = 0;
     const auto consider = [&](TeamKind kind, int blocks) {
-        if (kind == TeamKind::many_blocks && !splits_solids(model, blocks)) return;
+        if (kind == TeamKind::many_blocks && !splits_solids(model, kind, blocks)) return;
         Teams teams{.kind = kind, .blocks = blocks, .layout = layout_of(model, kind, blocks, small ? few_rows : rows)};
         teams.count = resident_blocks(model, teams) / blocks;
         if (teams.count == 0) return;

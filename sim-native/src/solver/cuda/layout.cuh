@@ -28,12 +28,13 @@ private:
     std::size_t used_ = 0;
 };
 
-/// Has one of so many blocks the solids? Where it has a thread for each, and the others are enough for the fluid, of which
-/// none has so much that all had better share it.
+/// Has one of so many blocks the solids? Where it has a thread for each, and warps left for fits of clusters, and the others are
+/// enough for the fluid, of which none has so much that all had better share it.
 template <class Real>
-bool splits_solids(const ModelView<Real>& model, int blocks) {
-    constexpr int most_solids = 512, fewest_blocks = 8, most_fluid = 3000;
-    if (model.fluid > most_fluid * blocks) return false;
+bool splits_solids(const ModelView<Real>& model, TeamKind kind, int blocks) {
+    constexpr int fewest_blocks = 8, most_fluid = 3000;
+    const int most_solids = kind == TeamKind::many_blocks ? threads_of(kind) * 3 / 4 : threads_of(kind) / 2;
+    if (kind == TeamKind::block || model.fluid > most_fluid * blocks) return false;
     constexpr std::size_t most_bytes = 64 << 10;
     const std::size_t bytes = model.solids * sizeof(Quad<Real>) + 2 * model.springs * sizeof(ChipSpring<Real>) +
                               model.members * (sizeof(Share) + sizeof(Quad<Real>));
@@ -47,8 +48,8 @@ int slots_of_block(const ModelView<Real>& model, int blocks) {
     return (units + others - 1) / others * shared_slots_of_warp;
 }
 
-/// `on_chip` says where a team's arrays are; else each of its blocks has `staging_rows` neighbours' room for each thread on
-/// the chip, and one row more for what is no neighbour. Throws InputError for lists that offsets cannot reach.
+/// Where the arrays of such a team are; each block of one of `blocks` has `staging_rows` neighbours' room for each thread on the chip,
+/// and one row more for what is no neighbour. Throws InputError for lists that offsets cannot reach.
 template <class Real>
 Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::size_t staging_rows) {
     const bool on_chip = kind == TeamKind::block;
@@ -60,7 +61,7 @@ Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::s
     const int threads = threads_of(kind);
     const std::size_t row = threads * sizeof(Index), least_rows = 25;
     Layout at{};
-    at.splits_solids = !on_chip && splits_solids(model, blocks);
+    at.splits_solids = splits_solids(model, kind, blocks);
     const bool shared = kind == TeamKind::many_blocks;
     at.slots_of_block = shared ? slots_of_block(model, blocks) : 0;
     const auto if_shared = [&](std::size_t count) { return shared ? count : 0; };

@@ -16,7 +16,8 @@ __device__ Sum sum_over_neighbours(const ModelView<Real>& model, const Team& tea
     constexpr int in_chunk = 8;
     const int lane = static_cast<int>(threadIdx.x) % slot_lanes, own = s - team.first_slot();
     const int chunks = s < 0 ? 0 : (team.chip_neighbour_count()[own] + in_chunk - 1) / in_chunk;
-    const int most = __reduce_max_sync(0xffffffff, chunks);
+    int most = chunks;  // of any slot of the warp
+    for (int step = slot_lanes; step < 32; step *= 2) most = max(most, __shfl_xor_sync(0xffffffff, most, step));
     const unsigned beyond = static_cast<unsigned>(model.particles) * 0x10001u;
     Sum sum{};
     for (int first = 0; first < most; first += slot_lanes) {

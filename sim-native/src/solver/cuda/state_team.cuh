@@ -71,7 +71,7 @@ struct Layout {
     unsigned chip_bytes, scratch_bytes;
     bool splits_solids;  ///< one of the team's blocks has the solids on its chip
     int slots_of_block;  ///< of the fluid, where threads share slots
-    int staged;  ///< neighbours that a thread has room for while it searches them
+    int staged;          ///< neighbours that a thread has room for while it searches them
 };
 
 /// Numbers that all threads share which work on a State.
@@ -94,7 +94,7 @@ struct SharedByTeam : Shared<Real> {
 /// Numbers that the threads of one of a team's blocks share, on the chip.
 struct SharedByBlock {
     int next_unit[2];        ///< of work that warps take as they get free, see for_each_unit
-    int sums[32];            ///< of exclusive_scan
+    int sums[32];            ///< of sum_before
 };
 
 /// A team and all that it works on while it advances one State: a block that has the State on its chip, or several
@@ -111,7 +111,8 @@ public:
     static constexpr bool shares_slots = kind == TeamKind::many_blocks;  ///< several threads have a slot of the fluid
 
     /// `chip` is this block's own, `scratch` the team's.
-    __device__ StateTeam(const Layout& layout, char* chip, char* scratch, unsigned* arrivals) : at_(layout), chip_(chip), scratch_(scratch) {
+    __device__ StateTeam(const Layout& layout, char* chip, char* scratch, unsigned* arrivals)
+        : at_(layout), chip_(chip), scratch_(scratch) {
         if constexpr (StateTeam::of_several_blocks) this->begin(arrivals, shared().flags);
     }
 
@@ -210,7 +211,8 @@ __device__ inline int fluid_slot(int unit, int units) {
 }
 
 /// The sum over a warp, the same in all of its threads.
-__device__ inline double sum_of_warp(double value) {
+template <class T>
+__device__ T sum_of_warp(T value) {
     for (int step = 16; step > 0; step /= 2) value += __shfl_xor_sync(0xffffffff, value, step);
     return value;
 }
@@ -281,7 +283,7 @@ __device__ void exclusive_scan(const Team& team, std::uint32_t* table, int count
         team.barrier();
         unsigned of_blocks = 0;
         for (int b = static_cast<int>(threadIdx.x) % 32; b < team.block(); b += 32) of_blocks += static_cast<unsigned>(block_sums[b]);
-        before += __reduce_add_sync(0xffffffff, of_blocks);
+        before += sum_of_warp(of_blocks);
     }
     for (int i = begin; i < end; ++i) {
         const std::uint32_t word = table[i];

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cooperative_groups.h>
-
-#include <cstdint>
-
 namespace natator::cuda {
 
 inline constexpr int most_blocks_of_team = 144;
@@ -76,7 +72,7 @@ public:
     __device__ static int size() { return blocks() * threads; }
     __device__ static int blocks() { return static_cast<int>(gridDim.x); }
     __device__ static int block() { return static_cast<int>(blockIdx.x); }
-    /// Before the first barrier: `arrivals` are 0, `flags` room.
+    /// Before the first barrier: `arrivals` are 0, `flags` room. Ends with a barrier.
     __device__ void begin(unsigned* arrivals, int* flags) {
         all_.begin(arrivals);
         others_.begin(arrivals + arrivals_of_team / 2);
@@ -89,7 +85,7 @@ public:
         arrive();
         if (blocks() > 1) wait();
     }
-    // The same in halves, for a block that goes on meanwhile.
+    // The same in halves, for a block that goes on meanwhile. A wait without an arrival is for what has been waited for already, too.
     __device__ void arrive() const {
         __syncthreads();
         if (blocks() == 1) return;

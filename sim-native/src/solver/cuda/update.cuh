@@ -66,7 +66,7 @@ struct TeamStages {
     Team& team;
     int number;
     int iteration = 0;
-    int touched = 0;     ///< units that the slots with contacts make, where a team has several blocks
+    int touched = 0;     ///< units that the slots with contacts make, where a team has several blocks; a slot each where threads share
     bool finite = true;  ///< of all velocities, before what acts behind them
 
     __device__ void predict() { cuda::predict(model, team); }
