@@ -41,13 +41,13 @@ __global__ void __launch_bounds__(threads_of(kind), 1) advance(const __grid_cons
 
 template <class Real, bool effects>
 const void* batch_kernel(TeamKind kind) {
+    if (kind == TeamKind::blocks) return reinterpret_cast<const void*>(&advance<Real, TeamKind::blocks, effects>);
     if constexpr (!effects) {
         if (kind == TeamKind::block) return reinterpret_cast<const void*>(&advance<Real, TeamKind::block, effects>);
         if constexpr (std::is_same_v<Real, float>)
-            if (kind == TeamKind::many_blocks)
-                return reinterpret_cast<const void*>(&advance<Real, TeamKind::many_blocks, effects>);
+            return reinterpret_cast<const void*>(&advance<Real, TeamKind::many_blocks, effects>);
     }
-    return reinterpret_cast<const void*>(&advance<Real, TeamKind::blocks, effects>);
+    return nullptr;
 }
 
 }  // namespace natator::cuda

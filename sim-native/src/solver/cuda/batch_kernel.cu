@@ -16,13 +16,11 @@ const void* kernel(const ModelView<Real>& model, TeamKind kind) {
     return model.plan.effects() ? batch_kernel<Real, true>(kind) : batch_kernel<Real, false>(kind);
 }
 
-/// How many blocks of such teams the current device holds at a time; 0 if one does not fit on its chip.
+/// How many blocks of such teams the current device holds at a time; 0 if one does not fit on its chip, or there is no kernel.
 template <class Real>
 int resident_blocks(const ModelView<Real>& model, const Teams& teams) {
-    // Other kernels are not there with effects, which are rare, and take long to compile; nor for many blocks in double.
-    if (teams.kind != TeamKind::blocks && model.plan.effects()) return 0;
-    if (teams.kind == TeamKind::many_blocks && std::is_same_v<Real, double>) return 0;
     const void* const function = kernel(model, teams.kind);
+    if (!function) return 0;
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, function), "kernel");
     const int most_bytes =

@@ -77,8 +77,8 @@ Teams best_teams(const ModelView<Real>& model, int states);
 template <class Real>
 void launch_batch(const BatchView<Real>& batch, const Teams& teams);
 
-/// The kernel that launch_batch starts, with the code of effects (Plan::effects), which is there off chip only, or
-/// without; each in a source of its own.
+/// The kernel that launch_batch starts, with the code of effects (Plan::effects) or without; each in a source of its own. Null where
+/// there is none, as it takes long to compile: for one block with effects, which are rare, for many blocks with them or in double.
 template <class Real, bool effects>
 const void* batch_kernel(TeamKind kind);
 

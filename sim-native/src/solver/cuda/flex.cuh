@@ -9,6 +9,12 @@
 
 namespace natator::cuda {
 
+/// 1 - r/R of a pair.
+template <class Real>
+__device__ Real left_of(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& there) {
+    return 1 - physics::length_of(x - there) * model.inverse_radius;
+}
+
 /// What a pair adds to the density of what is in x.
 template <class Real>
 struct DensityPart {
@@ -17,7 +23,7 @@ struct DensityPart {
 };
 template <class Real>
 __device__ DensityPart<Real> density_part(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& there) {
-    return {1 - physics::length_of(x - there) * model.inverse_radius};
+    return {left_of(model, x, there)};
 }
 
 /// rho_i - 1 of the fluid in a slot, whose fluid neighbours have this sum.
@@ -359,7 +365,7 @@ struct SmoothingPart {
 template <class Real>
 __device__ SmoothingPart<Real> smoothing_part(const ModelView<Real>& model, const Vec3<Real>& x, const Vec3<Real>& u,
                                               const Vec3<Real>& there, const Vec3<Real>& movement) {
-    return {1 - physics::length_of(x - there) * model.inverse_radius, movement - u};
+    return {left_of(model, x, there), movement - u};
 }
 
 template <class Real>
