@@ -8,7 +8,7 @@ namespace natator::bench {
 namespace {
 
 BatchOptions options_of(const GpuSpeedStudy& study, Precision precision) {
-    return {.precision = precision, .device = study.device, .whole_gpu = study.whole_gpu};
+    return {.precision = precision, .device = study.device, .whole_gpu = study.whole_gpu, .without_lists = study.without_lists};
 }
 
 Row figures(const Scene& scene, std::size_t evaluations, int repeats, const TimedBatch& measured) {
@@ -48,7 +48,8 @@ Row gpu_speed_profile_columns() {
 
 void run_gpu_speed_study(const GpuSpeedStudy& study, ResultTable& table, ResultTable& profile,
                          const std::function<void(const std::string&)>& report) {
-    const std::string device = gpu_name(study.device) + (study.whole_gpu ? "; whole" : "");
+    const std::string device = gpu_name(study.device) + (study.whole_gpu ? "; whole" : "") +
+                               (study.without_lists ? "; without lists" : "");
     for (const SpeedScene& named : study.scenes)
         for (const Scheme scheme : study.schemes) {
             Scene scene = make_speed_scene(named, study.quick);

@@ -19,7 +19,8 @@ struct GpuSpeedStudy {
     int device = 0;
     int repeats = 3;
     bool quick = false;      ///< a few frames of each scene
-    bool whole_gpu = false;  ///< for each evaluation, however small; the device's name says so
+    bool whole_gpu = false;      ///< for each evaluation, however small; the device's name says so
+    bool without_lists = false;  ///< of the neighbours of water; likewise
 };
 
 /// Columns scene, scheme, precision, evaluations, device (these are the key); particles, fluid_particles, substeps and

@@ -63,7 +63,7 @@ public:
                 std::to_string(fluid_),
                 std::to_string(batch),
                 device,
-                cuda::by_whole_gpu(scene_, model_, options()) ? "whole GPU" : "block",
+                path(),
                 std::to_string(model_.particles()),
                 std::to_string(model_.parameters.substeps),
                 std::to_string(model_.parameters.numIterations),
@@ -94,8 +94,15 @@ public:
     }
 
 private:
+    std::string path() const {
+        if (!cuda::by_whole_gpu(scene_, model_, options())) return "block";
+        return study_.without_lists && scene_.scheme == Scheme::conserving ? "whole GPU without lists" : "whole GPU";
+    }
     BatchOptions options() const {
-        return {.precision = precision_, .device = study_.device, .whole_gpu = study_.whole_gpu};
+        return {.precision = precision_,
+                .device = study_.device,
+                .whole_gpu = study_.whole_gpu,
+                .without_lists = study_.without_lists};
     }
     double neighbours() {
         if (!neighbours_)

@@ -21,6 +21,7 @@ struct ThroughputStudy {
     int repeats = 3;
     bool quick = false;      ///< a few frames of each
     bool whole_gpu = false;  ///< for each evaluation, however small
+    bool without_lists = false;  ///< of the neighbours of water
     std::vector<std::optional<Steps>> settings{std::nullopt};  ///< instead of the scene's own
 };
 

@@ -24,11 +24,19 @@ void add_gpu_options(CLI::App* command, BackendChoice& choice) {
         "--whole-gpu", choice.whole_gpu,
         "Compute by kernels of the whole GPU, however small the scene, whose last digits may differ: what scheme conserving always "
         "does, and scenes of more than 65 535 particles. Slower for others.");
+    command->add_flag("--without-lists", choice.without_lists,
+                      "Scheme conserving: search the neighbours of the water anew in each sum over them, as where lists do not "
+                      "fit into the GPU's memory. The same bits in less than a third of the memory, but slower.");
 }
 
 void refuse_gpu_options_for_cpu(const BackendChoice& choice) {
-    if (choice.name != "cpu" || (choice.device == 0 && !choice.whole_gpu)) return;
-    throw InputError((choice.whole_gpu ? std::string("--whole-gpu") : "--device = " + std::to_string(choice.device)) +
+    if (choice.name != "cpu") return;
+    std::string given;
+    if (choice.without_lists) given = "--without-lists";
+    if (choice.whole_gpu) given = "--whole-gpu";
+    if (choice.device != 0) given = "--device = " + std::to_string(choice.device);
+    if (given.empty()) return;
+    throw InputError(given +
                      ": the backend is cpu; must be left out, or beside --backend cuda or auto");
 }
 

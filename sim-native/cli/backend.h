@@ -12,14 +12,15 @@ struct BackendChoice {
     std::string name = "cpu";  ///< cpu, cuda or auto
     int device = 0;            ///< number of the GPU
     bool whole_gpu = false;    ///< also for scenes that a block can do
+    bool without_lists = false;  ///< of the neighbours of water
 };
 
-/// Adds --backend, --device and --whole-gpu.
+/// Adds --backend, --device, --whole-gpu and --without-lists.
 void add_backend_options(CLI::App* command, BackendChoice& choice);
-/// Adds the last two, for what only GPUs do.
+/// Adds the last three, for what only GPUs do.
 void add_gpu_options(CLI::App* command, BackendChoice& choice);
 
-/// Refuses --device and --whole-gpu, other than they are without being given, where all is computed on the CPU: not of `serve`,
+/// Refuses them, other than they are without being given, where all is computed on the CPU: not of `serve`,
 /// whose requests may choose.
 void refuse_gpu_options_for_cpu(const BackendChoice& choice);
 

@@ -55,7 +55,10 @@ Evaluation evaluate_job(const Job& job, const Execution& execution) {
 }
 
 BatchOptions batch_options(Precision precision, const BackendChoice& backend) {
-    return {.precision = precision, .device = backend.device, .whole_gpu = backend.whole_gpu};
+    return {.precision = precision,
+            .device = backend.device,
+            .whole_gpu = backend.whole_gpu,
+            .without_lists = backend.without_lists};
 }
 
 Evaluation evaluate_one_on_gpu(const Scene& scene, const BatchMember& member, Precision precision,

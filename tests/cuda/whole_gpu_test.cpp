@@ -95,6 +95,59 @@ TEST_P(WholeGpu, ContactsWithoutListsAreTheSame) {
     EXPECT_EQ(lists.neighbour_counts(), search.neighbour_counts());
 }
 
+/// The same of the neighbours of water, which are then searched in every sum: the same numbers in the same order.
+template <class Real>
+void expect_the_same_without_lists(const Model& model) {
+    State<Real> with = initial_state<Real>(model), without = with;
+    GpuSolver<Real> lists(model, {.path = GpuPath::whole_gpu, .forces = true}),
+        search(model, {.path = GpuPath::whole_gpu_search, .forces = true});
+    for (int k = 0; k < 12; ++k) {
+        ASSERT_FALSE(lists.update(with, substep, 1));
+        ASSERT_FALSE(search.update(without, substep, 1));
+    }
+    EXPECT_EQ(with.position, without.position);
+    EXPECT_EQ(with.velocity, without.velocity);
+    EXPECT_EQ(lists.densities(), search.densities());
+    EXPECT_EQ(lists.pressures(), search.pressures());
+    EXPECT_EQ(lists.forces(), search.forces());
+    EXPECT_EQ(lists.neighbour_counts(), search.neighbour_counts());
+    EXPECT_GT(largest_distance(initial_state<Real>(model), with), 1e-3);
+}
+
+class WithoutLists : public OnGpu<> {};
+
+TEST_F(WithoutLists, TheThesisTankHasTheSameBits) {
+    const Model model = build_model(tank(1, Scheme::conserving));
+    expect_the_same_without_lists<float>(model);
+    expect_the_same_without_lists<double>(model);
+}
+
+TEST_F(WithoutLists, WaterWithAllEffectsHasTheSameBits) {
+    Model model = build_model(tank(1, Scheme::conserving));
+    model.parameters.kinematicViscosity = 0.002;
+    model.parameters.cohesion = 0.002;
+    model.parameters.surfaceTension = 5;
+    model.parameters.vorticityConfinement = 0.5;
+    model.parameters.freeSurfaceDrag = 0.5;
+    expect_the_same_without_lists<float>(model);
+}
+
+/// A crowd, whose overlaps are parted, in so many slots that few threads share one where there are lists.
+TEST_F(WithoutLists, ACrowdHasTheSameBits) {
+    const Model model = bare_model(Scheme::conserving, lattice(48, 40, 30, 0.05), fluid_phase);
+    expect_the_same_without_lists<float>(model);
+}
+
+TEST_F(WithoutLists, BatchesHaveTheSameBits) {
+    Scene scene = tank(1, Scheme::conserving);
+    scene.duration = 0.1;
+    std::vector<BatchMember> members;
+    for (int k = 0; k < 5; ++k) members.push_back({wave(scene, k), {}});
+    const std::vector<Evaluation> with = evaluate_on_gpu(scene, members),
+                                  without = evaluate_on_gpu(scene, members, {.without_lists = true});
+    for (std::size_t k = 0; k < members.size(); ++k) EXPECT_EQ(with[k].hash, without[k].hash) << k;
+}
+
 /// More neighbours than a list holds, in cells that hold many particles: pairs that both sides keep, so momentum is
 /// kept, and 96 at most.
 TEST_P(WholeGpu, FullListsHoldTheirMostAndKeepMomentum) {

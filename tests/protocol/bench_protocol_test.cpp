@@ -258,7 +258,7 @@ TEST(BenchProtocolTest, WithoutTheGpuThatWasAskedForThereIsOneLine) {
 TEST(BenchProtocolTest, ThroughputSaysWhatItTakes) {
     const Outcome help = run_simulator({"bench", "throughput", "--help"});
     EXPECT_EQ(help.exit_code, 0) << help.err;
-    for (const char* option : {"--particles", "--batch", "--whole-gpu", "--device", "--repeats", "1000 - 15000000"})
+    for (const char* option : {"--particles", "--batch", "--whole-gpu", "--without-lists", "--device", "--repeats", "1000 - 15000000"})
         EXPECT_NE(help.out.find(option), std::string::npos) << option << " in " << help.out;
     for (const std::vector<std::string>& bad :
          std::vector<std::vector<std::string>>{{"--particles", "999"}, {"--particles", "15000001"}, {"--particles", "many"},

@@ -82,6 +82,7 @@ const BadValue bad_values[] = {
      "--whole-gpu: the backend is cpu"},
     {{"run", vacuum_scene, "--device", "2"}, "--device = 2: the backend is cpu"},
     {{"run", vacuum_scene, "--whole-gpu", "--backend", "cpu"}, "--whole-gpu: the backend is cpu"},
+    {{"run", vacuum_scene, "--without-lists"}, "--without-lists: the backend is cpu"},
     {{"particles", std::string(NATATOR_CONFORMANCE_DIR) + "/micro/a_free.json", "--device", "1"}, "--device = 1: the backend is cpu"},
     {{"run", vacuum_scene, "--gait", R"({"scene":"pool/eel","gait":{"frequency":1}})"},
      "--gait: has its gait under \"gait\", as the winner of an evolution; must be the gait alone; natator evaluate --gait takes either"},

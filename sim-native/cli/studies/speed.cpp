@@ -50,7 +50,8 @@ void add_speed(CLI::App& app, int& status) {
                                   : table_beside(common, "profile", speed_profile_columns(), speed_key_columns);
         if (gpu)
             run_gpu_speed_study({scenes, common.chosen_schemes(), common.chosen_precisions(), options->batches,
-                                 options->backend.device, options->repeats, common.quick, options->backend.whole_gpu},
+                                 options->backend.device, options->repeats, common.quick, options->backend.whole_gpu,
+                                 options->backend.without_lists},
                                 table, profile, report);
         else
             run_speed_study({scenes, common.chosen_schemes(), common.chosen_precisions(), options->threads, options->repeats,

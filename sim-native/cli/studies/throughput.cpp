@@ -37,7 +37,7 @@ void add_throughput(CLI::App& app, int& status) {
         on_gpu(options->backend, {});
         ThroughputStudy study{common.chosen_schemes(), common.chosen_precisions(), options->particles,
                               options->batches,        options->backend.device,    options->repeats,
-                              common.quick,            options->backend.whole_gpu};
+                              common.quick,            options->backend.whole_gpu, options->backend.without_lists};
         if (!options->settings.empty()) study.settings.clear();
         for (const std::string& setting : options->settings) study.settings.push_back(steps_of(setting));
         if (common.quick) {

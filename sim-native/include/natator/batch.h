@@ -47,6 +47,9 @@ struct BatchOptions {
     Precision precision = Precision::single_precision;
     int device = 0;               ///< number of the GPU, see cuda_devices
     bool whole_gpu = false;       ///< members by kernels of the whole GPU, some side by side; up to 20 000 particles with bits of its own
+    /// Of the water's neighbours in scheme `conserving`: they are searched in every sum over them, as where one scene by itself has
+    /// no memory for lists. The same bits in less memory, slower.
+    bool without_lists = false;
     BatchTimes* times = nullptr;  ///< gets the batch's times added, if there is one
     bool keep_starts = true;      ///< what begins as in one of the last batches is not settled again: the same bits, sooner
 };

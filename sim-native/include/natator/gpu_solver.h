@@ -16,7 +16,7 @@ enum class GpuPath {
     by_size,           ///< blocks for up to 20 000 particles in scheme `flex`, else the whole GPU; the bits are those of evaluate_on_gpu
     block,             ///< by blocks of threads, as a member of a batch; scheme `flex`, at most 65535 particles
     whole_gpu,         ///< by the whole GPU
-    whole_gpu_search,  ///< the same with contacts searched anew in each iteration, as where their lists overflow
+    whole_gpu_search,  ///< the same without lists, as where they do not fit: contacts and neighbours of water are searched each time
 };
 
 /// Where and how a GpuSolver computes.

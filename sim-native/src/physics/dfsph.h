@@ -116,7 +116,7 @@ struct PassingSpeed {
 
     /// `weight`: the neighbour's volume times the kernel's slope; what ends a list has none.
     NATATOR_HD void add(const Vec3<T>& relative_velocity, T weight) {
-        const T its_square = dot(relative_velocity, relative_velocity);
+        const T its_square = dot_as_everywhere(relative_velocity, relative_velocity);
         const T counted = weight > 0 ? its_square : T{};
         square = smaller(-square, -counted) * Scalar<T>(-1);
     }
@@ -136,7 +136,7 @@ struct ResponseSums {
 
     NATATOR_HD void add(const Vec3<T>& pair_gradient, T other_inverse_mass) {
         gradient += pair_gradient;
-        square += other_inverse_mass * dot(pair_gradient, pair_gradient);
+        square += other_inverse_mass * dot_as_everywhere(pair_gradient, pair_gradient);
     }
     /// 1 / (w_i |sum G_ij|^2 + sum w_j |G_ij|^2), or 0 without neighbours; DFSPH's alpha.
     NATATOR_HD T response(T inverse_mass) const {
@@ -229,7 +229,7 @@ NATATOR_HD T relief_share(T density, T volume, const WendlandKernel<R>& kernel) 
 template <class T>
 NATATOR_HD T weight_to_ghost(T own, T volume, T h, const Vec3<T>& gravity, const Vec3<T>& to_ghost, T impulse) {
     if (!(own > 0)) return T{};
-    const T weight = h / (own * volume) * dot(gravity, to_ghost);
+    const T weight = h / (own * volume) * dot_as_everywhere(gravity, to_ghost);
     return smaller(-smaller(-weight, impulse), impulse);
 }
 
@@ -283,7 +283,7 @@ struct ViscousSums {
 
     NATATOR_HD void add(const Vec3<T>& difference, const Vec3<T>& relative_velocity, Scalar<T> softening, T share,
                         const Vec3<T>& pair_gradient) {
-        const T approach = dot(relative_velocity, difference);  // (v_j - v_i) (x_i - x_j)
+        const T approach = dot_as_everywhere(relative_velocity, difference);  // (v_j - v_i) (x_i - x_j)
         impulse -= share * approach / (squared_length(difference) + softening) * pair_gradient;
     }
 };

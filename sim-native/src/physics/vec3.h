@@ -60,6 +60,22 @@ NATATOR_HD T dot(const Vec3<T>& a, const Vec3<U>& b) {
 NATATOR_HD double dot(const Vec3<double>& a, const Vec3<double>& b) {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
+/// The same; on a GPU rounded in the same way in whatever kernel it is, where the compiler chooses which of the products to round.
+template <class T, class U>
+NATATOR_HD T dot_as_everywhere(const Vec3<T>& a, const Vec3<U>& b) {
+#if defined(__CUDA_ARCH__)
+    return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
+#else
+    return dot(a, b);
+#endif
+}
+NATATOR_HD double dot_as_everywhere(const Vec3<double>& a, const Vec3<double>& b) {
+#if defined(__CUDA_ARCH__)
+    return fma(a.z, b.z, fma(a.x, b.x, a.y * b.y));
+#else
+    return dot(a, b);
+#endif
+}
 template <class T>
 NATATOR_HD Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

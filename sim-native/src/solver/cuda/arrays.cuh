@@ -19,21 +19,21 @@
 
 #define NATATOR_SCRATCH_ARRAYS(X)                                                                                  \
     /* Unsorted: in the order before slots are numbered, with inverse mass and number in w. */                     \
-    X(Quad<Real>, unsorted_position, all, scratch)                                                                 \
+    X(Quad<Real>, unsorted_position, room.unsorted, scratch)                                                       \
     X(Quad<Real>, predicted_velocity, all, scratch) /* v* after external forces, by slot */                        \
-    X(Quad<Real>, unsorted_velocity, all, scratch)                                                                 \
+    X(Quad<Real>, unsorted_velocity, room.unsorted, scratch)                                                       \
     /* By slot; w of the start as in position. */                                                                  \
     X(Quad<Real>, start, all, scratch)                                                                             \
     X(Index, number, all, scratch)                                                                                 \
     X(uint4, neighbour, room.neighbours, scratch) /* fluid neighbours of fluid slots, in chunks */                 \
-    X(Index, neighbour_count, all, scratch)                                                                        \
+    X(Index, neighbour_count, room.neighbour_counts, scratch)                                                      \
     /* Entry k of fluid slot s at [k * fluid + s], of a solid's at [k * solids + s - fluid]. */                    \
     X(Index, fluid_contact, room.fluid_contacts, scratch)                                                          \
     X(Index, solid_contact, room.solid_contacts, scratch)                                                          \
     X(Index, contact_count, all, scratch)                                                                          \
     X(Index, plane_contact, all, scratch)     /* bit k: plane k may be touched in this substep */                  \
-    X(Index, touched, all, scratch)           /* slots that have contacts, in no order */                          \
-    X(Quad<Real>, contact_push, all, scratch) /* w: how many contacts */                                           \
+    X(Index, touched, room.touched, scratch)  /* slots that have contacts, in no order */                          \
+    X(Quad<Real>, contact_push, room.touched, scratch) /* by slot; w: how many contacts */                         \
     /* Where an effect needs them. */                                                                              \
     X(Real, density, plan.fluid && plan.free_surface_drag ? all : 0, scratch)     /* in units of rest density */   \
     X(Real, overlaps, plan.dissipation ? all : 0, scratch)                 /* contacts that are, when predicted */ \

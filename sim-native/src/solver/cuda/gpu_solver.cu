@@ -155,8 +155,7 @@ private:
 template <class Real>
 class GpuSolver<Real>::ByWholeGpu : public Implementation {
 public:
-    ByWholeGpu(const Model& model, cuda::ContactRoom room, bool forces)
-        : Implementation(model), runner_(model, 1, room, forces) {}
+    ByWholeGpu(const Model& model, const cuda::LargeOptions& options) : Implementation(model), runner_(model, 1, options) {}
 
     std::vector<Real> pressures() const override {
         const std::vector<Real> of_fluid = h_ > 0 ? runner_.pressures(h_) : std::vector<Real>{};
@@ -217,12 +216,15 @@ GpuSolver<Real>::GpuSolver(const Model& model, const GpuSolverOptions& options) 
     if (path == GpuPath::block && model.particles() > cuda::most_particles_of_a_block)
         throw InputError("backend cuda: " + std::to_string(model.particles()) + " particles by blocks; must be at most " +
                          std::to_string(cuda::most_particles_of_a_block));
+    cuda::LargeOptions large{.keeps_forces = options.forces};
+    if (path == GpuPath::whole_gpu_search) {
+        large.room = {0, 0};
+        large.lists = cuda::WaterLists::never;
+    }
     if (path == GpuPath::block)
         implementation_ = std::make_unique<ByBlock>(model);
     else
-        implementation_ = std::make_unique<ByWholeGpu>(
-            model, path == GpuPath::whole_gpu ? cuda::LargeRunner<Real>::usual_room : cuda::ContactRoom{0, 0},
-            options.forces);
+        implementation_ = std::make_unique<ByWholeGpu>(model, large);
 }
 template <class Real>
 GpuSolver<Real>::~GpuSolver() = default;

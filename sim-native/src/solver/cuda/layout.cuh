@@ -67,10 +67,13 @@ Layout layout_of(const ModelView<Real>& model, TeamKind kind, int blocks, std::s
     const auto if_shared = [&](std::size_t count) { return shared ? count : 0; };
     const auto if_split = [&](int count) -> std::size_t { return at.splits_solids ? count : 0; };
     const struct {
-        std::size_t next, cells, neighbours, fluid_contacts, solid_contacts, staging;
+        std::size_t next, unsorted, touched, neighbour_counts, cells, neighbours, fluid_contacts, solid_contacts, staging;
         std::size_t solids, solid_bounds, spring_shares, members, clusters;
         std::size_t ranks, chip_cells, chip_slots, chip_touched;
     } room{on_chip ? std::max(all, least_rows * row / sizeof(Quad<Real>)) : all,
+           all,
+           all,
+           all,
            static_cast<std::size_t>(model.grid.words()),
            fluid * ((model.most_neighbours + 7) / 8),
            plan.contacts ? fluid * solids : 0,

@@ -33,7 +33,7 @@ FetchRoof measure_fetch_roof(const Scene& scene, const std::vector<Gait>& gaits,
     choose_device(device);
     const Model model = build_model(scene);
     if (const auto reason = refusal(model)) throw InputError("backend cuda: " + *reason);
-    FetchRunner runner(model, static_cast<int>(gaits.size()));
+    FetchRunner runner(model, static_cast<int>(gaits.size()), {.lists = WaterLists::always});
     for (int k = 0; k < runner.states(); ++k) runner.upload(k, initial_state<float>(model));
     const Settling& settling = scene.settling;
     for (int k = 0; k < settling.updates; ++k) run_stable(runner, {0, settling.time_step, settling.substeps, {}, true});

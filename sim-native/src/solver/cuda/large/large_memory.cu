@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <new>
 #include <utility>
 
 #include "rows.h"
@@ -13,7 +15,6 @@ namespace natator::cuda {
 namespace {
 
 constexpr int usual_neighbours = 32;      // of fluid in scheme flex: a lattice has 18, and it packs closer by half
-constexpr int usual_copies = 2;           // of a particle of the water, itself and ghosts, on average
 constexpr int fluid_around_a_solid = 32;  // that has room for lists of contacts
 
 template <class Real>
@@ -22,6 +23,13 @@ Real as_quad_number(int i) {
         return std::bit_cast<float>(i);
     else
         return std::bit_cast<double>(static_cast<long long>(i));
+}
+
+/// Particles of the water and their ghosts, as in a cube with walls on all sides.
+template <class Real>
+int usual_copies(const ModelView<Real>& size) {
+    const double particles = size.particles;
+    return static_cast<int>(std::min(size.water.most_copies * particles, particles + 20 * std::pow(particles, 2.0 / 3)));
 }
 
 /// A new array in a buffer, in place of the old one: both are never there.
@@ -35,20 +43,25 @@ void renew(DeviceBuffer<T>& buffer, std::size_t count, T*& array) {
 }  // namespace
 
 template <class Real>
-LargeMemory<Real>::LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states, ContactRoom room,
-                               bool keeps_forces, cudaStream_t stream)
+LargeMemory<Real>::LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states,
+                               const LargeOptions& options, cudaStream_t stream)
     : model_(model),
       device_model_(device_model),
       view_(device_model.view()),
       states_(states),
+      lists_(options.lists),
       stream_(stream),
       idle_(states, 0) {
-    slots_.room = room;
-    allocate(keeps_forces);
+    slots_.room = options.room;
+    allocate(options.keeps_forces);
     const std::size_t particles = view_.particles;
     before_.position = DeviceBuffer<Quad<Real>>(states * particles);
     before_.velocity = DeviceBuffer<Quad<Real>>(states * particles);
     before_.fit = DeviceBuffer<ClusterFit<Real>>(states * std::size_t(view_.clusters));
+    if (!view_.plan.water) return;
+    make_room_for_copies(usual_copies(view_));
+    list_water(blocks_for(view_.particles, slots_of_row) *
+               blocks_for(usual_water_neighbours(model.parameters.kernelSupport), water_lists));
 }
 
 /// The arrays of a State one behind the other, and so for each State.
@@ -59,9 +72,11 @@ void LargeMemory<Real>::allocate(bool keeps_forces) {
     const bool turns = size.scheme != Scheme::flex;
     const std::size_t all = size.particles + 1, water = plan.water ? size.particles : 0;
     if (plan.contacts && plan.fluid) slots_.room.fluid_rows = std::min(size.fluid, fluid_around_a_solid * size.solids);
+    // Water touches nothing: only its solids are in contacts.
+    const std::size_t touched = plan.water ? size.solids : all, not_in_water = plan.water ? 0 : all;
     const struct {
-        std::size_t next, cells, neighbours, fluid_contacts, solid_contacts;
-    } room{all, std::size_t(2) * size.grid.cells, 0,
+        std::size_t next, unsorted, touched, neighbour_counts, cells, neighbours, fluid_contacts, solid_contacts;
+    } room{not_in_water, not_in_water, touched, not_in_water, std::size_t(2) * size.grid.cells, 0,
            std::size_t(slots_.room.fluid_rows) * slots_.room.fluid,
            plan.contacts ? std::size_t(size.solids) * slots_.room.solid : 0};
     std::vector<std::pair<void**, std::size_t>> places;
@@ -78,19 +93,41 @@ void LargeMemory<Real>::allocate(bool keeps_forces) {
     NATATOR_WATER_ARRAYS(NATATOR_GIVE)
 #undef NATATOR_GIVE
     memory_ = DeviceBuffer<char>(bytes * states_);
+    memory_.clear();  // slots are numbers, also in States that nobody advances
     for (const auto& [array, place] : places) *array = memory_.data() + place;
+    if (plan.water) share_places();
     slots_.stride = bytes;
     shared_ = DeviceBuffer<LargeShared<Real>>(states_);
     slots_.at.shared = shared_.data();
     device_idle_ = DeviceBuffer<int>(idle_);
     slots_.at.idle = device_idle_.data();
     scan_room_ = DeviceBuffer<char>(scan_bytes(std::max(2 * size.grid.cells, size.water.grid.cells), states_));
-    if (plan.water) {
-        make_room_for_rows(blocks_for(size.particles, slots_of_row) *
-                           blocks_for(usual_water_neighbours(model_.parameters.kernelSupport), water_lists));
-        make_room_for_copies(std::min(size.water.most_copies, usual_copies) * size.particles);
-    }
     if (plan.fluid) make_room_in_fluid(std::min(size.most_neighbours, usual_neighbours));
+}
+
+/// What the water needs for a part of a substep lies where something else does in another. Only solids are touched, whose slots come
+/// last.
+template <class Real>
+void LargeMemory<Real>::share_places() {
+    StateArrays<Real>& at = slots_.at;
+    WaterArrays<Real>& water = slots_.water;
+    at.unsorted_position = water.pushed;
+    at.unsorted_velocity = water.relief = water.crowding;
+    at.next = water.parting;
+    at.contact_push -= view_.fluid;
+}
+
+/// Lists with so many rows, or none. Without the memory for them nothing has changed, but that the old ones are gone.
+template <class Real>
+void LargeMemory<Real>::list_water(int rows) {
+    if (lists_ == WaterLists::never) return;
+    try {
+        make_room_for_rows(rows);
+    } catch (const std::bad_alloc&) {
+        if (lists_ == WaterLists::always) throw;
+        lists_ = WaterLists::never;
+        make_room_for_rows(0);
+    }
 }
 
 /// In the water's lists of each State.
@@ -124,7 +161,7 @@ void LargeMemory<Real>::make_room(ListRoom needed) {
     if (needed.copies > room().copies) make_room_for_copies(needed.copies);
     if (needed.lists <= room().lists) return;
     if (view_.plan.water)
-        make_room_for_rows(needed.lists);
+        list_water(needed.lists);
     else
         make_room_in_fluid(std::min(needed.lists, view_.most_neighbours));
 }

@@ -9,13 +9,23 @@
 
 namespace natator::cuda {
 
+/// Whether the water's neighbours are listed.
+enum class WaterLists { always, where_they_fit, never };
+
+/// What a large State is to have.
+struct LargeOptions {
+    ContactRoom room{32, 256};
+    bool keeps_forces = false;  ///< the impulses on solids
+    WaterLists lists = WaterLists::where_they_fit;
+};
+
 /// The device memory of States of a Model side by side, and the way of States to it and back.
 template <class Real>
 class LargeMemory {
 public:
-    /// `device_model` is the copy of `model`; both must outlive it. `keeps_forces`: with room for the impulses on solids. All
-    /// copies are asked of `stream`. Throws std::bad_alloc without memory for so many States.
-    LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states, ContactRoom room, bool keeps_forces,
+    /// `device_model` is the copy of `model`; both must outlive it. All copies are asked of `stream`. Throws
+    /// std::bad_alloc without memory for so many States.
+    LargeMemory(const Model& model, const DeviceModel<Real>& device_model, int states, const LargeOptions& options,
                 cudaStream_t stream);
 
     /// Where everything lies: until the next make_room.
@@ -24,7 +34,9 @@ public:
 
     /// What lists have room for.
     ListRoom room() const { return view_.plan.water ? slots_.water_room : ListRoom{.lists = 4 * slots_.chunks}; }
-    bool has_room(ListRoom needed) const { return needed.lists <= room().lists && needed.copies <= room().copies; }
+    bool has_room(ListRoom needed) const {
+        return (needed.lists <= room().lists || !has_lists()) && needed.copies <= room().copies;
+    }
     /// Makes it for at least so much; lists that grow lie elsewhere then, and are empty.
     void make_room(ListRoom needed);
 
@@ -43,8 +55,11 @@ public:
     std::vector<bool> idle() const { return {idle_.begin(), idle_.end()}; }
 
 private:
+    bool has_lists() const { return !view_.plan.water || lists_ != WaterLists::never; }
     void allocate(bool keeps_forces);
+    void share_places();
     void make_room_for_rows(int rows);
+    void list_water(int rows);
     void make_room_for_copies(int copies);
     void make_room_in_fluid(int neighbours);
     void wait() const;
@@ -53,6 +68,7 @@ private:
     const DeviceModel<Real>& device_model_;
     const ModelView<Real>& view_;
     int states_;
+    WaterLists lists_;
     cudaStream_t stream_;
     Slots<Real> slots_{};
     DeviceBuffer<char> memory_, scan_room_;

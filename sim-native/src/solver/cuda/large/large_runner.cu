@@ -30,14 +30,14 @@ struct Captured {
 }  // namespace
 
 template <class Real>
-LargeRunner<Real>::LargeRunner(const Model& model, int states, ContactRoom room, bool keeps_forces)
+LargeRunner<Real>::LargeRunner(const Model& model, int states, const LargeOptions& options)
     : host_model_(model),
       device_model_(model, true),
       base_{.model = device_model_.view(),
             .states = states,
             .stream = stream_.get(),
-            .keeps_forces = keeps_forces && device_model_.view().plan.water},
-      memory_(model, device_model_, states, room, base_.keeps_forces, base_.stream),
+            .keeps_forces = options.keeps_forces && device_model_.view().plan.water},
+      memory_(model, device_model_, states, options, base_.stream),
       muscles_(states),
       end_(states) {
     base_.slots = memory_.slots();

@@ -21,10 +21,8 @@ namespace natator::cuda {
 template <class Real>
 class LargeRunner {
 public:
-    static constexpr ContactRoom usual_room{32, 256};
-
-    /// Throws std::bad_alloc without memory for so many States. `keeps_forces`: for impulses_on_solids.
-    explicit LargeRunner(const Model& model, int states = 1, ContactRoom room = usual_room, bool keeps_forces = false);
+    /// Throws std::bad_alloc without memory for so many States.
+    explicit LargeRunner(const Model& model, int states = 1, const LargeOptions& options = {});
     ~LargeRunner();
     LargeRunner(const LargeRunner&) = delete;
     LargeRunner& operator=(const LargeRunner&) = delete;

@@ -42,8 +42,12 @@ inline Start start_of(const BatchMember& member, const Scene& scene) {
 template <class Real>
 class LargeScene {
 public:
-    LargeScene(const Scene& scene, const Company& company, int states, bool keeps_starts, BatchTimes* times)
-        : scene_(scene), company_(company), keeps_starts_(keeps_starts), times_(times), runner_(company.model, states) {}
+    LargeScene(const Scene& scene, const Company& company, int states, WaterLists lists, bool keeps_starts, BatchTimes* times)
+        : scene_(scene),
+          company_(company),
+          keeps_starts_(keeps_starts),
+          times_(times),
+          runner_(company.model, states, {.lists = lists}) {}
 
     /// Members from `first` on, at most as many as there are States.
     void evaluate(int first, int count, std::vector<Evaluation>& evaluations) {

@@ -8,20 +8,18 @@ namespace {
 template <class Real>
 __device__ void densities_large(const ModelView<Real>& model, const Slots<Real>& slots, int s, Real* density) {
     density += static_cast<std::size_t>(blockIdx.y) * model.fluid;
-    if (model.plan.water)
-        density[s] = slots.water.density_of[s];
-    else
-        density[slots.number()[s]] = compression_of(model, slots, s, xyz(slots.position()[s])) + 1;
+    density[slots.number()[s]] = model.plan.water ? slots.water.density[slots.water.slot_before[s]]
+                                                  : compression_of(model, slots, s, xyz(slots.position()[s])) + 1;
 }
 
 template <class Real>
 __device__ void neighbour_counts_large(const ModelView<Real>& model, const Slots<Real>& slots, int s, int* counts) {
     counts += static_cast<std::size_t>(blockIdx.y) * model.particles;
+    int& count = counts[slots.number()[s]];
     if (model.plan.water)
-        counts[s] = slots.water.count_of[s];
+        count = slots.water.count[slots.water.slot_before[s]];
     else
-        counts[slots.number()[s]] =
-            (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
+        count = (s < model.fluid ? slots.neighbour_count()[s] : 0) + (model.plan.contacts ? slots.contact_count()[s] : 0);
 }
 
 template <class Real>

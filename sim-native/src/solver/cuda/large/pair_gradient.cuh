@@ -60,7 +60,7 @@ private:
 /// u G, in the order that a state's hash stands for; of numbers in double it is dot's.
 template <class Real>
 __device__ Real along(const Vec3<Real>& gradient, const Vec3<Real>& u) {
-    return dot(u, gradient);
+    return dot_as_everywhere(u, gradient);
 }
 __device__ inline float along(const Vec3<float>& gradient, const Vec3<float>& u) {
     return __fmaf_rn(u.x, gradient.x, __fmaf_rn(u.z, gradient.z, u.y * gradient.y));

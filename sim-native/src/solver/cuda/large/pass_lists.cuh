@@ -1,7 +1,7 @@
 #pragma once
 
 // How the passes of the water go through its lists: with as many threads for a slot as there is work for.
-#include "water_neighbours.cuh"
+#include "water_gradients.cuh"
 
 namespace natator::cuda {
 
@@ -74,7 +74,7 @@ private:
 /// gradients are known; `value` is what is in `array` at the neighbour's slot. `rows` of the lists are under way
 /// at a time.
 template <int lanes, int rows, class Real, class Visit, class Value>
-__device__ void for_each_pass_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value* array) {
+__device__ void for_each_listed_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value* array) {
     constexpr int own = water_lists / lanes;
     const int lane = static_cast<int>(threadIdx.x) % lanes, count = slots.water.count[s];
     const int first_list = reversed_list(own * lane);
@@ -110,6 +110,35 @@ __device__ void for_each_pass_pair(const Slots<Real>& slots, int s, const Visit&
                     visit(list, gradient[r].of[list].value(), entry[r].of[list] >> most_slot_bits, there[r].of[list]);
         }
     }
+}
+
+/// The same where there are no lists: a thread has what its one list would have.
+template <int lanes, class Real, class Visit, class Value>
+__device__ void for_each_searched_pair(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool wanted,
+                                       const Visit& visit, const Value* array) {
+    static_assert(lanes == water_lists);
+    const WaterArrays<Real>& water = slots.water;
+    const GradientsOf<Real> own(model, water, s);
+    for_each_found(
+        model, slots, s, model.particles, wanted, reversed_list(own_lane()),
+        [](int, const Quad<Real>& candidate) { return entry_of(candidate); },
+        [&](unsigned entry) {
+            const auto add = [&](int, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
+                                 const Quad<Real>& shear, const Value& value) {
+                visit(0, own.kept(borders, there, correction, shear), borders, value);
+            };
+            visit_entry(entry, values_at(entry, water.position, water.correction, water.shear, array), add);
+        });
+}
+
+/// Either, for none if they are not `wanted`.
+template <Pairs pairs, int lanes, int rows, class Real, class Visit, class Value>
+__device__ void for_each_pass_pair(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool wanted,
+                                   const Visit& visit, const Value* array) {
+    if constexpr (pairs == Pairs::searched)
+        for_each_searched_pair<lanes>(model, slots, s, wanted, visit, array);
+    else if (wanted)
+        for_each_listed_pair<lanes, rows>(slots, s, visit, array);
 }
 
 // Rows that are under way at a time, by what is fetched of each neighbour.

@@ -85,10 +85,10 @@ __device__ inline int place_of(unsigned neighbour) {
     X(Quad<Real>, pushed, water)     /* the same with the viscosity and effects of the substep */                     \
     X(Quad<Real>, correction, water) /* L: xx, yy, zz, xy */                                                          \
     X(Quad<Real>, shear, water)      /* xz, yz; mobility, see physics::mobility; 1 for solids */                      \
-    X(Quad<Real>, parting, water)    /* velocities that part overlaps; w: inverse mass, 0 for solids */               \
+    X(Quad<Real>, parting, plan.water ? all : 0) /* velocities that part overlaps; w: inverse mass, 0 for solids */   \
     X(Quad<Real>, crowding, water)                                                                                    \
+    X(Quad<Real>, relief, 0)         /* in the same place, later: E_j times its relief_share; w: impulse_sum */       \
     X(Quad<Real>, zeroth, water)     /* sum of G_ij; w: physics::relief */                                            \
-    X(Quad<Real>, relief, water)     /* E_j times its relief_share; w: impulse_sum */                                                 \
     X(Quad<Real>, normal, size.surface_tension > 0 ? water : 0) /* of the surface, see physics::colour_normal */      \
     X(Quad<Real>, vorticity, size.vorticity > 0 ? water : 0)    /* w: its norm */                                     \
     X(Real, density, water)                                                                                           \
@@ -97,8 +97,6 @@ __device__ inline int place_of(unsigned neighbour) {
     X(Real, volume, water)                                                                                            \
     X(Real, impulse_sum, water) /* of the substep so far */                                                           \
     X(Real, impulse, water)                                                                                           \
-    X(Real, density_of, water) /* by number */                                                                        \
-    X(int, count_of, water)    /* by number */                                                                        \
     X(int, slot_before, water) /* by slot of this substep */                                                          \
     X(int, slot_of_solid, plan.water ? size.solids : 0)                                                               \
     X(Quad<Real>, impulse_on, keeps_forces ? size.solids : 0) /* of the water, in the update so far; by solid */
@@ -195,6 +193,9 @@ public:
     __device__ std::size_t water_place(int s) const {
         return static_cast<std::size_t>(water.first_row[s / slots_of_row]) * water_row + s % slots_of_row * water_lists;
     }
+
+    /// Are the water's neighbours listed? Else there is no room for that, and every sum searches them.
+    __host__ __device__ bool lists_water() const { return water_room.lists > 0; }
 
     /// Nothing that is not finite goes through further substeps: its cells would hold too many particles.
     __device__ bool failed() const {

@@ -104,6 +104,9 @@ template <class Real>
 void launch_substep(const LargeLaunch<Real>& launch);
 template <class Real, Scheme scheme>
 void launch_substep_of(const LargeLaunch<Real>& launch);
+/// Of water, in scheme conserving.
+template <class Real>
+void launch_substep_without_lists(const LargeLaunch<Real>& launch);
 
 template <class Real, Scheme scheme>
 void launch_predict(const LargeLaunch<Real>& launch);

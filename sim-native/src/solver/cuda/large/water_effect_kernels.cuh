@@ -8,12 +8,12 @@
 namespace natator::cuda {
 
 /// Normals of the surface and vorticity of the fluid, by all neighbours.
-template <class Real>
+template <Pairs pairs, class Real>
 __device__ void measure_water(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Vec3<Real> v = xyz(water.velocity[s]);
     Vec3<Real> gradients{}, vorticity{};
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
+    for_each_water_pair<pairs>(model, slots, s, model.fluid, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
         gradients += gradient;
         if (model.vorticity > 0)
             vorticity += physics::vorticity_part(xyz(seen(model, water.velocity[other], borders)) - v, gradient);
@@ -31,7 +31,7 @@ __device__ void measure_water(const ModelView<Real>& model, const Slots<Real>& s
 }
 
 /// Free-surface drag, then cohesion, surface tension and vorticity confinement of the fluid.
-template <class Real>
+template <Pairs pairs, class Real>
 __device__ void push_water_by_effects(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const WaterModel<Real>& of = model.water;
@@ -42,7 +42,7 @@ __device__ void push_water_by_effects(const ModelView<Real>& model, const Slots<
     const Real w = water.velocity[s].w, inverse_radius = 1 / of.effect_radius;
     Vec3<Real> pull{}, tension{}, towards_stronger{};
     if (cohesive || tense || confined)
-        for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
+        for_each_water_pair<pairs>(model, slots, s, model.fluid, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
             if (other >= model.fluid) return;
             if (confined) towards_stronger += (water.vorticity[other].w - vorticity.w) * gradient;
             const Vec3<Real> difference = x - ghost_of(of, xyz(water.position[other]), borders);

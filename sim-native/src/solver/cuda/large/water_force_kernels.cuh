@@ -14,29 +14,29 @@ __device__ void add_impulse(const ModelView<Real>& model, const Slots<Real>& slo
 }
 
 /// As water_viscosity does, on the same velocities; of solid slot `model.fluid + k`, by the water alone.
-template <class Real>
+template <Pairs pairs, class Real>
 __device__ void add_viscous_forces(const ModelView<Real>& model, const Slots<Real>& slots, int k) {
     const int s = model.fluid + k;
     const WaterArrays<Real>& water = slots.water;
     const Real strength = viscous_strength(model, slots);
-    ViscousPairs<Real> pairs(model, water, s, strength);
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
+    ViscousPairs<Real> sums(model, water, s, strength);
+    for_each_water_pair<pairs>(model, slots, s, model.particles, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
         if (other < model.fluid)
-            pairs.add(gradient, borders, water.position[other], water.velocity[other], water.shear[other]);
+            sums.add(gradient, borders, water.position[other], water.velocity[other], water.shear[other]);
     });
-    const Vec3<Real> sum = pairs.impulse();
+    const Vec3<Real> sum = sums.impulse();
     if (own_lane() == 0) add_impulse(model, slots, s, strength * sum);
 }
 
 /// Of all passes of a substep together, and of the relief that was given back after them; of solid slot `model.fluid + k`.
-template <class Real>
+template <Pairs pairs, class Real>
 __device__ void add_pressure_forces(const ModelView<Real>& model, const Slots<Real>& slots, int k) {
     const int s = model.fluid + k;
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s];
     const physics::PairSide<Real> own{here.w, water.impulse_sum[s], xyz(water.relief[s])};
     Vec3<Real> sum{};
-    for_each_water_pair(slots, s, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
+    for_each_water_pair<pairs>(model, slots, s, model.particles, [&](const Vec3<Real>& gradient, int other, unsigned borders) {
         if (other >= model.fluid) return;
         const Quad<Real> there = water.position[other];
         const Vec3<Real> difference = xyz(here) - ghost_of(model.water, xyz(there), borders);

@@ -5,58 +5,38 @@
 #include "body_momentum.cuh"
 #include "pass_lists.cuh"
 #include "water_cells.cuh"
-#include "water_neighbours.cuh"
 
 namespace natator::cuda {
-
-/// A vector of a neighbour; of a ghost as it is beyond the borders. w as it is.
-template <class Real>
-__device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>& v, unsigned borders) {
-    return borders == 0 ? v : quad(turned(model.water.ghost_map[borders], xyz(v)), v.w);
-}
-
-template <class Real>
-__device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction, const Quad<Real>& shear) {
-    return {correction.x, correction.y, correction.z, correction.w, shear.x, shear.y};
-}
 
 static_assert(physics::divergence_passes == 1, "its impulses are those of water_gradients");
 
 /// G_ij, the response, how fast neighbours pass, and the impulses of the divergence pass, as the sum of the substep so far.
-template <class Real>
+template <Pairs pairs, class Real>
 __device__ void water_gradients(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
-    const Quad<Real> here = water.position[s], own_shear = water.shear[s];
-    const physics::Symmetric3<Real> own = correction_of(water.correction[s], own_shear);
+    const GradientsOf<Real> own(model, water, s);
     const Vec3<Real> v = xyz(water.velocity[s]);
     physics::ResponseSums<Real> sums;
     physics::PassingSpeed<Real> fastest;
     Real rate = 0;
     const auto add = [&](std::size_t place, int, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
                          const Quad<Real>& shear, const Quad<Real>& velocity) {
-        Vec3<Real> x = xyz(there), its_v = xyz(velocity);
-        physics::Symmetric3<Real> its = correction_of(correction, shear);
-        if (borders != 0) {  // all at once: few warps have ghosts
-            const GhostMap<Real>& map = model.water.ghost_map[borders];
-            x = ghost_of(model.water, x, borders);
-            its_v = turned(map, its_v);
-            its = turned(map, its);
-        }
-        const Vec3<Real> difference = xyz(here) - x, relative = its_v - v;
-        const Real slope = model.water.kernel.slope(physics::length_of(difference));
-        Vec3<Real> gradient = physics::pair_gradient(difference, slope, here.w * there.w, own + its);
-        water.pair[place] = PairGradient<Real>::keep(gradient);
+        auto [gradient, slope] = own.with(borders, there, correction, shear);
+        const Vec3<Real> relative = xyz(seen(model, velocity, borders)) - v;
+        const PairGradient<Real> kept = PairGradient<Real>::keep(gradient);
+        if constexpr (pairs == Pairs::listed) water.pair[place] = kept;
         sums.add(gradient, shear.z);
         fastest.add(relative, there.w * slope);
         rate += along(gradient, relative);
     };
-    for_each_water_neighbour<1>(slots, s, add, water.position, water.correction, water.shear, water.velocity);
+    for_each_water_neighbour<pairs, 1>(model, slots, s, model.particles, add, water.position, water.correction, water.shear,
+                                       water.velocity);
     sums.gradient = sum_of_lanes(sums.gradient);
     sums.square = sum_of_lanes(sums.square);
     rate = sum_of_lanes(rate);
     fastest.square = largest_of_lanes(fastest.square);
     if (own_lane() != 0) return;
-    const Real response = sums.response(own_shear.z);
+    const Real response = sums.response(water.shear[s].z);
     water.fastest_square[s] = fastest.square;
     water.response[s] = response;
     water.zeroth[s] = quad(sums.gradient, Real(0));
@@ -75,18 +55,19 @@ constexpr bool parts(Pass pass) {
 }
 
 /// The impulses of a Jacobi pass. `lanes` threads share a slot.
-template <Pass pass, int lanes, class Real>
+template <Pass pass, Pairs pairs, int lanes, class Real>
 __device__ void water_impulses(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Real density = water.density[s];
     ListSums<lanes, Real> rates;
-    if (pass != Pass::first_parting && density > Real(physics::wet_density)) {  // else it has no impulse
+    if constexpr (pass != Pass::first_parting) {
+        const bool wet = density > Real(physics::wet_density);  // else it has no impulse
         const Quad<Real>* const velocity = parts(pass) ? water.parting : water.velocity;
         const Vec3<Real> v = xyz(velocity[s]);
         const auto add = [&](int list, const Vec3<Real>& gradient, unsigned borders, const Quad<Real>& u) {
-            rates[list] += dot(xyz(seen(model, u, borders)) - v, gradient);
+            rates[list] += dot_as_everywhere(xyz(seen(model, u, borders)) - v, gradient);
         };
-        for_each_pass_pair<lanes, rows_of_velocities<lanes>>(slots, s, add, velocity);
+        for_each_pass_pair<pairs, lanes, rows_of_velocities<lanes>>(model, slots, s, wet, add, velocity);
     }
     const Real rate = rates.total();
     if (!rates.first_lane()) return;
@@ -119,14 +100,14 @@ __device__ void move_solid(const ModelView<Real>& model, const Slots<Real>& slot
 }
 
 /// v_i -= w_i sum (impulse_i + impulse_j) G_ij, and relief. `lanes` threads share a slot.
-template <Pass pass, int lanes, class Real>
+template <Pass pass, Pairs pairs, int lanes, class Real>
 __device__ void push_water_apart(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Real* const impulse = pass == Pass::divergence ? water.impulse_sum : water.impulse;
     const Real own = impulse[s];
     ListSums<lanes, Vec3<Real>> sums;
     const auto add = [&](int list, const Vec3<Real>& gradient, unsigned, Real its) { sums[list] += (own + its) * gradient; };
-    for_each_pass_pair<lanes, rows_of_impulses<lanes>>(slots, s, add, impulse);
+    for_each_pass_pair<pairs, lanes, rows_of_impulses<lanes>>(model, slots, s, true, add, impulse);
     const Vec3<Real> sum = sums.total();
     if (!sums.first_lane()) return;
     const bool fluid = s < model.fluid;
@@ -180,18 +161,18 @@ __device__ Real viscous_strength(const ModelView<Real>& model, const Slots<Real>
 }
 
 /// Viscosity; the velocities that neighbours see stay as they were.
-template <class Real>
+template <Pairs pairs, class Real>
 __device__ void water_viscosity(const ModelView<Real>& model, const Slots<Real>& slots, int s) {
     const WaterArrays<Real>& water = slots.water;
     const Real strength = viscous_strength(model, slots);
-    ViscousPairs<Real> pairs(model, water, s, strength);
+    ViscousPairs<Real> sums(model, water, s, strength);
     const auto add = [&](const Vec3<Real>& gradient, int, unsigned borders, const Quad<Real>& there,
                          const Quad<Real>& velocity, const Quad<Real>& shear) {
-        pairs.add(gradient, borders, there, velocity, shear);
+        sums.add(gradient, borders, there, velocity, shear);
     };
-    for_each_water_pair<2>(slots, s, add, water.position, water.velocity, water.shear);
+    for_each_water_pair<pairs, 2>(model, slots, s, model.particles, add, water.position, water.velocity, water.shear);
     const Quad<Real> moves = water.velocity[s];
-    const Vec3<Real> v = xyz(moves) + (strength * moves.w) * pairs.impulse();
+    const Vec3<Real> v = xyz(moves) + (strength * moves.w) * sums.impulse();
     if (own_lane() == 0) water.pushed[s] = quad(v, moves.w);
 }
 
@@ -249,11 +230,17 @@ __device__ void lay_out_relief(const ModelView<Real>& model, const Slots<Real>& 
 
 /// Once all passes are done: gives it back, and where `walls` hold up water, holds up what lies at them. Ghosts are behind
 /// borders, so only what is nearer to a plane than the kernel's support has any for neighbours.
-template <class Real>
+template <Pairs pairs, class Real>
 __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>& slots, int s, bool walls) {
     const WaterArrays<Real>& water = slots.water;
     const Quad<Real> here = water.position[s];
     Vec3<Real> given_back{}, weight{};
+    const auto gradient_at = [&](std::size_t place, int other, unsigned borders, const Quad<Real>& there) {
+        if constexpr (pairs == Pairs::listed)
+            return water.pair[place].value();
+        else
+            return GradientsOf<Real>(model, water, s).kept(borders, there, water.correction[other], water.shear[other]);
+    };
     const auto add = [&](std::size_t place, int other, unsigned borders, const Quad<Real>& x, const Quad<Real>& relief) {
         Vec3<Real> there = xyz(x), its = xyz(relief);
         if (borders != 0) {  // all at once: few warps have ghosts
@@ -265,12 +252,12 @@ __device__ void end_water_passes(const ModelView<Real>& model, const Slots<Real>
                     gravity = gravity - carried.part(xyz(x)) * carried.gravity;
                 weight += physics::weight_to_ghost(slots.at.state_position[other].w, x.w, slots.h, gravity, there - xyz(x),
                                                    relief.w) *
-                          water.pair[place].value();
+                          gradient_at(place, other, borders, x);
             }
         }
         given_back += model.water.kernel.value(physics::length_of(xyz(here) - there)) * its;
     };
-    for_each_water_neighbour<1>(slots, s, add, water.position, water.relief);
+    for_each_water_neighbour<pairs, 1>(model, slots, s, model.particles, add, water.position, water.relief);
     given_back = sum_of_lanes(given_back);
     weight = sum_of_lanes(weight);
     if (own_lane() != 0) return;

@@ -1,20 +1,20 @@
 #pragma once
 
-// The lists of neighbours in scheme conserving, and the loops over them. A warp's pair_lanes threads share a slot.
+// The neighbours of the water in scheme conserving, and the loops over them. A warp's pair_lanes threads share a slot.
 #include <cuda/std/tuple>
 
 #include "body_momentum.cuh"
+#include "found_neighbours.cuh"
 #include "pair_gradient.cuh"
-#include "water_ghosts.cuh"
 
 namespace natator::cuda {
 
-inline constexpr unsigned slot_mask = (1u << most_slot_bits) - 1;
+/// Where sums over pairs have them from, with the same bits.
+enum class Pairs {
+    listed,    ///< lists and gradients that are kept for a substep
+    searched,  ///< nothing but places: slower, in less memory
+};
 
-/// Of the threads that share a slot.
-__device__ inline int own_lane() {
-    return static_cast<int>(threadIdx.x) % pair_lanes;
-}
 template <class Real>
 __device__ Vec3<Real> sum_of_lanes(const Vec3<Real>& v) {
     return {sum_of_lanes(v.x), sum_of_lanes(v.y), sum_of_lanes(v.z)};
@@ -89,26 +89,26 @@ __device__ void for_each_water_entry(const Slots<Real>& slots, int s, const OwnA
 
 struct Nothing {};
 
-/// Calls visit(place in the list, slot, borders, values...) for each of them.
-template <int batch, class Real, class Visit, class... Value>
-__device__ void for_each_water_neighbour(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
-    for_each_water_entry<batch>(
-        slots, s, [](std::size_t) { return Nothing(); },
-        [&](std::size_t place, Nothing, int slot, unsigned borders, const Value&... value) {
-            visit(place, slot, borders, value...);
-        },
-        array...);
-}
-
-/// The same with G_ij instead of the place, once gradients are known.
-template <int batch = 4, class Real, class Visit, class... Value>
-__device__ void for_each_water_pair(const Slots<Real>& slots, int s, const Visit& visit, const Value*... array) {
-    for_each_water_entry<batch>(
-        slots, s, [&](std::size_t place) { return read_once(slots.water.pair + place); },
-        [&](std::size_t, const PairGradient<Real>& gradient, int slot, unsigned borders, const Value&... value) {
-            visit(gradient.value(), slot, borders, value...);
-        },
-        array...);
+/// Calls visit(place in the list, slot, borders, values...) for each of them; the place means nothing where they are searched, and the
+/// slots of all threads that call it are below `end`.
+template <Pairs pairs, int batch, class Real, class Visit, class... Value>
+__device__ void for_each_water_neighbour(const ModelView<Real>& model, const Slots<Real>& slots, int s, int end,
+                                         const Visit& visit, const Value*... array) {
+    if constexpr (pairs == Pairs::listed)
+        for_each_water_entry<batch>(
+            slots, s, [](std::size_t) { return Nothing(); },
+            [&](std::size_t place, Nothing, int slot, unsigned borders, const Value&... value) {
+                visit(place, slot, borders, value...);
+            },
+            array...);
+    else
+        for_each_found(
+            model, slots, s, end, true, own_lane(), [](int, const Quad<Real>& candidate) { return entry_of(candidate); },
+            [&](unsigned entry) {
+                visit_entry(entry, values_at(entry, array...), [&](int slot, unsigned borders, const Value&... value) {
+                    visit(std::size_t{0}, slot, borders, value...);
+                });
+            });
 }
 
 }  // namespace natator::cuda

@@ -1,0 +1,82 @@
+#pragma once
+
+// G_ij of scheme conserving between a slot of the water and its neighbours.
+#include "physics/dfsph.h"
+#include "water_neighbours.cuh"
+
+namespace natator::cuda {
+
+/// A vector of a neighbour; of a ghost as it is beyond the borders. w as it is.
+template <class Real>
+__device__ Quad<Real> seen(const ModelView<Real>& model, const Quad<Real>& v, unsigned borders) {
+    return borders == 0 ? v : quad(turned(model.water.ghost_map[borders], xyz(v)), v.w);
+}
+
+template <class Real>
+__device__ physics::Symmetric3<Real> correction_of(const Quad<Real>& correction, const Quad<Real>& shear) {
+    return {correction.x, correction.y, correction.z, correction.w, shear.x, shear.y};
+}
+
+/// G_ij of slot s with others, which are given as they are laid out.
+template <class Real>
+class GradientsOf {
+public:
+    struct Pair {
+        Vec3<Real> gradient;
+        Real slope;  ///< of the kernel
+    };
+
+    __device__ GradientsOf(const ModelView<Real>& model, const WaterArrays<Real>& water, int s)
+        : model_(model), here_(water.position[s]), own_(correction_of(water.correction[s], water.shear[s])) {}
+
+    __device__ Pair with(unsigned borders, const Quad<Real>& there, const Quad<Real>& correction, const Quad<Real>& shear) const {
+        Vec3<Real> x = xyz(there);
+        physics::Symmetric3<Real> its = correction_of(correction, shear);
+        if (borders != 0) {  // few warps have ghosts
+            x = ghost_of(model_.water, x, borders);
+            its = turned(model_.water.ghost_map[borders], its);
+        }
+        const Vec3<Real> difference = xyz(here_) - x;
+        const Real slope = model_.water.kernel.slope(physics::length_of(difference));
+        return {physics::pair_gradient(difference, slope, here_.w * there.w, own_ + its), slope};
+    }
+    /// The same as if it had been kept.
+    __device__ Vec3<Real> kept(unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
+                               const Quad<Real>& shear) const {
+        Vec3<Real> gradient = with(borders, there, correction, shear).gradient;
+        PairGradient<Real>::keep(gradient);
+        return gradient;
+    }
+
+private:
+    const ModelView<Real>& model_;
+    const Quad<Real> here_;
+    const physics::Symmetric3<Real> own_;
+};
+
+/// Calls visit(G_ij, slot, borders, values...) for this thread's share of the neighbours of slot s, once gradients are known, with what
+/// is at their slots in each of the arrays; as for_each_water_neighbour.
+template <Pairs pairs, int batch = 4, class Real, class Visit, class... Value>
+__device__ void for_each_water_pair(const ModelView<Real>& model, const Slots<Real>& slots, int s, int end, const Visit& visit,
+                                    const Value*... array) {
+    const WaterArrays<Real>& water = slots.water;
+    if constexpr (pairs == Pairs::listed) {
+        for_each_water_entry<batch>(
+            slots, s, [&](std::size_t place) { return read_once(water.pair + place); },
+            [&](std::size_t, const PairGradient<Real>& gradient, int slot, unsigned borders, const Value&... value) {
+                visit(gradient.value(), slot, borders, value...);
+            },
+            array...);
+    } else {
+        const GradientsOf<Real> own(model, water, s);
+        for_each_water_neighbour<pairs, batch>(
+            model, slots, s, end,
+            [&](std::size_t, int slot, unsigned borders, const Quad<Real>& there, const Quad<Real>& correction,
+                const Quad<Real>& shear, const Value&... value) {
+                visit(own.kept(borders, there, correction, shear), slot, borders, value...);
+            },
+            water.position, water.correction, water.shear, array...);
+    }
+}
+
+}  // namespace natator::cuda
