@@ -49,15 +49,22 @@ NATATOR_HD double relative_compliance(double softness, double h) {
 ///   Dlambda = (-C - alpha lambda) / (w_a n_a + w_b n_b + alpha), Dx_a = w_a Dlambda n.
 /// `weights` is w_a + w_b, `split` the sum with n. Returns Dx_a / w_a and adds to lambda.
 template <class T>
-NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T split, T rest_length,
-                                    SpringRule<T> rule, T h, T& lambda) {
+NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T split, T rest_length, T alpha, T& lambda) {
     const T length = norm(difference);
-    const T alpha = static_cast<T>(
-        relative_compliance(rule.softness * static_cast<double>(weights), static_cast<double>(h)));
     if (!(weights > 0 && length > 0 && alpha < static_cast<T>(HUGE_VAL))) return {};
     const T change = (rest_length - length - alpha * lambda) / (split + alpha);
     lambda += change;
     return change / length * difference;
+}
+/// Its compliance alpha in a substep of length h, s.
+template <class T>
+NATATOR_HD T spring_compliance(SpringRule<T> rule, T weights, T h) {
+    return static_cast<T>(relative_compliance(rule.softness * static_cast<double>(weights), static_cast<double>(h)));
+}
+template <class T>
+NATATOR_HD Vec3<T> xpbd_spring_push(const Vec3<T>& difference, T weights, T split, T rest_length,
+                                    SpringRule<T> rule, T h, T& lambda) {
+    return xpbd_spring_push(difference, weights, split, rest_length, spring_compliance(rule, weights, h), lambda);
 }
 
 /// Work of a change of rest length in a substep of length h, against the push lambda / h^2 with which the spring ends it:

@@ -2,8 +2,9 @@
 
 // Scheme conserving but for its water: a kernel per stage; what acts on solids is done by one block of threads.
 #include "body_momentum.cuh"
+#include "chip_solids.cuh"
 #include "flex_kernels.cuh"
-#include "solids.cuh"
+#include "solid_contacts.cuh"
 
 namespace natator::cuda {
 
@@ -20,22 +21,36 @@ __device__ void begin_large(const ModelView<Real>& model, const Slots<Real>& slo
     for (int k = first; k < model.members; k += step) slots.member_displacement()[k] = zero;
 }
 
+/// Tells the water how the solids move. Each thread its own.
+template <class Real>
+__device__ void tell_water(const ModelView<Real>& model, const Slots<Real>& slots) {
+    if (!model.plan.water) return;
+    for_each_in_block(model.solids, [&](int solid) {
+        slots.water.velocity[slots.water.slot_of_solid[solid]] =
+            constrained_velocity<Real>(slots, slots.slot_of_solid()[solid]);
+    });
+}
+
 /// Contacts, springs, clusters and planes of the solids, in all their iterations; tells the water how they move by then.
 /// One block.
 template <class Real>
-__device__ void solids_large(const ModelView<Real>& model, const Slots<Real>& slots) {
-    for (int k = 0; k < model.solid_iterations; ++k) {
+__device__ void solids_in_memory(const ModelView<Real>& model, const Slots<Real>& slots) {
+    iterate_solids(model, SolidsInMemory<Real>(model, slots), slots.h, [&] {
         if (model.plan.contacts) solve_contacts(model, slots);
-        if (model.plan.springs) solve_springs(model, slots);
-        if (model.plan.clusters) solve_clusters(model, slots);
-        for (int solid = threadIdx.x; solid < model.solids; solid += slots.size())
-            solve_planes_of(model, slots, slots.slot_of_solid()[solid]);
-        __syncthreads();
-    }
-    if (!model.plan.water) return;
-    for (int solid = threadIdx.x; solid < model.solids; solid += slots.size())
-        slots.water.velocity[slots.water.slot_of_solid[solid]] =
-            constrained_velocity<Real>(slots, slots.slot_of_solid()[solid]);
+    });
+    tell_water(model, slots);
+}
+
+/// The same without contacts.
+template <class Real>
+__device__ void solids_on_chip(const ModelView<Real>& model, const Slots<Real>& slots, const SolidLayout& layout) {
+    extern __shared__ __align__(128) char chip_memory[];
+    const SolidsInMemory<Real> memory(model, slots);
+    const SolidsOnChip<Real> chip(layout, chip_memory);
+    load_on_chip(model, memory, chip);
+    iterate_solids(model, chip, slots.h, [] {});
+    store_from_chip(model, chip, memory);
+    tell_water(model, slots);
 }
 
 template <class Real>

@@ -119,9 +119,18 @@ struct ConservingLaunches : LaunchEffects<Scheme::conserving, Real> {
     }
     void solve_solids_together() const {
         if (model.solids > 2 * few_threads)
-            launch.template each_state<solids_large<Real>, BlockTeam::threads>(1);
+            solve_solids<BlockTeam::threads>();
         else if (model.solids > 0)
-            launch.template each_state<solids_large<Real>, few_threads>(1);
+            solve_solids<few_threads>();
+    }
+    /// By one block, on its chip where there is room for them; contacts read other slots.
+    template <int threads>
+    void solve_solids() const {
+        const SolidLayout layout = layout_of_solids(model);
+        if (!model.plan.contacts && launch.has_room_on_chip(layout.bytes))
+            launch.template each_state_on_chip<solids_on_chip<Real>, threads>(layout.bytes, layout);
+        else
+            launch.template each_state<solids_in_memory<Real>, threads>(1);
     }
     void update_velocities() const {
         if (model.plan.water) {

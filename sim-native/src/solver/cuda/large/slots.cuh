@@ -25,8 +25,15 @@ struct LargeShared : Shared<Real> {
 /// Where a cluster of scheme conserving is, in double.
 struct ClusterPose {
     Vec3<double> centre;
-    double rotation[4];  ///< x, y, z, w
     physics::Covariance covariance;
+    double rotation[9];  ///< matrix, row by row
+};
+
+/// What a spring of scheme conserving goes by in a substep, see physics::xpbd_spring_push, and the numbers of its shares.
+template <class Real>
+struct SpringTerms {
+    Real weights, split, compliance;
+    int share_of_a, share_of_b;
 };
 
 inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, for cudaMemset
@@ -47,11 +54,13 @@ inline constexpr unsigned long long none_bad = ~0ull;  // all bytes the same, fo
     X(int, constraint_count, turns ? all : 0)                                                                                   \
     X(Quad<Real>, displacement, turns ? all : 0)                                                                      \
     X(Quad<Real>, internal, turns ? size.solids : 0)                                                                  \
-    X(Quad<Real>, spring_push, turns ? size.springs : 0)                                                              \
+    X(SpringTerms<Real>, spring_terms, turns ? size.springs : 0)                                                      \
+    X(Quad<Real>, spring_push, turns ? 2 * size.springs : 0) /* by share, see ModelView::spring_share */              \
     X(Real, spring_lambda, turns ? size.springs : 0)                                                                  \
+    X(Real, compliance, turns ? size.clusters : 0)                                                                    \
     X(ClusterPose, cluster_pose, turns ? size.clusters : 0)                                                           \
     X(Quad<Real>, member_displacement, turns ? size.members : 0)                                                      \
-    X(Quad<Real>, member_push, turns ? size.members : 0)
+    X(Quad<Real>, cluster_push, turns ? size.members : 0) /* likewise, see ModelView::cluster_share */
 
 #define NATATOR_STATE_ARRAYS(X) NATATOR_CHIP_ARRAYS(X) NATATOR_SCRATCH_ARRAYS(X) NATATOR_LARGE_ARRAYS(X)
 

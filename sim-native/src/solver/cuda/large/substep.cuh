@@ -64,6 +64,20 @@ struct LargeLaunch {
         for_each_state<work, Of::running, block, least_blocks>
             <<<grid(blocks), block, 0, stream>>>(model, slots, more...);
     }
+    /// Has a block so many bytes on its chip?
+    static bool has_room_on_chip(unsigned bytes) {
+        return bytes <= static_cast<unsigned>(device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin));
+    }
+    /// The same by one block for each State, with so many bytes on its chip.
+    template <auto work, int block, class... More>
+    void each_state_on_chip(unsigned bytes, More... more) const {
+        const auto kernel = for_each_state<work, Of::running, block, 0, Real, More...>;
+        // The limit belongs to the kernel, for all Models and threads.
+        check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                   device_attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin)),
+              "shared memory");
+        kernel<<<grid(1), block, bytes, stream>>>(model, slots, more...);
+    }
     /// The same by at least so many threads for each State.
     template <auto work, int most_threads = large_threads, int least_blocks = 0, class... More>
     void each_thread(int threads, More... more) const {
