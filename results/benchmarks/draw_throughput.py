@@ -1,7 +1,7 @@
 """Writes an SVG of throughput over the size of a scene, a line for each size of a batch, from throughput.csv to the standard output.
 
 usage: draw_throughput.py [SCHEME [PRECISION [DEVICE]]]; default: conserving float and the first device that throughput.csv has of
-them. Rings are scenes that have blocks of threads of their own, discs those of the whole GPU. Needs Python alone.
+them. Rings are scenes that have blocks of threads of their own, discs those of the whole GPU, with lists. Needs Python alone.
 """
 import csv
 import pathlib
@@ -20,7 +20,8 @@ def read():
     """Points (particles, throughput, path) by batch."""
     lines = {}
     with open(here / "throughput.csv", newline="") as table:
-        rows = [row for row in csv.DictReader(table) if (row["scheme"], row["precision"]) == (scheme, precision)]
+        rows = [row for row in csv.DictReader(table)
+                if (row["scheme"], row["precision"]) == (scheme, precision) and "without lists" not in row["path"]]
     wanted = device or (rows[0]["device"] if rows else "")
     for row in rows:
         if row["device"] == wanted:

@@ -79,7 +79,7 @@ suite conformance '*GpuMicro*:*GpuOneFrame*:*GpuEffects*'
 suite agreement-with-the-CPU '*GpuAgreement*:GpuInstability*'
 suite laws-of-conserving 'Gpu/Laws*:GpuParticles*:*GpuWater*:GpuPeriodic*'
 suite same-bits-in-any-batch '*GpuBatch*:*GpuTeams*:*EitherWay*'
-suite one-scene-by-the-whole-GPU '*WholeGpu*:GpuRoof*'
+suite one-scene-by-the-whole-GPU '*WholeGpu*:WithoutLists*:GpuRoof*'
 $ensembles && suite ensemble-means-of-4-s '*GpuEnsemble*'
 
 # --- benchmarks -----------------------------------------------------------------------------------------------------------
@@ -96,6 +96,8 @@ check bench-large-scene "$simulator" bench speed --backend cuda --scene fluid-x6
 rm -f "$output"/throughput.csv "$output"/gpu-roofline.csv
 check bench-throughput "$simulator" bench throughput --particles 1000 8000 64000 1000000 --batch 1 16 --repeats 2 \
     --output "$output/throughput.csv"
+check bench-without-lists "$simulator" bench throughput --scheme conserving --particles 64000 1000000 --batch 1 --repeats 1 \
+    --without-lists --output "$output/throughput.csv"
 ten_million() {  # both schemes; a study goes on where one of its scenes can't be computed
     "$simulator" bench throughput --particles 10000000 --batch 1 --repeats 1 --output "$output/throughput.csv" &&
         awk -F, 'NR > 1 && $3 > 9e6 { ++rows } END { exit rows != 2 }' "$output/throughput.csv"
@@ -144,6 +146,8 @@ sanitize() {  # tool; the tests take racecheck longer than anyone waits
     for path in '' --whole-gpu; do
         short_runs | "$sanitizer" --tool "$1" --error-exitcode 9 "$simulator" serve --backend cuda $path || return
     done
+    runs_of 1 bench/small-tank 2 '"conserving","overrides":{' |
+        "$sanitizer" --tool "$1" --error-exitcode 9 "$simulator" serve --backend cuda --without-lists || return
     [[ $1 == racecheck ]] && return
     "$sanitizer" --tool "$1" --error-exitcode 9 "$tests" \
         --gtest_filter='GpuParticles*:*WholeGpu.ContactsWithout*:*WholeGpu.FullLists*' || return
