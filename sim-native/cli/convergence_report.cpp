@@ -13,6 +13,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+// Numbers that are not finite become null.
 ordered_json sample_json(const Sample& sample) { return {{"mean", sample.mean}, {"error", sample.error}}; }
 
 ordered_json limit_json(const Limit& limit) {
@@ -22,8 +23,20 @@ ordered_json limit_json(const Limit& limit) {
 /// With as many digits as the error has meaning for: two of it.
 std::string with_error(double value, double error) {
     std::ostringstream text;
-    const int digits = error > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9) : 4;
-    text << std::fixed << std::setprecision(digits) << value << " +- " << error;
+    const bool known = std::isfinite(error);
+    const int digits = known && error > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9) : 4;
+    text << std::fixed << std::setprecision(digits) << value << " +- ";
+    if (known)
+        text << error;
+    else
+        text << '?';
+    return text.str();
+}
+
+std::string scatter_text(const Estimate& estimate) {
+    if (!std::isfinite(estimate.statistical)) return "not known from one run";
+    std::ostringstream text;
+    text << std::setprecision(2) << estimate.statistical;
     return text.str();
 }
 
@@ -102,7 +115,7 @@ std::string convergence_table(const std::vector<LevelRuns>& levels, const std::o
     }
     if (estimate)
         text << "speed at time step and spacing 0: " << with_error(estimate->value, estimate->error)
-             << " length/s (scatter " << std::setprecision(2) << estimate->statistical << ", discretisation "
+             << " length/s (scatter " << std::setprecision(2) << scatter_text(*estimate) << ", discretisation "
              << estimate->discretisation << order_text("time step", estimate->time)
              << order_text("spacing", estimate->space) << ")\n";
     for (const LevelRuns& runs : levels)

@@ -17,7 +17,7 @@ TEST(Convergence, SamplesHaveAMeanAndItsStandardError) {
     EXPECT_DOUBLE_EQ(sample.mean, 2.5);
     EXPECT_NEAR(sample.error, std::sqrt(5.0 / 3 / 4), 1e-12);
     EXPECT_EQ(sample.runs, 4);
-    EXPECT_EQ(sample_of({7}).error, 0);
+    EXPECT_TRUE(std::isinf(sample_of({7}).error)) << "one run does not tell how well it is known";
     EXPECT_EQ(sample_of({}).runs, 0);
 }
 
@@ -60,6 +60,9 @@ TEST(Convergence, TheEstimateGoesToBothLimits) {
     EXPECT_NEAR(estimate.discretisation, std::hypot(0.5, 1.0), 1e-12);
     EXPECT_NEAR(estimate.statistical, std::hypot(3 * 0.1, std::hypot(2 * 0.2, 2 * 0.3)), 1e-12);
     EXPECT_NEAR(estimate.error, std::hypot(estimate.statistical, estimate.discretisation), 1e-12);
+    const Estimate one_run = estimate_of({8, 0.1, 8}, sample_of({7.5}), std::nullopt, std::nullopt);
+    EXPECT_EQ(one_run.value, 7);
+    EXPECT_TRUE(std::isinf(one_run.error));
     const Estimate alone = estimate_of({8, 0.1, 8}, std::nullopt, std::nullopt, std::nullopt);
     EXPECT_EQ(alone.value, 8);
     EXPECT_EQ(alone.error, 0.1);

@@ -1,6 +1,7 @@
 #include "estimate.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace natator {
@@ -19,6 +20,9 @@ std::optional<double> observed_order(const Sample& base, const Sample& half, con
     return order;
 }
 
+/// What a level's error is in a sum that has it so many times.
+double weighted(double weight, const Sample& level) { return weight == 0 ? 0 : weight * level.error; }
+
 }  // namespace
 
 Spread spread(const std::vector<double>& values) {
@@ -32,13 +36,15 @@ Spread spread(const std::vector<double>& values) {
 Sample sample_of(const std::vector<double>& values) {
     if (values.empty()) return {};
     const auto [mean, deviation] = spread(values);
-    return {mean, deviation / std::sqrt(static_cast<double>(values.size())), static_cast<int>(values.size())};
+    const double error = values.size() > 1 ? deviation / std::sqrt(static_cast<double>(values.size()))
+                                           : std::numeric_limits<double>::infinity();
+    return {mean, error, static_cast<int>(values.size())};
 }
 
 std::optional<Sample> relative_change(const Sample& from, const Sample& to) {
     if (from.mean == 0) return std::nullopt;
     const double ratio = to.mean / from.mean;
-    return Sample{ratio - 1, std::hypot(to.error, ratio * from.error) / std::abs(from.mean), to.runs};
+    return Sample{ratio - 1, std::hypot(to.error, weighted(ratio, from)) / std::abs(from.mean), to.runs};
 }
 
 Limit limit_of(const Sample& base, const Sample& half, const std::optional<Sample>& quarter) {
@@ -71,12 +77,12 @@ Estimate estimate_of(const Sample& base, const std::optional<Sample>& half_time,
         base_weight += limit.base_weight;
         estimate.value += limit.from_base;
         estimate.discretisation = std::hypot(estimate.discretisation, limit.from_finest);
-        estimate.statistical = std::hypot(estimate.statistical, limit.half_weight * half.error);
-        if (quarter) estimate.statistical = std::hypot(estimate.statistical, limit.quarter_weight * quarter->error);
+        estimate.statistical = std::hypot(estimate.statistical, weighted(limit.half_weight, half));
+        if (quarter) estimate.statistical = std::hypot(estimate.statistical, weighted(limit.quarter_weight, *quarter));
     };
     if (estimate.time) add(*estimate.time, *half_time, quarter_time);
     if (estimate.space) add(*estimate.space, *half_space, std::nullopt);
-    estimate.statistical = std::hypot(estimate.statistical, base_weight * base.error);
+    estimate.statistical = std::hypot(estimate.statistical, weighted(base_weight, base));
     estimate.error = std::hypot(estimate.statistical, estimate.discretisation);
     return estimate;
 }

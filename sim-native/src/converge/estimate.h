@@ -16,11 +16,11 @@ Spread spread(const std::vector<double>& values);
 /// Mean of a figure over runs from perturbed starts.
 struct Sample {
     double mean = 0;
-    double error = 0;  ///< standard error of the mean
+    double error = 0;  ///< standard error of the mean; infinite where it is not known
     int runs = 0;
 };
 
-/// Of as many values as there are; of one, or none, the error is not known and 0.
+/// Of as many values as there are; a single one does not tell its error.
 Sample sample_of(const std::vector<double>& values);
 
 /// to / from - 1 and its standard error. None where `from` is 0.
@@ -42,7 +42,7 @@ Limit limit_of(const Sample& base, const Sample& half, const std::optional<Sampl
 /// A figure for time step and spacing 0, f + (f_t(0) - f) + (f_s(0) - f), as far as there are levels.
 struct Estimate {
     double value = 0;
-    double statistical = 0;     ///< standard error, by that of the levels
+    double statistical = 0;     ///< standard error, by that of the levels; infinite where one of theirs is not known
     double discretisation = 0;  ///< how far the limits are from their finest levels, root of the sum of squares
     double error = 0;           ///< root of the sum of the squares of both
     std::optional<Limit> time, space;

@@ -41,13 +41,13 @@ public record Convergence(Gait gait, JsonNode body, Double bodyLength, List<Leve
     public record Level(String level, int runs, int unstable, Value distance, Value speed, Value change) {
     }
 
-    /** A mean and its standard error. */
-    public record Value(double mean, double error) {
+    /** A mean and its standard error, null where one run alone was stable. */
+    public record Value(double mean, Double error) {
     }
 
-    /** A speed and how well it is known. */
+    /** A speed and how well it is known; null where it is not. */
     @JsonIgnoreProperties(ignoreUnknown = true)
-    public record Estimate(double speed, double error) {
+    public record Estimate(double speed, Double error) {
     }
 
     /** Has to have the gait and its levels. */

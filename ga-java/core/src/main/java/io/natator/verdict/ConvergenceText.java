@@ -19,14 +19,20 @@ public final class ConvergenceText {
 
     private static String speed(Convergence convergence) {
         Verdict.Length length = Verdict.Length.of(convergence.bodyLength());
-        return Numbers.withError(convergence.estimate().speed() / length.unit(), convergence.estimate().error() / length.unit(), 3)
-                + " " + length.name() + "/s at time step and spacing 0";
+        Convergence.Estimate estimate = convergence.estimate();
+        return withError(estimate.speed(), estimate.error(), 1 / length.unit(), 3) + " " + length.name() + "/s at time step and spacing 0";
     }
 
     private static String change(Convergence.Level level) {
         String where = " at " + FinerLevel.of(level.level()).words();
         String unstable = level.unstable() == 0 ? "" : " (" + Numbers.count(level.unstable(), "run") + " unstable)";
-        return (level.change() == null ? "no speed" : Numbers.withError(100 * level.change().mean(),
-                100 * level.change().error(), 1) + " %") + where + unstable;
+        return (level.change() == null ? "no speed" : withError(level.change().mean(), level.change().error(), 100, 1) + " %")
+                + where + unstable;
+    }
+
+    /** In other units; one run does not tell its error. */
+    private static String withError(double value, Double error, double factor, int decimals) {
+        return error == null ? Numbers.fixed(factor * value, decimals) + " ± ?"
+                : Numbers.withError(factor * value, factor * error, decimals);
     }
 }
