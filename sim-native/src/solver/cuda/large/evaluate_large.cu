@@ -61,12 +61,10 @@ void add_times(const std::vector<std::unique_ptr<Stream<Real>>>& streams, BatchT
 }
 
 template <class Real>
-std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& company, const Parts& parts,
+std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& company, const Parts& parts, WaterLists lists,
                                           const BatchOptions& options) {
     int device = 0;
     check(cudaGetDevice(&device), "device");
-    const bool one = parts.size() == 1 && parts.streams == 1;  // fewer at a time would be no help
-    const WaterLists lists = options.without_lists ? WaterLists::never : one ? WaterLists::where_they_fit : WaterLists::always;
     std::vector<std::unique_ptr<Stream<Real>>> streams;
     for (int k = 0; k < parts.streams; ++k)
         streams.push_back(std::make_unique<Stream<Real>>(scene, company, parts, k, lists, options));
@@ -85,18 +83,21 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& com
     return evaluations;
 }
 
-/// Where there is not the memory for it, fewer at a time. Stages are timed in one stream, as those of two overlap.
+/// Where there is not the memory for it, fewer at a time, and one by itself without lists. Stages are timed in one stream, as those of two overlap.
 template <class Real>
 std::vector<Evaluation> evaluate_company(const Scene& scene, const Company& company, const BatchOptions& options) {
     const int members = static_cast<int>(company.members.size());
     int streams = options.times && options.times->profile ? 1 : most_streams;
     int most = particles_at_a_time / streams / company.model.particles() + 1;
+    WaterLists lists = options.without_lists ? WaterLists::never : WaterLists::always;
     for (;;) {
         const Parts parts(members, most, streams);
         try {
-            return evaluate_in_parts<Real>(scene, company, parts, options);
+            return evaluate_in_parts<Real>(scene, company, parts, lists, options);
         } catch (const std::bad_alloc&) {
-            if (parts.size() == 1 && streams == 1) throw;
+            const bool one = parts.size() == 1 && parts.streams == 1;
+            if (one && lists == WaterLists::never) throw;
+            if (one) lists = WaterLists::never;
             if (parts.size() == 1) streams = 1;
             most = (parts.size() + 1) / 2;
         }
