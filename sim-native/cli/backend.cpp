@@ -32,12 +32,11 @@ void add_gpu_options(CLI::App* command, BackendChoice& choice) {
 void refuse_gpu_options_for_cpu(const BackendChoice& choice) {
     if (choice.name != "cpu") return;
     std::string given;
+    if (choice.device != 0) given = "--device = " + std::to_string(choice.device);
     if (choice.without_lists) given = "--without-lists";
     if (choice.whole_gpu) given = "--whole-gpu";
-    if (choice.device != 0) given = "--device = " + std::to_string(choice.device);
     if (given.empty()) return;
-    throw InputError(given +
-                     ": the backend is cpu; must be left out, or beside --backend cuda or auto");
+    throw InputError(given + ": the backend is cpu; must be left out, or beside --backend cuda or auto");
 }
 
 bool on_gpu(const BackendChoice& choice, const Scene& scene) {

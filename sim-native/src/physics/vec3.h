@@ -64,14 +64,8 @@ NATATOR_HD double dot(const Vec3<double>& a, const Vec3<double>& b) {
 template <class T, class U>
 NATATOR_HD T dot_as_everywhere(const Vec3<T>& a, const Vec3<U>& b) {
 #if defined(__CUDA_ARCH__)
+    if constexpr (sizeof(T) == sizeof(double)) return fma(a.z, b.z, fma(a.x, b.x, a.y * b.y));
     return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
-#else
-    return dot(a, b);
-#endif
-}
-NATATOR_HD double dot_as_everywhere(const Vec3<double>& a, const Vec3<double>& b) {
-#if defined(__CUDA_ARCH__)
-    return fma(a.z, b.z, fma(a.x, b.x, a.y * b.y));
 #else
     return dot(a, b);
 #endif
