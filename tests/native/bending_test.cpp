@@ -58,7 +58,8 @@ double bending(const Model& model) {
 TEST(Bending, IsTheSameAtAnyTimeStepAndNumberOfIterations) {
     const double exact = bending(creature_2_in_vacuum(32, 32, 1));
     EXPECT_GT(exact, 1);  // rad; with rigid muscles and clusters of 0.9 the others are 3 % off
-    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 8, 1)) / exact, 1, 0.03);
+    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 8, 1)) / exact, 1, 0.04);
+    EXPECT_NEAR(bending(creature_2_in_vacuum(8, 16, 1)) / exact, 1, 0.015);
     EXPECT_NEAR(bending(creature_2_in_vacuum(16, 8, 1)) / exact, 1, 0.015);
 }
 

@@ -10,8 +10,10 @@ inline constexpr double measured_touch = 1e-6;    ///< of 1 + |plane offset|: ro
 
 // Shape matching.
 inline constexpr int flex_fit_steps = 4;          ///< of the rotation fit, per iteration
-inline constexpr int most_fit_steps = 20;         ///< in scheme `conserving`, whose fit ends once it has converged
 inline constexpr double fit_epsilon = 1e-9;       ///< rotation that is not worth a further step, rad
+inline constexpr int most_fit_steps = 20;         ///< in scheme `conserving`, whose fit takes two or three
+inline constexpr double fit_tolerance = 1e-6;     ///< of scheme `conserving`: the last step's rotation, rad; the next is of its square
+inline constexpr double least_fit_determinant = 1e-9;  ///< of the fit's matrix, of its trace cubed
 inline constexpr double centre_dead_band = 1e-5;  ///< of scheme `flex`: less does not move a stored centre, length
 
 // Pairs.

@@ -31,7 +31,7 @@ void ConservingStages<Real>::solve_clusters() {
         for (std::size_t m = 0; m < members.size(); ++m)
             add_arm(covariance, static_cast<double>(masses[m]), place(m) - centre, cast<double>(offsets[m]));
         Eigen::Quaterniond rotation = cluster_rotation_[k].template cast<double>();
-        physics::fit_rotation(covariance, rotation.coeffs().data(), physics::most_fit_steps);
+        physics::closest_rotation(covariance, rotation.coeffs().data());
         cluster_rotation_[k] = rotation.template cast<Real>();
         cluster_centre_[k] = cast<Real>(centre);
 

@@ -118,7 +118,7 @@ __device__ void sum_up_clusters(const ModelView<Real>& model, const Solids& soli
     }
 }
 
-/// Rotations of all clusters, a thread for each: a fit takes many steps one after the other, and where all threads of a warp do the same,
+/// Rotations of all clusters, a thread for each: a fit is one chain of arithmetic in double, and where all threads of a warp do the same,
 /// warps wait for each other's arithmetic in double. Neighbours go to different warps, and so to different schedulers.
 template <class Real, class Solids>
 __device__ void fit_clusters(const ModelView<Real>& model, const Solids& solids) {
@@ -131,7 +131,7 @@ __device__ void fit_clusters(const ModelView<Real>& model, const Solids& solids)
         ClusterFit<Real>& fit = solids.fit()[k];
         const physics::Covariance covariance = pose.covariance;
         double q[4] = {fit.rotation[0], fit.rotation[1], fit.rotation[2], fit.rotation[3]};
-        physics::fit_rotation(covariance, q, physics::most_fit_steps);
+        physics::closest_rotation(covariance, q);
         physics::rotation_matrix(q, pose.rotation);
         for (int e = 0; e < 4; ++e) fit.rotation[e] = static_cast<Real>(q[e]);
         fit.centre = physics::cast<Real>(pose.centre);
