@@ -22,12 +22,12 @@ constexpr int particles_at_a_time = 2'000'000;
 template <class Real>
 class Stream {
 public:
-    Stream(const Scene& scene, const Company& company, const Parts& parts, int number, WaterLists lists,
-           const BatchOptions& options)
+    Stream(const Scene& scene, const Company& company, SettledStarts<Real>& starts, const Parts& parts, int number,
+           WaterLists lists, const BatchOptions& options)
         : parts_(parts),
           number_(number),
           times_{.profile = options.times ? options.times->profile : nullptr},
-          large_(scene, company, parts.size(), lists, options.keep_starts, &times_) {}
+          large_(scene, company, starts, parts.size(), lists, options.keep_starts, &times_) {}
 
     void evaluate() {
         for (int part = number_; part < parts_.count; part += parts_.streams)
@@ -65,9 +65,10 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& com
                                           const BatchOptions& options) {
     int device = 0;
     check(cudaGetDevice(&device), "device");
+    SettledStarts<Real> starts(starts_of(scene, company.members.data(), static_cast<int>(company.members.size())));
     std::vector<std::unique_ptr<Stream<Real>>> streams;
     for (int k = 0; k < parts.streams; ++k)
-        streams.push_back(std::make_unique<Stream<Real>>(scene, company, parts, k, lists, options));
+        streams.push_back(std::make_unique<Stream<Real>>(scene, company, starts, parts, k, lists, options));
     std::vector<std::future<void>> others;
     for (int k = 1; k < parts.streams; ++k)
         others.push_back(std::async(std::launch::async, [&stream = *streams[k], device] {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
+#include <cstdint>
+#include <exception>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -16,6 +18,7 @@
 #include "evaluate/side_by_side.h"
 #include "evaluate/swim_record.h"
 #include "large_runner.h"
+#include "made_once.h"
 #include "solver/cuda/evaluation.h"
 #include "solver/cuda/kept_starts.h"
 
@@ -33,18 +36,34 @@ private:
 /// Where a member begins, if places are the same.
 using Start = std::tuple<int, double, std::uint64_t>;
 
-inline Start start_of(const BatchMember& member, const Scene& scene) {
-    const Perturbation& shift = member.perturbation;
-    return {arrangement_of(member, scene), shift.amplitude, shift.amplitude == 0 ? 0 : shift.seed};
+inline std::vector<Start> starts_of(const Scene& scene, const BatchMember* members, int count) {
+    std::vector<Start> starts;
+    for (int k = 0; k < count; ++k) {
+        const Perturbation& shift = members[k].perturbation;
+        starts.emplace_back(arrangement_of(members[k], scene), shift.amplitude, shift.amplitude == 0 ? 0 : shift.seed);
+    }
+    return starts;
 }
+
+/// What settling makes of a start.
+template <class Real>
+struct Settled {
+    KeptStart<Real> start;
+    Progress progress;
+};
+template <class Real>
+using SettledStarts = MadeOnce<Start, Settled<Real>>;
 
 /// Evaluates as many members at a time as there are States side by side.
 template <class Real>
 class LargeScene {
 public:
-    LargeScene(const Scene& scene, const Company& company, int states, WaterLists lists, bool keeps_starts, BatchTimes* times)
+    /// `starts` of all members of the company.
+    LargeScene(const Scene& scene, const Company& company, SettledStarts<Real>& starts, int states, WaterLists lists,
+               bool keeps_starts, BatchTimes* times)
         : scene_(scene),
           company_(company),
+          starts_(starts),
           keeps_starts_(keeps_starts),
           times_(times),
           runner_(company.model, states, {.lists = lists}) {}
@@ -52,8 +71,8 @@ public:
     /// Members from `first` on, at most as many as there are States.
     void evaluate(int first, int count, std::vector<Evaluation>& evaluations) {
         const BatchMember* const members = company_.members.data() + first;
-        start(members, count);
-        const std::vector<Progress> settled = progress_;
+        const std::vector<Start> starts = starts_of(scene_, members, count);
+        begin_at(starts);
         typename Runner::Update update{0, scene_.time_step, company_.model.parameters.substeps, {}, false};
         for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
         runner_.prepare(update);
@@ -80,10 +99,11 @@ public:
         evaluations.resize(before + count);
         side_by_side(count, [&](std::size_t number) {
             const int k = static_cast<int>(number);
-            const Gait* const gait = settled[k].stopped >= 0 ? nullptr : &members[k].gait;
-            evaluations[before + k] = evaluation_of_member(k, members[k], gait, ends[k], densities);
+            const Gait* const gait = begins_[k]->progress.stopped >= 0 ? nullptr : &members[k].gait;
+            evaluations[before + k] = evaluation_of_member(k, gait, ends[k], densities);
         });
-        forget_starts(first + count);
+        begins_.clear();
+        starts_.leave(starts);
     }
 
     /// When frames were computed.
@@ -93,8 +113,7 @@ private:
     using Runner = LargeRunner<Real>;
 
     /// `gait` as for evaluation_of; `densities` of all States.
-    Evaluation evaluation_of_member(int k, const BatchMember& member, const Gait* gait, State<Real>& end,
-                                    const std::vector<Real>& densities) const {
+    Evaluation evaluation_of_member(int k, const Gait* gait, State<Real>& end, const std::vector<Real>& densities) const {
         const SwimRecord& record = records_[k];
         end.origin = record.origin();
         const std::size_t fluid = densities.size() / runner_.states();
@@ -103,43 +122,52 @@ private:
             evaluation_of(scene_, company_.model, runner_.model().particle_of(), progress_[k], gait, record.path().data(),
                           record.tail(), end, std::vector<Real>(own, own + fluid));
         if (evaluation.instability) return evaluation;
-        evaluation.companions =
-            companion_results(scene_, company_.model, settled_.at(start_of(member, scene_)).first, end);
+        evaluation.companions = companion_results(scene_, company_.model, begins_[k]->start.state, end);
         record.tell(evaluation);
         return evaluation;
     }
 
-    /// Takes the members to their settled starts; those that begin alike share one.
-    void start(const BatchMember* members, int count) {
+    /// Takes the States to the members' settled starts, and those without a member to the last.
+    void begin_at(const std::vector<Start>& starts) {
+        const std::vector<Start> claimed = starts_.claim(starts);
+        try {
+            give(claimed);
+        } catch (...) {  // others may wait for them
+            starts_.fail(claimed, std::current_exception());
+            throw;
+        }
+        begins_.clear();
+        progress_.clear();
+        for (int k = 0; k < runner_.states(); ++k) {
+            const auto& begin = begins_.emplace_back(starts_.of(starts[std::min<std::size_t>(k, starts.size() - 1)]));
+            runner_.make_room(begin->start.room);
+            runner_.upload(k, begin->start.state);
+            progress_.push_back(begin->progress);
+        }
+    }
+
+    /// Settles starts side by side, but for those that are kept from an earlier batch.
+    void give(const std::vector<Start>& claimed) {
         std::vector<Start> unsettled;
         std::vector<std::optional<std::string>> keys;  // of those
-        for (int k = 0; k < count; ++k) {
-            const Start start = start_of(members[k], scene_);
-            if (settled_.contains(start) || std::find(unsettled.begin(), unsettled.end(), start) != unsettled.end()) continue;
+        for (const Start& start : claimed) {
             std::optional<std::string> key = key_of(start);
             if (auto known = kept_starts().find(key)) {
-                settled_[start] = {std::move(known->state), Progress{}};
-                runner_.make_room(known->room);
+                starts_.give(start, {std::move(*known), Progress{}});
             } else {
                 unsettled.push_back(start);
                 keys.push_back(std::move(key));
             }
         }
+        if (unsettled.empty()) return;
+        const int different = static_cast<int>(unsettled.size());
+        for (int k = 0; k < runner_.states(); ++k) runner_.upload(k, begin_of(unsettled[std::min(k, different - 1)]));
         progress_.assign(runner_.states(), Progress{});
-        if (!unsettled.empty()) {
-            const int different = static_cast<int>(unsettled.size());
-            for (int k = 0; k < runner_.states(); ++k) runner_.upload(k, begin_of(unsettled[std::min(k, different - 1)]));
-            settle(different);
-            for (int k = 0; k < different; ++k) {
-                const State<Real> state = runner_.download(k, initial_state<Real>(company_.model));
-                settled_[unsettled[k]] = {state, progress_[k]};
-                if (progress_[k].stopped < 0) kept_starts().keep(keys[k], {state, runner_.room()});
-            }
-        }
-        for (int k = 0; k < runner_.states(); ++k) {
-            const auto& [state, progress] = settled_.at(start_of(members[std::min(k, count - 1)], scene_));
-            runner_.upload(k, state);
-            progress_[k] = progress;
+        settle(different);
+        for (int k = 0; k < different; ++k) {
+            const KeptStart<Real> settled{runner_.download(k, initial_state<Real>(company_.model)), runner_.room()};
+            if (progress_[k].stopped < 0) kept_starts().keep(keys[k], settled);
+            starts_.give(unsettled[k], {settled, progress_[k]});
         }
     }
 
@@ -161,14 +189,6 @@ private:
     /// None if it is not to be kept.
     std::optional<std::string> key_of(const Start& start) const {
         return keeps_starts_ ? KeptStarts<Real>::key_of(model_of(start), scene_.settling) : std::nullopt;
-    }
-
-    /// Keeps the settled starts that members from `next` on begin from.
-    void forget_starts(int next) {
-        std::map<Start, std::pair<State<Real>, Progress>> kept;
-        for (std::size_t k = next; k < company_.members.size(); ++k)
-            if (auto found = settled_.extract(start_of(company_.members[k], scene_))) kept.insert(std::move(found));
-        settled_ = std::move(kept);
     }
 
     void settle(int count) {
@@ -245,6 +265,7 @@ private:
 
     const Scene& scene_;
     const Company& company_;
+    SettledStarts<Real>& starts_;
     bool keeps_starts_;
     BatchTimes* times_;
     std::vector<Span> busy_;
@@ -252,7 +273,7 @@ private:
     std::vector<Progress> progress_;
     std::vector<SwimRecord> records_;
     std::vector<bool> idle_;
-    std::map<Start, std::pair<State<Real>, Progress>> settled_;
+    std::vector<std::shared_ptr<const Settled<Real>>> begins_;  ///< by State, where they began
 };
 
 }  // namespace natator::cuda

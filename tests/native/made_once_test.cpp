@@ -1,0 +1,67 @@
+// Values that several threads need, such as settled starts.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "solver/cuda/large/made_once.h"
+
+namespace natator::cuda {
+namespace {
+
+using Words = MadeOnce<int, std::string>;
+
+TEST(MadeOnce, IsClaimedByTheFirst) {
+    Words words({1, 1, 2, 3});
+    EXPECT_EQ(words.claim({2, 1, 1}), (std::vector{2, 1}));
+    EXPECT_EQ(words.claim({1, 3}), std::vector{3});
+    EXPECT_EQ(words.claim({1, 2, 3}), std::vector<int>{});
+}
+
+TEST(MadeOnce, ComesToAllThatWait) {
+    std::vector<int> needs;
+    for (int k = 0; k < 8; ++k) needs.insert(needs.end(), {1, 2});
+    Words words(needs);
+    std::atomic<int> made = 0;
+    std::vector<std::future<std::string>> all;
+    for (int k = 0; k < 8; ++k)
+        all.push_back(std::async(std::launch::async, [&words, &made] {
+            for (const int key : words.claim({1, 2})) {
+                ++made;
+                words.give(key, std::to_string(key));
+            }
+            const std::string both = *words.of(1) + *words.of(2);
+            words.leave({1, 2});
+            return both;
+        }));
+    for (auto& one : all) EXPECT_EQ(one.get(), "12");
+    EXPECT_EQ(made, 2);
+}
+
+TEST(MadeOnce, FailsWhereTheOneThatClaimedItDoes) {
+    Words words({1, 1, 2});
+    const std::vector<int> claimed = words.claim({1, 2});
+    auto other = std::async(std::launch::async, [&words] { return *words.of(1); });
+    words.give(2, "two");
+    words.fail(claimed, std::make_exception_ptr(std::runtime_error("no memory")));
+    EXPECT_THROW(other.get(), std::runtime_error);
+    EXPECT_EQ(*words.of(2), "two");
+}
+
+TEST(MadeOnce, IsForgottenWithTheLastNeed) {
+    Words words({1, 1});
+    words.claim({1});
+    words.give(1, "one");
+    const auto held = words.of(1);
+    words.leave({1});
+    EXPECT_EQ(held.use_count(), 2);
+    words.leave({1});
+    EXPECT_EQ(held.use_count(), 1);
+    EXPECT_THROW(words.of(1), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace natator::cuda
