@@ -24,7 +24,6 @@ public:
 
     /// Reads the file descriptor `input`. Throws std::system_error when there is no thread to be had.
     explicit LineQueue(int input, Limits limits);
-    explicit LineQueue(int input) : LineQueue(input, Limits{}) {}
     ~LineQueue();
     LineQueue(const LineQueue&) = delete;
     LineQueue& operator=(const LineQueue&) = delete;
