@@ -57,43 +57,45 @@ NATATOR_HD void turn(double q[4], const Vec3<double>& omega, double angle) {
     turn_by(a, q);
 }
 
-/// Turns q towards the rotation closest to a covariance by at most `steps` steps of Müller, Bender, Chentanez,
-/// Macklin: A Robust Method to Extract the Rotational Part of Deformations (2016), algorithm 1:
-///   omega = sum of r_k x a_k / (|sum of r_k . a_k| + epsilon), k over the columns.
-/// matrix_of(q, r) is rotation_matrix, or the same with products rounded its own way.
+/// A step of Müller, Bender, Chentanez, Macklin: A Robust Method to Extract the Rotational Part of Deformations (2016), algorithm 1:
+///   omega = slope / (|trace| + epsilon), slope = sum of r_k x a_k, trace = sum of r_k . a_k, k over the columns.
+NATATOR_HD Vec3<double> robust_step(const Vec3<double>& slope, double trace) {
+    return slope / ((trace < 0 ? -trace : trace) + fit_epsilon);
+}
+
+/// Scheme `flex`: turns q towards the rotation closest to a covariance by a few robust steps. matrix_of(q, r) is rotation_matrix, or
+/// the same with products rounded its own way.
 template <class MatrixOf>
-NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], int steps, const MatrixOf& matrix_of) {
+NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], const MatrixOf& matrix_of) {
     const double* const a = covariance.entry;
-    for (int step = 0; step < steps; ++step) {
+    for (int step = 0; step < flex_fit_steps; ++step) {
         double r[9];
         matrix_of(q, r);
-        Vec3<double> omega{};
+        Vec3<double> slope{};
         for (int k = 0; k < 3; ++k)
-            omega += cross(Vec3<double>{r[k], r[3 + k], r[6 + k]}, Vec3<double>{a[k], a[3 + k], a[6 + k]});
+            slope += cross(Vec3<double>{r[k], r[3 + k], r[6 + k]}, Vec3<double>{a[k], a[3 + k], a[6 + k]});
         // Summed in the order of a state's hash: two sums of every other entry, column by column.
         const double even = (r[0] * a[0] + r[6] * a[6]) + (r[4] * a[4] + r[2] * a[2]);
         const double odd = (r[3] * a[3] + r[1] * a[1]) + (r[7] * a[7] + r[5] * a[5]);
         const double trace = (even + odd) + r[8] * a[8];
-        omega = omega / ((trace < 0 ? -trace : trace) + fit_epsilon);
+        const Vec3<double> omega = robust_step(slope, trace);
         const double angle = norm(omega);
         if (angle < fit_epsilon) return;
         turn(q, omega, angle);
     }
 }
 
-NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4], int steps) {
-    fit_rotation(covariance, q, steps, [](const double from[4], double matrix[9]) { rotation_matrix(from, matrix); });
+NATATOR_HD void fit_rotation(const Covariance& covariance, double q[4]) {
+    fit_rotation(covariance, q, [](const double from[4], double matrix[9]) { rotation_matrix(from, matrix); });
 }
 
 /// Solves H omega = slope for a positive definite H by its adjugate. False where H is not, or has a determinant that tells only
 /// rounding, as about the axis of a straight line of particles.
 NATATOR_HD bool newton_step(const Symmetric3<double>& h, const Vec3<double>& slope, Vec3<double>& omega) {
-    const Symmetric3<double> adjugate{h.yy * h.zz - h.yz * h.yz, h.xx * h.zz - h.xz * h.xz, h.xx * h.yy - h.xy * h.xy,
-                                      h.xz * h.yz - h.xy * h.zz, h.xy * h.yz - h.xz * h.yy, h.xy * h.xz - h.yz * h.xx};
-    const double determinant = (h.xx * adjugate.xx + h.xy * adjugate.xy) + h.xz * adjugate.xz;
-    const double trace = (h.xx + h.yy) + h.zz;
-    if (!(h.xx > 0 && adjugate.zz > 0 && determinant > least_fit_determinant * (trace * trace * trace))) return false;
-    omega = (adjugate * slope) / determinant;
+    const Symmetric3<double> inverted = adjugate(h);
+    const double size = determinant(h, inverted), trace = (h.xx + h.yy) + h.zz;
+    if (!(h.xx > 0 && inverted.zz > 0 && size > least_fit_determinant * (trace * trace * trace))) return false;
+    omega = (inverted * slope) / size;
     return true;
 }
 
@@ -101,8 +103,8 @@ NATATOR_HD bool newton_step(const Symmetric3<double>& h, const Vec3<double>& slo
 /// symmetric. Newton's method, from q on, as in the analytic polar decomposition of Kugelstadt, Koschier, Bender: Fast Corotated
 /// FEM using Operator Splitting (2018):
 ///   ((tr S) 1 - S) omega = sum of r_k x a_k, S the symmetric part of A R^T,
-/// and a turn by Cayley's map of omega, by 2 atan(|omega| / 2). Far from R, or where A tells nothing of an axis, a step is that of
-/// fit_rotation. The error left, rad, is of the square of the last step.
+/// and a turn by Cayley's map of omega, by 2 atan(|omega| / 2). Far from R, or where A tells nothing of an axis, a step is a
+/// robust one. The error left, rad, is of the square of the last step.
 NATATOR_HD void closest_rotation(const Covariance& covariance, double q[4]) {
     const double* const a = covariance.entry;
     for (int step = 0; step < most_fit_steps; ++step) {
@@ -116,10 +118,7 @@ NATATOR_HD void closest_rotation(const Covariance& covariance, double q[4]) {
         const Symmetric3<double> h{m[4] + m[8],          m[0] + m[8],          m[0] + m[4],
                                    -(m[1] + m[3]) / 2, -(m[2] + m[6]) / 2, -(m[5] + m[7]) / 2};
         Vec3<double> omega;
-        if (!newton_step(h, slope, omega) || !(dot(omega, omega) < 1)) {
-            const double trace = (m[0] + m[4]) + m[8];
-            omega = slope / ((trace < 0 ? -trace : trace) + fit_epsilon);
-        }
+        if (!newton_step(h, slope, omega) || !(dot(omega, omega) < 1)) omega = robust_step(slope, (m[0] + m[4]) + m[8]);
         const double cayley[4] = {omega.x / 2, omega.y / 2, omega.z / 2, 1};
         turn_by(cayley, q);
         if (dot(omega, omega) < fit_tolerance * fit_tolerance) return;

@@ -25,6 +25,18 @@ NATATOR_HD Symmetric3<T> operator+(const Symmetric3<T>& a, const Symmetric3<T>& 
     return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
 }
 
+/// det(m) times the inverse of m.
+template <class T>
+NATATOR_HD Symmetric3<T> adjugate(const Symmetric3<T>& m) {
+    return {m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
+            m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy, m.xy * m.xz - m.xx * m.yz};
+}
+/// Of m, by its adjugate.
+template <class T>
+NATATOR_HD T determinant(const Symmetric3<T>& m, const Symmetric3<T>& adjugate) {
+    return m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz;
+}
+
 /// Turns rows and columns p and q of a symmetric matrix so that its entry (p, q) becomes 0, and the same columns of v.
 NATATOR_HD void rotate_away(double m[3][3], double v[3][3], int p, int q) {
     if (m[p][q] == 0) return;

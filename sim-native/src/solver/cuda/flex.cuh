@@ -85,8 +85,7 @@ __device__ void fit_members(int count, ClusterFit<Real>& fit, const Place& place
 
     double q[4] = {fit.rotation[0], fit.rotation[1], fit.rotation[2], fit.rotation[3]};
     __syncwarp();
-    physics::fit_rotation(covariance, q, physics::flex_fit_steps,
-                          [](const double from[4], double matrix[9]) { rotation_matrix(from, matrix); });
+    physics::fit_rotation(covariance, q, [](const double from[4], double matrix[9]) { rotation_matrix(from, matrix); });
     if (lane == 0) {
         for (int e = 0; e < 4; ++e) fit.rotation[e] = static_cast<Real>(q[e]);
         rotation_matrix(fit.rotation, fit.matrix);

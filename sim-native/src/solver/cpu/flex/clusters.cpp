@@ -18,7 +18,7 @@ void FlexStages<Real>::solve_clusters() {
         for (std::size_t m = 0; m < members.size(); ++m)
             add_arm(covariance, position_of_slot(ws_.slot_of[members[m]]) - mean, offsets[m]);
         Eigen::Quaterniond rotation = cluster_rotation_[k].template cast<double>();
-        physics::fit_rotation(covariance, rotation.coeffs().data(), physics::flex_fit_steps);
+        physics::fit_rotation(covariance, rotation.coeffs().data());
         cluster_rotation_[k] = rotation.template cast<Real>();
         cluster_centre_[k] = with_dead_band(cluster_centre_[k], mean);
 

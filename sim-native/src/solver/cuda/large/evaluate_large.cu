@@ -65,7 +65,7 @@ std::vector<Evaluation> evaluate_in_parts(const Scene& scene, const Company& com
                                           const BatchOptions& options) {
     int device = 0;
     check(cudaGetDevice(&device), "device");
-    SettledStarts<Real> starts(starts_of(scene, company.members.data(), static_cast<int>(company.members.size())));
+    SettledStarts<Real> starts(starts_of(scene, company.members));
     std::vector<std::unique_ptr<Stream<Real>>> streams;
     for (int k = 0; k < parts.streams; ++k)
         streams.push_back(std::make_unique<Stream<Real>>(scene, company, starts, parts, k, lists, options));

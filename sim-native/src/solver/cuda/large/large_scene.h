@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -36,11 +37,11 @@ private:
 /// Where a member begins, if places are the same.
 using Start = std::tuple<int, double, std::uint64_t>;
 
-inline std::vector<Start> starts_of(const Scene& scene, const BatchMember* members, int count) {
+inline std::vector<Start> starts_of(const Scene& scene, std::span<const BatchMember> members) {
     std::vector<Start> starts;
-    for (int k = 0; k < count; ++k) {
-        const Perturbation& shift = members[k].perturbation;
-        starts.emplace_back(arrangement_of(members[k], scene), shift.amplitude, shift.amplitude == 0 ? 0 : shift.seed);
+    for (const BatchMember& member : members) {
+        const Perturbation& shift = member.perturbation;
+        starts.emplace_back(arrangement_of(member, scene), shift.amplitude, shift.amplitude == 0 ? 0 : shift.seed);
     }
     return starts;
 }
@@ -70,8 +71,8 @@ public:
 
     /// Members from `first` on, at most as many as there are States.
     void evaluate(int first, int count, std::vector<Evaluation>& evaluations) {
-        const BatchMember* const members = company_.members.data() + first;
-        const std::vector<Start> starts = starts_of(scene_, members, count);
+        const std::span<const BatchMember> members(company_.members.data() + first, count);
+        const std::vector<Start> starts = starts_of(scene_, members);
         begin_at(starts);
         typename Runner::Update update{0, scene_.time_step, company_.model.parameters.substeps, {}, false};
         for (int k = 0; k < runner_.states(); ++k) update.gaits.push_back(&members[std::min(k, count - 1)].gait);
@@ -136,7 +137,6 @@ private:
             starts_.fail(claimed, std::current_exception());
             throw;
         }
-        begins_.clear();
         progress_.clear();
         for (int k = 0; k < runner_.states(); ++k) {
             const auto& begin = begins_.emplace_back(starts_.of(starts[std::min<std::size_t>(k, starts.size() - 1)]));
@@ -161,7 +161,11 @@ private:
         }
         if (unsettled.empty()) return;
         const int different = static_cast<int>(unsettled.size());
-        for (int k = 0; k < runner_.states(); ++k) runner_.upload(k, begin_of(unsettled[std::min(k, different - 1)]));
+        State<Real> begin;
+        for (int k = 0; k < runner_.states(); ++k) {
+            if (k < different) begin = begin_of(unsettled[k]);
+            runner_.upload(k, begin);  // idle ones are like the last
+        }
         progress_.assign(runner_.states(), Progress{});
         settle(different);
         for (int k = 0; k < different; ++k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <exception>
 #include <future>
 #include <map>
@@ -30,15 +31,13 @@ public:
     }
     void give(const Key& key, Value value) {
         const std::scoped_lock lock(mutex_);
-        Place& place = places_.at(key);
-        place.promise.set_value(std::make_shared<const Value>(std::move(value)));
-        place.given = true;
+        places_.at(key).promise.set_value(std::make_shared<const Value>(std::move(value)));
     }
     /// Says to all that wait why those that were not given will not come.
     void fail(const std::vector<Key>& claimed, const std::exception_ptr& reason) {
         const std::scoped_lock lock(mutex_);
         for (const Key& key : claimed)
-            if (Place& place = places_.at(key); !place.given) place.promise.set_exception(reason);
+            if (Place& place = places_.at(key); !place.is_given()) place.promise.set_exception(reason);
     }
     /// Waits for what somebody has claimed. Throws what that one failed with.
     std::shared_ptr<const Value> of(const Key& key) {
@@ -57,9 +56,11 @@ public:
 private:
     struct Place {
         int needs = 0;
-        bool claimed = false, given = false;
+        bool claimed = false;
         std::promise<std::shared_ptr<const Value>> promise;
         std::shared_future<std::shared_ptr<const Value>> value = promise.get_future().share();
+
+        bool is_given() const { return value.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
     };
 
     std::mutex mutex_;

@@ -4,7 +4,6 @@ import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Deque;
 import java.util.Iterator;
-import java.util.LinkedList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 
@@ -21,7 +20,7 @@ final class BatchQueue {
     private static final long LULL = TimeUnit.MILLISECONDS.toNanos(3);
     private static final int MOST_FAULTS = 2;
 
-    private final Deque<BatchJob> waiting = new LinkedList<>();
+    private final Deque<BatchJob> waiting = new ArrayDeque<>();
     private final Deque<Batch> returned = new ArrayDeque<>();
     private final List<Worker> workers = new ArrayList<>();
     private long lastAdded;
