@@ -208,11 +208,22 @@ NATATOR_HD T kept_impulse(T fastest_square, Scalar<T> strength) {
 /// is left to it as particles need that pass one another as fast as they do here. The rest, E_i = relief sum_j G_ij, is taken
 /// off after each pass and given back at the end of the substep to all neighbours by their kernels' weights, which keeps the
 /// momentum. (Without any of it, as in the form p_j - p_i of many schemes, particles crowd, and need strong shifting.)
+///
+/// Where nearly all neighbours are on one side, at a crowded surface, relief in full turns a push around: what it does to the
+/// particle itself, -w |sum_j G_ij|^2, outweighs what it does to the neighbours, so each pass makes the next one larger, without
+/// end. `own_response`, see own_response(), says how far that is so, and as much of the push is left as keeps half of the response.
 template <class T>
-NATATOR_HD T relief(T density, T impulse_sum, T kept) {
+NATATOR_HD T relief(T density, T impulse_sum, T kept, T own_response) {
     using R = Scalar<T>;
     const T wet = unit_part((density - R(relieved_density)) * R(1 / (wholly_relieved_density - relieved_density)));
-    return 2 * wet * positive_part(impulse_sum - kept);
+    const T stable = 1 + R(0.5) * (1 - own_response) / (own_response + R(least_response));
+    return smaller(2 * wet * positive_part(impulse_sum - kept), stable * impulse_sum);
+}
+
+/// The part that a particle's own motion has in its response to its pressure, in [0, 1]; `response`: see ResponseSums.
+template <class T>
+NATATOR_HD T own_response(T inverse_mass, const Vec3<T>& gradient_sum, T response) {
+    return smaller(inverse_mass * dot(gradient_sum, gradient_sum) * response, one<T>());
 }
 
 /// The part of E_j that a neighbour at distance r has back is this times V_i W_ij: those parts add up to E_j.

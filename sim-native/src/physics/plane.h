@@ -44,5 +44,16 @@ NATATOR_HD Vec3<T> put_before(const PlaneSurface<T>& plane, T collision_distance
     return distance < -T(overlap_tolerance) * collision_distance ? x - distance * plane.normal : x;
 }
 
+/// Scheme `conserving`: keeps water at least `distance` in front of a plane. What would come nearer is put there, and its velocity
+/// into the plane ends, as in an impact without rebound (Moreau: Unilateral contact and dry friction, 1988): a wall can take
+/// kinetic energy, never give it.
+template <class T>
+NATATOR_HD void hold_before(const PlaneSurface<T>& plane, T distance, Vec3<T>& x, Vec3<T>& velocity) {
+    const T gap = dot(plane.normal, x) + (plane.offset - distance);
+    if (gap >= 0) return;
+    x -= gap * plane.normal;
+    velocity += positive_part(-dot(plane.normal, velocity)) * plane.normal;
+}
+
 }  // namespace NATATOR_SET
 }  // namespace natator::physics

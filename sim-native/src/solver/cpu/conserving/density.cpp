@@ -33,8 +33,11 @@ void ConservingStages<Real>::move_fluid() {
         if (!(inverse_mass_[i] > 0)) return;
         Vec3<Real> v = water_->velocity(i);
         if (plan_.clamp_speed) v = clamped(v, constants_.max_speed);
-        displacement_.set(slot, h_ * (v - ws_.predicted_velocity.at(slot)));
-        ws_.position.set(slot, before_planes(base_.at(slot) + displacement_.at(slot), wall_distance(i)));
+        const auto displaced = [&] { return h_ * (v - ws_.predicted_velocity.at(slot)); };
+        Vec3<Real> x = base_.at(slot) + displaced();
+        for (const physics::PlaneSurface<Real>& plane : planes_) hold_before(plane, wall_distance(i), x, v);
+        displacement_.set(slot, displaced());  // what velocities are made of
+        ws_.position.set(slot, x);
     });
 }
 

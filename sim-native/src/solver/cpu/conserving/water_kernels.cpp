@@ -175,12 +175,14 @@ void relieve(WaterView<Real> water, Real strength) {
     using Lane = typename Group::Lane;
     for_each_group<Group>(water, [&](int first) {
         const Lane kept = kept_impulse(Group::get(water.fastest_square + first), strength);
-        const Lane all = relief(Group::get(water.density + first), Group::get(water.impulse_sum + first), kept);
         const Lane inverse_mass = Group::get(water.inverse_mass + first);
+        const Vec3<Lane> zeroth = get3<Group>(water.zeroth, first);
+        const Lane own = own_response(inverse_mass, zeroth, Group::get(water.response + first));
+        const Lane all = relief(Group::get(water.density + first), Group::get(water.impulse_sum + first), kept, own);
         const Lane now = inverse_mass > 0 ? all : Lane{}, more = now - Group::get(water.relief + first);
         Group::put(water.relief + first, now);
         put_velocity<Group>(water, first,
-                            get3<Group>(water.velocity, first) + inverse_mass * more * get3<Group>(water.zeroth, first));
+                            get3<Group>(water.velocity, first) + inverse_mass * more * zeroth);
     });
 }
 

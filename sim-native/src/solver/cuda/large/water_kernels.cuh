@@ -88,7 +88,8 @@ __device__ Vec3<Real> relieve(const ModelView<Real>& model, const Slots<Real>& s
     const Quad<Real> zeroth = water.zeroth[s];
     const Real strength = physics::kept_strength(slots.h, model.water.density);
     const Real now = physics::relief(water.density[s], water.impulse_sum[s],
-                                     physics::kept_impulse(water.fastest_square[s], strength));
+                                     physics::kept_impulse(water.fastest_square[s], strength),
+                                     physics::own_response(water.velocity[s].w, xyz(zeroth), water.response[s]));
     water.zeroth[s].w = now;
     return (now - zeroth.w) * xyz(zeroth);
 }
@@ -274,10 +275,11 @@ __device__ void move_water(const ModelView<Real>& model, const Slots<Real>& slot
     if (!(base.w > 0)) return;
     Vec3<Real> v = xyz(slots.water.velocity[slots.water.slot_before[s]]);
     if (model.plan.clamp_speed) v = clamped(v, model.max_speed);
-    const Vec3<Real> displacement = slots.h * (v - xyz(slots.predicted_velocity()[s]));
-    slots.displacement()[s] = quad(displacement, Real(0));
-    slots.position()[s] =
-        quad(put_before_planes(model, xyz(base) + displacement, wall_distance(model, true)), base.w);
+    const auto displaced = [&] { return slots.h * (v - xyz(slots.predicted_velocity()[s])); };
+    Vec3<Real> x = xyz(base) + displaced();
+    for (int k = 0; k < model.planes; ++k) hold_before(model.plane[k].surface, wall_distance(model, true), x, v);
+    slots.displacement()[s] = quad(displaced(), Real(0));  // what velocities are made of
+    slots.position()[s] = quad(x, base.w);
 }
 
 }  // namespace natator::cuda
