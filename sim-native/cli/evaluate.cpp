@@ -30,9 +30,7 @@ int evaluate_request(EvaluateOptions& options, json& id) {
     const auto result = result_json(id, evaluation, job.scene.scheme, job.request.precision);
     print((options.plain ? result.at("fitness") : result).dump() + "\n");
     if (!evaluation.instability) return ok;
-    const Instability& where = *evaluation.instability;
-    std::cerr << "natator-sim: unstable: particle " << where.particle << " is not finite after stage " << where.stage
-              << " at " << where.time << " s\n";
+    std::cerr << "natator-sim: unstable: " << sentence_of(*evaluation.instability) << "\n";
     return unstable;
 }
 

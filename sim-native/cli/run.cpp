@@ -114,8 +114,7 @@ std::string summary(const RunOptions& options, const Scene& scene, const Evaluat
     text << "simulated  " << result.simulated << " s in " << result.frames
          << (result.frames == 1 ? " frame, " : " frames, ") << to_string(result.stopped) << "\n";
     if (result.instability) {
-        text << "unstable   particle " << result.instability->particle << " is not finite after stage "
-             << result.instability->stage << " at " << result.instability->time << " s\n";
+        text << "unstable   " << sentence_of(*result.instability) << "\n";
     } else if (scene.creature) {
         const double length = scene.creature->length();
         const double speed = result.simulated > 0 ? result.distance / result.simulated : 0;

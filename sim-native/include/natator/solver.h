@@ -13,12 +13,16 @@
 
 namespace natator {
 
-/// Where a state stopped being finite.
+/// Where a run stopped being possible.
 struct Instability {
-    int particle = 0;   ///< lowest index with a value that is not finite
-    std::string stage;  ///< first stage whose output was not finite
-    double time = 0;    ///< s, start of the substep
+    int particle = 0;   ///< lowest index with a value that is not finite, or the particle that broke a law most
+    std::string stage;  ///< first stage whose output was not finite; of the other laws, which look at ends: "settling" or "frame"
+    double time = 0;    ///< s: start of the substep; of the other laws the end of the frame
+    std::string law = "finite";  ///< or the law of LawWatch that is broken: "tank", "particle-energy", "energy", "shape", "compression"
 };
+
+/// What is wrong, as a sentence goes on that begins with "unstable: ".
+std::string sentence_of(const Instability& instability);
 
 /// Sees the particles at fixed points of a substep; used for traces and tests. Positions are in the Model's order.
 template <class Real>

@@ -16,9 +16,10 @@ class ProgramError(NatatorError, RuntimeError):
 class Unstable(NatatorError, ArithmeticError):
     """The simulation has become unstable; a stream needs a reset.
 
-    Attributes: `time` in s, `particle`, `stage`: where a number first was none.
+    Attributes: `time` in s, `particle`, `stage`, `law`: which law of mechanics was broken first, where and by what; law
+    "finite" means that a number was none.
     """
 
-    def __init__(self, time, particle, stage):
-        super().__init__(f"unstable at {time:g} s: particle {particle}, stage {stage}")
-        self.time, self.particle, self.stage = time, particle, stage
+    def __init__(self, time, particle, stage, law="finite"):
+        super().__init__(f"unstable at {time:g} s: particle {particle}, stage {stage}, law {law}")
+        self.time, self.particle, self.stage, self.law = time, particle, stage, law

@@ -224,16 +224,21 @@ class Stream:
     def __exit__(self, *_):
         self.close()
 
-    def _senses(self, answer):
+    def require_stable(self):
+        """Raises Unstable if the simulation has stopped so."""
         if self._unstable:
             raise Unstable(*self._unstable)
+
+    def _senses(self, answer):
+        self.require_stable()
         return Senses.from_json(answer["senses"])
 
     def _first_frame(self):
         """The settled start, which waits for credit."""
         if self._framed and not self._unstable:
             self.ask({"do": "credit"})
-            self._take(*self._message())
+            if not self._unstable:  # which is told before the answer
+                self._take(*self._message())
 
     def _message(self):
         self._torn = True
@@ -260,7 +265,7 @@ class Stream:
         elif letters == b"STOP":
             stop = json.loads(body)
             if stop["reason"] == "unstable":
-                self._unstable = stop["time"], stop["particle"], stop["stage"]
+                self._unstable = stop["time"], stop["particle"], stop["stage"], stop["law"]
         elif letters == b"FRAM":
             self.frame = self._frame_of(body)
 

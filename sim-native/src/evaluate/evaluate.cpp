@@ -7,10 +7,12 @@
 #include "conservation_errors.h"
 #include "natator/actuate.h"
 #include "natator/cost.h"
+#include "natator/laws.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/pose.h"
 #include "perturb.h"
+#include "physics/laws.h"
 #include "settled_start.h"
 #include "swim_record.h"
 
@@ -57,6 +59,9 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
     Evaluation result;
     if (frames == 0) starts = nullptr;  // the figures of a run without frames are those of settling
     State<Real> state = settled_start(start, scene.settling, solver, starts, result.instability);
+    LawWatch laws(model);
+    laws.drive_by(gait);
+    if (!result.instability) result.instability = laws.start(measure_laws(model, state));
     if (!result.instability) observe(model.body, state, options.on_frame);
 
     const State<Real> begin = model.companions.empty() ? State<Real>{} : state;
@@ -67,6 +72,8 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
         result.instability = solver.frame(state, gait);
         if (result.instability) break;
         state.time = ++result.frames * scene.time_step;  // free of summed rounding
+        result.instability = laws.look(measure_laws(model, state), solver.muscle_work(), state.time);
+        if (result.instability) break;
         const auto over = record.add(frame_of(model, state, stops_at_planes, record.needs_body()));
         if (over) result.stopped = *over;
         state.origin = record.origin();
@@ -75,15 +82,21 @@ Evaluation evaluate_as(const Scene& scene, const Model& model, const Model& star
             snapshot_due = false;
             snapshot.take(model, snapshot_of(state, solver.densities()));
         }
-        if (record.tank_is_due()) record.move_tank(state);
+        if (record.tank_is_due()) {
+            record.move_tank(state);
+            laws.begin_anew();
+        }
+    }
+    const std::vector<Real> densities = solver.densities();
+    if (!result.instability) {
+        result.errors = conservation_errors(model, state, densities);
+        result.instability = laws.look_at_compression(result.errors.density_error_mean, state.time);
     }
     result.distance = record.path().back() - record.path().front();
     result.simulated = result.frames * scene.time_step;
     if (result.instability) {
         result.stopped = StopReason::unstable;
     } else {
-        const std::vector<Real> densities = solver.densities();
-        result.errors = conservation_errors(model, state, densities);
         result.swimming = swimming_numbers(
             model, gait, scene.through_water(result.distance, result.simulated), result.simulated, record.tail());
         if (result.swimming) result.swimming->cavities = cavities(model, state, densities);

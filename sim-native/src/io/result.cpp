@@ -76,7 +76,8 @@ ordered_json result_json(const nlohmann::json& id, const Evaluation& evaluation,
         if (evaluation.renewal) result["renewal"] = renewal_json(*evaluation.renewal);
     } else {
         const Instability& where = *evaluation.instability;
-        result["unstable"] = {{"particle", where.particle}, {"stage", where.stage}, {"time", where.time}};
+        result["unstable"] = {
+            {"particle", where.particle}, {"stage", where.stage}, {"time", where.time}, {"law", where.law}};
     }
     return result;
 }

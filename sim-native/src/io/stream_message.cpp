@@ -277,7 +277,8 @@ ordered_json stream_stop(const Instability& instability) {
     return {{"reason", "unstable"},
             {"particle", instability.particle},
             {"stage", instability.stage},
-            {"time", instability.time}};
+            {"time", instability.time},
+            {"law", instability.law}};
 }
 
 template ordered_json stream_scene(const LiveSimulation<float>&, const stream::SceneHead&);

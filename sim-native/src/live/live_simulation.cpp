@@ -4,12 +4,14 @@
 #include "natator/actuate.h"
 #include "natator/cost.h"
 #include "natator/error.h"
+#include "natator/laws.h"
 #include "natator/limits.h"
 #include "natator/live.h"
 #include "natator/load_scene.h"
 #include "natator/measure.h"
 #include "natator/model_builder.h"
 #include "natator/pose.h"
+#include "physics/laws.h"
 #include "same_layout.h"
 #include "scene/merge_patches.h"
 
@@ -40,7 +42,7 @@ Model affordable(const Scene& scene) {
 template <class Real>
 struct LiveSimulation<Real>::Run {
     Run(Scene of, const Perturbation& by, const Execution& execution)
-        : scene(std::move(of)), perturbation(by), model(affordable(scene)), solver(model, execution) {
+        : scene(std::move(of)), perturbation(by), model(affordable(scene)), solver(model, execution), laws(model) {
         if (scene.moving_tank) follower.emplace(scene, model);
     }
 
@@ -65,6 +67,7 @@ struct LiveSimulation<Real>::Run {
     Perturbation perturbation;
     Model model;
     Solver<Real> solver;
+    LawWatch laws;
     std::optional<TankFollower> follower;
     std::optional<State<Real>> settled;
 };
@@ -93,18 +96,21 @@ void LiveSimulation<Real>::set_gait(const Gait& gait) {
     check_steering(steering_, gait, model().actuators);
     check_steering(applied_, gait, model().actuators);
     setup_.gait = gait;
+    run_->laws.drive_freely();  // muscles jump from the one to the other
 }
 
 template <class Real>
 void LiveSimulation<Real>::steer(const Steering& steering) {
     check_steering(steering, gait(), model().actuators);
     steering_ = steering;
+    run_->laws.drive_freely();
 }
 
 template <class Real>
 void LiveSimulation<Real>::drive(const std::vector<double>& values) {
     check_drive(values, model().actuators);
     steering_ = steering_of_drive(values);
+    run_->laws.drive_freely();
 }
 
 template <class Real>
@@ -125,6 +131,8 @@ bool LiveSimulation<Real>::merge_overrides(const std::string& patch) {
         earlier_work_ += run_->solver.muscle_work();
         if (run->follower) run->follower->stand_at(state_.origin);
         run_ = std::move(run);
+        run_->laws.go_on(measure_laws(model(), state_));
+        run_->laws.drive_freely();
         updated_ = false;
     } else {
         start(std::move(run));
@@ -173,8 +181,11 @@ double LiveSimulation<Real>::muscle_work() const {
 template <class Real>
 bool LiveSimulation<Real>::frame() {
     if (instability_) return false;
+    run_->laws.drive_by(gait());
     instability_ = run_->solver.frame(state_, next_drive());
     updated_ = true;
+    if (!instability_)
+        instability_ = run_->laws.look(measure_laws(model(), state_), run_->solver.muscle_work(), state_.time);
     if (instability_) return false;
     applied_ = steering_;
     ++frames_;
@@ -187,7 +198,9 @@ bool LiveSimulation<Real>::frame() {
 template <class Real>
 void LiveSimulation<Real>::follow(TankFollower& follower) {
     follower.drift(scene().time_step);
+    const Eigen::Vector3d before = state_.origin;
     follower.follow(mean_place(body_places_in_tank(model().body, state_)), state_);
+    if (state_.origin != before) run_->laws.begin_anew();
 }
 
 template <class Real>
@@ -222,6 +235,8 @@ void LiveSimulation<Real>::start(std::unique_ptr<Run> run) {
     Run& next = run ? *run : *run_;
     std::optional<Instability> instability;
     State<Real> state = next.begin(execution_.starts, instability);
+    next.laws = LawWatch(next.model);
+    if (!instability) instability = next.laws.start(measure_laws(next.model, state));
     if (run) run_ = std::move(run);
     state_ = std::move(state);
     if (next.follower) next.follower->stand_at(state_.origin);

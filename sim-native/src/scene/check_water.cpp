@@ -5,6 +5,7 @@
 #include "io/strict_json.h"
 #include "model/borders.h"
 #include "model/carried_weight.h"
+#include "physics/constants.h"
 #include "physics/dfsph.h"
 #include "readers.h"
 
@@ -13,14 +14,22 @@ namespace {
 
 json as_json(const Plane& plane) { return {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset}; }
 
-/// The water's viscosity is explicit, and settling has its own substeps.
-void check_viscosity(const Scene& scene, const Place& place) {
-    double h = scene.time_step / scene.solver.substeps;
+/// What acts on the water by explicit steps, which bear so much of it; settling has its own substeps. Of cohesion and tension that
+/// goes with the square of the step, as of a spring; of confinement, which makes a vortex grow, with the step.
+void check_explicit_forces(const Scene& scene, const Place& place) {
+    const SolverParameters& p = scene.solver;
+    double h = scene.time_step / p.substeps;
     if (scene.settling.updates > 0) h = std::max(h, scene.settling.time_step / scene.settling.substeps);
-    const double most = physics::most_viscosity(scene.solver.fluidRestDistance, h);
-    if (!(scene.solver.kinematicViscosity > most)) return;
-    refuse(place.key("solver").key("kinematicViscosity"), scene.solver.kinematicViscosity,
-           "at most " + computed_text(most) + " (0.1 fluidRestDistance^2 / longest substep, settling included)");
+    const double spacing = p.fluidRestDistance, reach = std::min(p.radius, p.kernelSupport * spacing) / spacing;
+    const auto check = [&](const char* key, double value, double most, const char* why) {
+        if (value > most) refuse(place.key("solver").key(key), value, "at most " + computed_text(most) + " (" + why + ", settling included)");
+    };
+    check("kinematicViscosity", p.kinematicViscosity, physics::most_viscosity(spacing, h), "0.1 fluidRestDistance^2 / longest substep");
+    check("cohesion", p.cohesion, 0.2 * std::pow(physics::thesis_substep / h, 2) * std::pow(1.5 / reach, 3),
+          "0.2 (1/240 s / longest substep)^2 (1.5 fluidRestDistance / radius)^3");
+    check("surfaceTension", p.surfaceTension, 0.02 * spacing / (h * h), "0.02 fluidRestDistance / longest substep^2");
+    check("vorticityConfinement", p.vorticityConfinement, 0.1 * spacing / h, "0.1 fluidRestDistance / longest substep");
+    check("relaxationFactor", p.relaxationFactor, 2, "beyond it corrections grow from one iteration to the next");
 }
 
 /// Mirrors fill space only where they meet at right angles, or face each other.
@@ -48,7 +57,7 @@ void check_modified_pressure(const Scene& scene, const Place& place) {
 
 void check_water(const Scene& scene, const Place& place) {
     if (scene.scheme != Scheme::conserving) return;
-    check_viscosity(scene, place);
+    check_explicit_forces(scene, place);
     check_mirrors(scene, place);
     check_modified_pressure(scene, place);
 }

@@ -27,7 +27,7 @@ Instability locate_instability(Stages& stages, const Model& model, double time) 
     stages.forget();
     substep(stages, stages.plan(), iterations_of(model), [&](Stage stage) {
         if (found) return;
-        if (const auto particle = stages.first_not_finite()) found = {*particle, name(stage), time};
+        if (const auto particle = stages.first_not_finite()) found.emplace(Instability{*particle, name(stage), time});
     });
     return found.value_or(Instability{0, name(Stage::velocities), time});
 }

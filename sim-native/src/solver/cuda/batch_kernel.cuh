@@ -2,6 +2,7 @@
 
 #include "state_team.cuh"
 #include "natator/evaluate.h"
+#include "physics/laws.h"
 
 namespace natator::cuda {
 
@@ -10,7 +11,8 @@ struct Progress {
     int stopped = -1;  ///< a value of StopReason, or -1 while it runs
     int frames = 0;
     int bad_particle = 0;  ///< of an unstable one: device number
-    double bad_time = 0;   ///< start of the substep that made it
+    double bad_time = 0;   ///< start of the substep that made it; of a broken law the end of the frame
+    physics::Law broken = physics::Law::finite;  ///< by an unstable one
     double muscle_work = 0;  ///< see Solver::muscle_work; none in scheme flex
 };
 
@@ -46,6 +48,7 @@ struct BatchView {
     Real* density;      ///< after the last update: [state * fluid + particle]; null if nobody asks
     int* neighbours;    ///< of each particle in the last substep: [state * particles + particle]; likewise
     Trace<Real> trace;  ///< of the only State's last update
+    const physics::LawLimits* limits;  ///< by State; null if nobody asks
     bool stop_at_planes;
     int no_progress_frames;  ///< 0 = never
 

@@ -9,6 +9,7 @@
 #include "large/evaluate_large.h"
 #include "natator/actuate.h"
 #include "natator/batch.h"
+#include "natator/laws.h"
 #include "natator/model_builder.h"
 #include "way.h"
 
@@ -21,7 +22,7 @@ template <class Real>
 class Batch {
 public:
     Batch(const Scene& scene, const Model& model, const BatchOptions& options)
-        : scene_(scene), model_(model), keeps_starts_(options.keep_starts), times_(options.times), runner_(model) {}
+        : scene_(scene), model_(model), keeps_starts_(options.keep_starts), times_(options.times), runner_(model), laws_(model) {}
 
     /// The members' evaluations, each of a State that starts settled.
     std::vector<Evaluation> evaluate(const std::vector<BatchMember>& members) {
@@ -70,6 +71,8 @@ private:
         batch.time_step = settling.time_step;
         batch.substeps = settling.substeps;
         batch.settling = true;
+        const DeviceBuffer<physics::LawLimits> limits(std::vector<physics::LawLimits>(states.size(), laws_.limits()));
+        batch.limits = limits.data();
         runner_.run(batch, starts.progress);
         if (times_) times_->settling += runner_.seconds();
         starts.progress = runner_.progress();
@@ -110,6 +113,14 @@ private:
         const DeviceBuffer<Real> lengths(goes_either_way(model_) ? muscle_lengths(members, frames) : std::vector<Real>{});
         if (goes_either_way(model_)) batch.muscle_length = lengths.data();
         batch.density = density.data();
+        std::vector<physics::LawLimits> limits_of;
+        for (const BatchMember& member : members) {
+            LawWatch laws = laws_;
+            laws.drive_by(member.gait);
+            limits_of.push_back(laws.limits());
+        }
+        const DeviceBuffer<physics::LawLimits> limits(limits_of);
+        batch.limits = limits.data();
         batch.stop_at_planes = scene_.stopping.plane_contact;
         batch.no_progress_frames =
             swims ? static_cast<int>(std::lround(scene_.stopping.no_progress_after / scene_.time_step)) : 0;
@@ -162,6 +173,7 @@ private:
     bool keeps_starts_;
     BatchTimes* times_;
     BatchRunner<Real> runner_;
+    LawWatch laws_;  ///< of the start, with muscles at rest
 };
 
 /// In halves where the whole does not fit into the device's memory.

@@ -2,6 +2,8 @@
 
 #include "batch_runner.h"
 #include "evaluate/conservation_errors.h"
+#include "measure/law_name.h"
+#include "natator/laws.h"
 #include "natator/measure.h"
 
 namespace natator::cuda {
@@ -19,6 +21,11 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
     evaluation.distance = progress.frames > 0 ? path[progress.frames] - path[0] : 0;
     evaluation.hash = state_hash(end);
     if (progress.stopped >= 0) evaluation.stopped = static_cast<StopReason>(progress.stopped);
+    if (evaluation.stopped == StopReason::unstable && progress.broken != physics::Law::finite) {
+        evaluation.instability = Instability{particle_of[progress.bad_particle], evaluation.frames > 0 ? "frame" : "settling",
+                                             progress.bad_time, name(progress.broken)};
+        return evaluation;
+    }
     if (evaluation.stopped == StopReason::unstable) {
         State<Real> before = end;
         before.time = progress.bad_time;
@@ -33,6 +40,11 @@ Evaluation evaluation_of(const Scene& scene, const Model& model, const std::vect
     for (std::size_t number = 0; number < densities.size(); ++number)
         if (model.inverse_mass[particle_of[number]] > 0) density[particle_of[number]] = densities[number];
     evaluation.errors = conservation_errors(model, end, density);
+    evaluation.instability = broken_by_compression(evaluation.errors.density_error_mean, evaluation.simulated);
+    if (evaluation.instability) {
+        evaluation.stopped = StopReason::unstable;
+        return evaluation;
+    }
     if (gait && !tail.empty())
         evaluation.swimming = swimming_numbers(model, *gait, scene.through_water(evaluation.distance, evaluation.simulated),
                                                 evaluation.simulated, tail);

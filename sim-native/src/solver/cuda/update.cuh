@@ -3,6 +3,7 @@
 // One update of one State by a team of threads, scheme flex.
 #include "batch_kernel.cuh"
 #include "flex.cuh"
+#include "laws.cuh"
 #include "measure.cuh"
 #include "neighbours.cuh"
 #include "physics/muscle.h"
@@ -230,17 +231,49 @@ __device__ void report(const BatchView<Real>& batch, int state, Team& team) {
             compression_of(model, team, s, xyz(team.position()[s])) + 1;
 }
 
+/// Notes the law that a State has broken at the end of a frame, or of settling, if there is one. Begins and ends with a barrier.
+template <class Real, class Team>
+__device__ void look_at_laws(const BatchView<Real>& batch, int state, double time, Team& team) {
+    team.barrier();
+    if (!batch.limits) return;
+    const ModelView<Real>& model = batch.model;
+    const physics::LawLimits limits = batch.limits[state];
+    const auto measured = [&](int s) {
+        const Vec3<Real> v = batch.settling ? Vec3<Real>{} : xyz(team.velocity[s]);
+        return measures_of(model, team.number()[s], team.position()[s], v);
+    };
+    bool bad = false;
+    for (int s = team.thread(); s < model.particles; s += team.size()) bad |= breach(measured(s), limits).law != physics::Law::none;
+    for (int b = team.thread(); b < model.body; b += team.size())
+        bad |= breach(reach_of(model, team, b), limits).law != physics::Law::none;
+    if (!team.any(bad)) return;
+    if (team.thread() == 0) {
+        physics::LawMeasures all;
+        for (int s = 0; s < model.particles; ++s) add(all, measured(s));
+        for (int b = 0; b < model.body; ++b) add(all, reach_of(model, team, b));
+        const physics::Breach found = breach(all, limits);
+        Progress& progress = batch.progress[state];
+        progress.stopped = static_cast<int>(StopReason::unstable);
+        progress.broken = found.law;
+        progress.bad_particle = found.particle;
+        progress.bad_time = time;
+    }
+    team.barrier();
+}
+
 /// Measures the frame that has ended and decides whether the State stops early. Ends with a barrier.
 template <class Real, class Team>
 __device__ void end_frame(const BatchView<Real>& batch, int state, int update, Team& team) {
-    team.barrier();
+    look_at_laws(batch, state, batch.start_time + (update + 1) * batch.time_step, team);
     Progress& progress = batch.progress[state];
     double* const path = batch.path + static_cast<std::size_t>(state) * (batch.updates + 1);
     measure_path(batch.model, team, path + update + 1);
     const bool touches = batch.stop_at_planes && touches_plane(batch.model, team);
     if (team.thread() == 0) {
         progress.frames = update + 1;
-        if (touches)
+        if (progress.stopped >= 0)
+            ;  // unstable
+        else if (touches)
             progress.stopped = static_cast<int>(StopReason::touched_plane);
         else if (physics::without_progress(path, update + 1, batch.no_progress_frames))
             progress.stopped = static_cast<int>(StopReason::no_progress);
@@ -301,6 +334,7 @@ __device__ void update(const BatchView<Real>& batch, int state, int number, Team
     for (int k = team.thread(); k < model.clusters; k += team.size()) fit[k] = team.fit()[k];
     if (progress.stopped >= 0) return;
     if (!batch.settling) end_frame(batch, state, number, team);
+    if (batch.settling && last) look_at_laws(batch, state, 0, team);
     if (progress.stopped >= 0 || last) report(batch, state, team);
     team.book(Stage::measure);
 }

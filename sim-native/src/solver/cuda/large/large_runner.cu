@@ -175,8 +175,16 @@ void LargeRunner<Real>::prepare(const Update& update) {
 }
 
 template <class Real>
+physics::LawMeasures LargeRunner<Real>::laws_of(int k) const {
+    physics::LawMeasures all;
+    for (int block = 0; block < law_blocks(base_.model.particles); ++block) physics::add(all, end_[k].laws[block]);
+    return all;
+}
+
+template <class Real>
 typename LargeRunner<Real>::End LargeRunner<Real>::end_of(int k) const {
     End end;
+    end.laws = laws_of(k);
     end.mean_x = end_[k].mean_x;
     end.tail_z = end_[k].tail_z;
     end.muscle_work = end_[k].muscle_work;
@@ -233,7 +241,7 @@ std::vector<typename LargeRunner<Real>::Place> LargeRunner<Real>::places() {
     copy_row(end_.data(), base_.slots.at.shared, base_.states, base_.stream);
     wait();
     std::vector<Place> places;
-    for (int k = 0; k < base_.states; ++k) places.push_back({end_[k].mean_x, end_[k].tail_z});
+    for (int k = 0; k < base_.states; ++k) places.push_back({end_[k].mean_x, end_[k].tail_z, laws_of(k)});
     return places;
 }
 

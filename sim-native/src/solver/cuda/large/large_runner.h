@@ -53,6 +53,7 @@ public:
         double tail_z = 0;                      ///< of its last slice
         double muscle_work = 0;                 ///< in the update, see Solver::muscle_work; none in scheme flex
         bool touches_plane = false;
+        physics::LawMeasures laws{};            ///< of particles by device number
     };
     /// States that updates leave as they are.
     void set_idle(const std::vector<bool>& idle) { memory_.set_idle(idle); }
@@ -71,6 +72,7 @@ public:
     /// Of the bodies as they are: mean x, and mean z of the last slice.
     struct Place {
         double mean_x = 0, tail_z = 0;
+        physics::LawMeasures laws{};  ///< as in End
     };
     std::vector<Place> places();
     /// Places of the body's particles, in the order of Body::particles, one State after the other.
@@ -93,6 +95,7 @@ private:
     void launch(const Update& update, StageClock* clock, const Trace<Real>& trace) const;
     cudaGraphExec_t graph_of(const Update& update);
     void set_muscles(const Update& update);
+    physics::LawMeasures laws_of(int k) const;
     End end_of(int k) const;
     void go_to(int k, int substep, const Update& update);
     void wait() const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +21,7 @@
 #include "evaluate/swim_record.h"
 #include "large_runner.h"
 #include "made_once.h"
+#include "natator/laws.h"
 #include "solver/cuda/evaluation.h"
 #include "solver/cuda/kept_starts.h"
 
@@ -83,6 +85,13 @@ public:
         const std::vector<Quad<Real>> bodies = places_of_bodies();
         for (int k = 0; k < runner_.states(); ++k)
             records_[k].start(frame_of(begin[k], false, bodies, k));
+        watches_.clear();
+        for (int k = 0; k < runner_.states(); ++k) {
+            const int member = std::min(k, count - 1);
+            watches_.push_back(laws_of(std::get<0>(starts[member])));
+            watches_[k].drive_by(members[member].gait);
+            note_breach(watches_[k].start(begin[k].laws), progress_[k]);
+        }
         const HostTime begin_of_frames = std::chrono::steady_clock::now();
         const auto frames = static_cast<int>(std::lround(scene_.duration / scene_.time_step));
         for (int frame = 0; frame < frames && let_rest(count); ++frame) {
@@ -227,6 +236,7 @@ private:
             if (idle_[k] || note_instability(ends[k], update, progress)) continue;
             progress.muscle_work += ends[k].muscle_work;
             ++progress.frames;
+            if (note_breach(watches_[k].look(ends[k].laws, progress.muscle_work, progress.frames * scene_.time_step), progress)) continue;
             SwimRecord& record = records_[k];
             const auto over = record.add(frame_of(ends[k], ends[k].touches_plane, bodies, k));
             if (over) progress.stopped = static_cast<int>(*over);
@@ -239,6 +249,7 @@ private:
         State<Real> state = runner_.download(k, runner_.muscles(k));
         records_[k].move_tank(state);
         runner_.upload(k, state);
+        watches_[k].begin_anew();
     }
 
     std::vector<Quad<Real>> places_of_bodies() const {
@@ -256,6 +267,23 @@ private:
         for (std::size_t b = k * count; b < (k + 1) * count; ++b)
             frame.body.emplace_back(bodies[b].x, bodies[b].y, bodies[b].z);
         return frame;
+    }
+
+    /// Of scenes that begin in an arrangement.
+    const LawWatch& laws_of(int arrangement) {
+        auto known = laws_.find(arrangement);
+        if (known == laws_.end()) known = laws_.emplace(arrangement, LawWatch(model_of({arrangement, 0, 0}))).first;
+        return known->second;
+    }
+
+    /// Is there one? A particle has its device number in measures.
+    static bool note_breach(const std::optional<Instability>& found, Progress& progress) {
+        if (!found || progress.stopped >= 0) return false;
+        progress.stopped = static_cast<int>(StopReason::unstable);
+        progress.broken = law_named(found->law);
+        progress.bad_particle = found->particle;
+        progress.bad_time = found->time;
+        return true;
     }
 
     static bool note_instability(const typename Runner::End& end, const typename Runner::Update& update,
@@ -276,6 +304,8 @@ private:
     Runner runner_;
     std::vector<Progress> progress_;
     std::vector<SwimRecord> records_;
+    std::map<int, LawWatch> laws_;  ///< by arrangement, see laws_of
+    std::vector<LawWatch> watches_;  ///< by State
     std::vector<bool> idle_;
     std::vector<std::shared_ptr<const Settled<Real>>> begins_;  ///< by State, where they began
 };

@@ -1,4 +1,5 @@
 #include "flex_kernels.cuh"
+#include "solver/cuda/laws.cuh"
 #include "solver/cuda/measure.cuh"
 #include "substep.cuh"
 
@@ -43,6 +44,27 @@ __device__ void measure_large(const ModelView<Real>& model, const Slots<Real>& s
     measure_tail(model, slots, &slots.shared().tail_z);
     const bool touches = touches_plane(model, slots);
     if (threadIdx.x == 0) slots.shared().touches = touches;
+}
+
+inline constexpr int law_threads = 128;
+
+/// The measures of the laws, each block its own particles; those of the body by the first. Sums are in the same order always.
+template <class Real>
+__device__ void measure_laws_large(const ModelView<Real>& model, const Slots<Real>& slots) {
+    __shared__ physics::LawMeasures parts[law_threads];
+    const int own = threadIdx.x, step = static_cast<int>(gridDim.x) * law_threads;
+    physics::LawMeasures sum;
+    for (int s = static_cast<int>(blockIdx.x) * law_threads + own; s < model.particles; s += step) {
+        const Quad<Real> v = slots.at.state_velocity[s];
+        add(sum, measures_of(model, number_in(v.w), slots.position()[s], xyz(v)));
+    }
+    for (int b = own; blockIdx.x == 0 && b < model.body; b += law_threads) add(sum, reach_of(model, slots, b));
+    parts[own] = sum;
+    for (int half = law_threads / 2; half > 0; half /= 2) {
+        __syncthreads();
+        if (own < half) add(parts[own], parts[own + half]);
+    }
+    if (own == 0) slots.shared().laws[blockIdx.x] = parts[0];
 }
 
 /// Adds a substep's work of the muscles to the update's. One warp, always in the same order.
@@ -126,6 +148,7 @@ void launch_body_places(const LargeLaunch<Real>& launch, Quad<Real>* places) {
 template <class Real>
 void launch_measure(const LargeLaunch<Real>& launch) {
     at_the_end(launch).template report_states<measure_large<Real>, BlockTeam::threads>();
+    at_the_end(launch).template report_states<measure_laws_large<Real>, law_threads>(law_blocks(launch.model.particles));
 }
 
 template <class Real>

@@ -1,13 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 
 #include "pair_gradient.cuh"
+#include "physics/laws.h"
 #include "physics/shape_matching.h"
 #include "solver/cuda/list_room.h"
 #include "solver/cuda/neighbours.cuh"
 
 namespace natator::cuda {
+
+inline constexpr int most_law_blocks = 32;
+/// How many blocks look at the laws of a State, the same for a Model in any company.
+inline int law_blocks(int particles) { return std::clamp(particles / 1024, 1, most_law_blocks); }
 
 /// What the kernels of a large State tell each other and the host.
 template <class Real>
@@ -20,6 +26,7 @@ struct LargeShared : Shared<Real> {
     double mean_x;           ///< of the body
     double tail_z;           ///< of its last slice
     double muscle_work;      ///< of the update's substeps so far, see Solver::muscle_work
+    physics::LawMeasures laws[most_law_blocks];  ///< of the particles that a block of threads has looked at
 };
 
 /// Where a cluster of scheme conserving is, in double.

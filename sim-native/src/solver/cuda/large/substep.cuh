@@ -94,8 +94,8 @@ struct LargeLaunch {
         check(cudaGetLastError(), "launch");
     }
     template <auto work, int block>
-    void report_states() const {
-        for_each_state<work, Of::all, block, 0><<<grid(1), block, 0, stream>>>(model, slots);
+    void report_states(int blocks = 1) const {
+        for_each_state<work, Of::all, block, 0><<<grid(blocks), block, 0, stream>>>(model, slots);
         check(cudaGetLastError(), "launch");
     }
 

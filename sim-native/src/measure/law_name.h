@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "physics/laws.h"
+
+namespace natator {
+
+/// As it is in results: "finite", "particle-energy", "energy", "tank", "shape", "compression"; "" of none.
+const char* name(physics::Law law);
+/// Whose name that is; none if it is no law's.
+physics::Law law_named(const std::string& name);
+
+}  // namespace natator
