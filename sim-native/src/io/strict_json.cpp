@@ -76,8 +76,8 @@ std::string plain_message(const json::exception& error) {
     return shortened(std::move(text), max_message);
 }
 
-/// Whether a character beyond ASCII shows as itself: not those that have no form, turn the line's direction or end it, nor the one
-/// that stands for bytes that were no text.
+/// Whether a character beyond ASCII shows as itself: not those that have no form, turn the line's direction or end it, nor
+/// the one that stands for bytes that were no text.
 bool is_seen(unsigned code) {
     constexpr std::pair<unsigned, unsigned> unseen[] = {
         {0x80, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x115f, 0x1160}, {0x17b4, 0x17b5}, {0x180b, 0x180f},

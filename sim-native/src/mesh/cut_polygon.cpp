@@ -13,7 +13,8 @@ namespace {
 
 using Three = std::array<int, 3>;
 
-/// A polygon seen along the axis that it faces most, where it goes round counter-clockwise. Corners are told by their places in it.
+/// A polygon seen along the axis that it faces most, where it goes round counter-clockwise. Corners are told by their
+/// places in it.
 class Outline {
 public:
     Outline(std::span<const int> corners, std::span<const GridPoint> points) : corners_(corners), points_(points) {
@@ -161,7 +162,8 @@ void turn_edges(const Outline& outline, std::vector<Three>& triangles) {
 }  // namespace
 
 void begin_with_least(std::vector<int>& corners) {
-    // Two beginnings are compared; the loser goes behind the first difference (Shiloach: Fast canonization of circular strings, 1981).
+    // Two beginnings are compared; the loser goes behind the first difference (Shiloach: Fast canonization of circular
+    // strings, 1981).
     const std::size_t count = corners.size();
     std::size_t a = 0, b = 1, same = 0;
     while (a < count && b < count && same < count) {
@@ -177,7 +179,8 @@ void begin_with_least(std::vector<int>& corners) {
     std::rotate(corners.begin(), corners.begin() + static_cast<long>(std::min(a, b)), corners.end());
 }
 
-std::vector<std::array<int, 3>> cut_polygon(std::span<const int> corners, std::span<const GridPoint> points, long& work, long most) {
+std::vector<std::array<int, 3>> cut_polygon(std::span<const int> corners, std::span<const GridPoint> points, long& work,
+                                            long most) {
     const Outline outline(corners, points);
     if (!outline.has_area()) return {};
     std::vector<Three> triangles = Ears(outline, work, most).cut();

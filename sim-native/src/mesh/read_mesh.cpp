@@ -185,8 +185,8 @@ TriangleMesh read_binary_stl(std::string_view bytes) {
     return triangles_of(std::move(reader.mesh));
 }
 
-/// Binary if it holds all facets that its head counts, whatever the head begins with and whatever stands behind them: of a text the
-/// four bytes of that number are more than a file may hold.
+/// Binary if it holds all facets that its head counts, whatever the head begins with and whatever stands behind them: of a
+/// text the four bytes of that number are more than a file may hold.
 TriangleMesh read_stl(std::string_view bytes) {
     const std::size_t facets = binary_stl_facets(bytes);
     if (bytes.size() >= stl_head && bytes.size() >= stl_head + stl_facet_size * facets) return read_binary_stl(bytes);

@@ -31,11 +31,12 @@ double signed_volume(const TriangleMesh& mesh);
 bool is_obj(const std::string& name);
 bool is_stl(const std::string& name);
 
-/// A mesh of its file's bytes: Wavefront .obj if `name` ends so, else .stl, text or binary. Throws InputError that says where: numbers that are none or not finite, corners that are not there, an end in the middle, more than
+/// A mesh of its file's bytes: Wavefront .obj if `name` ends so, else .stl, text or binary. Throws InputError that says
+/// where: numbers that are none or not finite, corners that are not there, an end in the middle, more than
 /// limits::mesh_faces, and what triangles_of refuses.
 ///
-/// The readers are our own. tinyobjloader and assimp take a number that is none for 0, tell no line of a face, and leave holes where a
-/// face has corners on a straight edge or repeats one; assimp reads in single precision and is 10 MB.
+/// The readers are our own. tinyobjloader and assimp take a number that is none for 0, tell no line of a face, and leave
+/// holes where a face has corners on a straight edge or repeats one; assimp reads in single precision and is 10 MB.
 TriangleMesh read_mesh(const std::string& bytes, const std::string& name);
 
 }  // namespace natator
