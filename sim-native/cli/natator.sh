@@ -1,6 +1,11 @@
 #!/bin/sh
 # Runs the Java half of Natator: evolve, show, view ... Its jar is named by NATATOR_JAR, or is looked for where Natator is
 # installed, beside the scenes, or in the source tree that this was built in.
+# Java tells of it by a stack trace.
+if [ -z "$(pwd -P 2>/dev/null)" ]; then
+    echo "natator: the working directory is no longer there: go to another one by cd" >&2
+    exit 1
+fi
 self=$0
 while [ -L "$self" ]; do
     target=$(readlink "$self")

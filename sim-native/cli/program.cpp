@@ -12,6 +12,7 @@
 #include <sstream>
 #include <vector>
 
+#include "io/strict_json.h"
 #include "io/unfinished_file.h"
 #include "natator/error.h"
 #include "options.h"
@@ -21,11 +22,8 @@ namespace natator::cli {
 namespace {
 
 /// Says on one line of standard error what went wrong.
-int complain(int status, const std::string& program, std::string message) {
-    for (char& c : message) {
-        if (c == '\n' || c == '\r') c = ' ';
-    }
-    std::cerr << program << ": " << message << '\n';
+int complain(int status, const std::string& program, const std::string& message) {
+    std::cerr << program << ": " << as_one_line(message) << '\n';
     return status;
 }
 

@@ -2,7 +2,7 @@
 import json
 import pathlib
 
-from mutate import cheap, dump, mutate, mutate_arguments, mutate_text
+from mutate import NUMBERS, cheap, dump, mutate, mutate_arguments, mutate_text
 from programs import Once, Run, Serve, Stream
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -131,6 +131,51 @@ def run(random):
     return json.dumps({"files": files, "arguments": arguments})
 
 
+L_SHAPE = [(0, 0), (2, 0), (2, 0.4), (0.8, 0.4), (0.8, 0.8), (0, 0.8)]
+L_TRIANGLES = [(0, 1, 2), (0, 2, 3), (0, 3, 5), (3, 4, 5)]
+STATEMENTS = ["v 9 9 9", "f 1 1 2", "f 1 2 1 2", "f -1 -2 -3", "f 1 2 3 4 5 6 7 8", "f 8 \\", "l 1 2", "# \\", "vp 1", "endsolid", "facet",
+              "end facet", "vertex 0 0 0", "solid", "\r", "\udcff\udcfe", "v 0 0 1e9", "v 1e-9 0 0", "f 1/1 2//2 3/3/3"]
+
+
+def mesh_file(random):
+    """Name and lines of a slab: an .obj whose outlines are hollow, or an .stl."""
+    places = [(x, y, z) for z in (0, 0.4) for x, y in L_SHAPE]
+    sides = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
+    if random.random() < 0.7:
+        lines = ["v %g %g %g" % place for place in places]
+        for face in [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *sides]:
+            first = random.randrange(len(face))
+            lines.append("f " + " ".join(str(i + 1) for i in face[first:] + face[:first]))
+        return "mesh.obj", lines
+    lines = ["solid slab"]
+    for a, b, c, d in sides + [(a, b, c, None) for a, b, c in L_TRIANGLES]:
+        for corners in ((a, b, c), (a, c, d)) if d is not None else ((c, b, a), (a + 6, b + 6, c + 6)):
+            lines += ["facet normal 0 0 0", "outer loop"] + ["vertex %g %g %g" % places[i] for i in corners] + ["endloop", "endfacet"]
+    return "mesh.stl", lines + ["endsolid slab"]
+
+
+def mesh(random):
+    """Arguments of an info about a body of a mesh, and the mesh's file, as JSON; see programs.Run."""
+    name, lines = mesh_file(random)
+    for _ in range(random.choice([0, 1, 1, 2, 4])):
+        at, way = random.randrange(len(lines)), random.randrange(4)
+        if way == 0:
+            lines.insert(at, random.choice(STATEMENTS))
+        elif way == 1:
+            lines[at] = lines[random.randrange(len(lines))]
+        elif way == 2:
+            words = lines[at].split(" ")
+            words[random.randrange(len(words))] = str(random.choice(NUMBERS) if random.random() < 0.3 else random.randrange(-9, 10))
+            lines[at] = " ".join(words)
+        else:
+            del lines[at]
+    text = "\n".join(lines)
+    if random.random() < 0.3:
+        text = mutate_text(random, text)
+    body = {"mesh": {"file": name, "joints": [0.3, 0.6], "length": 1.2}, "spacing": 0.05}
+    return json.dumps({"files": {name: text}, "arguments": ["info", "pool/water", "--overrides", dump({"creature": body})]})
+
+
 # How often a kind comes, its texts, and what runs them: (program, limit) -> runner.
 KINDS = {
     "request": (40, request, lambda program, limit: Serve(program, limit)),
@@ -142,4 +187,5 @@ KINDS = {
     "particles": (10, particles, lambda program, limit: Once(program, ["particles"], limit, as_file=True,
                                                             nulls=("w", "result", "hash"), echoes=True)),
     "run": (8, run, lambda program, limit: Run(program, limit)),
+    "mesh": (8, mesh, lambda program, limit: Run(program, limit)),
 }

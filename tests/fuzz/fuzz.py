@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Mutated requests, scenes, gaits, arguments, particle files and stream commands for natator-sim: none may crash it, hang it, set off
-a sanitizer, go without an answer or be answered by a number that is none. Needs nothing beyond Python 3.9."""
+"""Mutated requests, scenes, gaits, arguments, meshes, particle files and stream commands for natator-sim: none may crash it, hang
+it, set off a sanitizer, go without an answer or be answered by a number that is none. Needs nothing beyond Python 3.9."""
 import argparse
 import json
 import os

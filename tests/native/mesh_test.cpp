@@ -118,6 +118,50 @@ Shape ellipsoid(const Vector3d& radii, int levels) {
     return shape.moved([&](const Vector3d& v) { return v.cwiseProduct(radii).eval(); });
 }
 
+/// Faces of any number of corners.
+struct Polygons {
+    std::vector<Vector3d> vertices;
+    std::vector<std::vector<int>> faces;
+
+    void turn() {
+        for (auto& face : faces) std::reverse(face.begin(), face.end());
+    }
+    std::string obj() const {
+        std::ostringstream text;
+        text.precision(17);
+        for (const Vector3d& v : vertices) text << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+        for (const auto& face : faces) {
+            text << 'f';
+            for (const int i : face) text << ' ' << i + 1;
+            text << '\n';
+        }
+        return text.str();
+    }
+};
+
+std::string replaced(std::string text, const std::string& old, const std::string& by) {
+    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size())) text.replace(at, old.size(), by);
+    return text;
+}
+
+std::string replaced_second(std::string text, const std::string& old, const std::string& by) {
+    return text.replace(text.find(old, text.find(old) + 1), old.size(), by);
+}
+
+std::string upper(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(c));
+    return text;
+}
+
+std::string utf16(const std::u16string& text, bool big) {
+    std::string bytes;
+    for (const char16_t c : text) {
+        const char low = static_cast<char>(c & 0xff), high = static_cast<char>(c >> 8);
+        bytes += {big ? high : low, big ? low : high};
+    }
+    return bytes;
+}
+
 TriangleMesh mesh_of(const Shape& shape) {
     return read_mesh(shape.obj(), "test.obj");
 }
@@ -204,6 +248,304 @@ TEST_F(Mesh, IsTurnedAndScaledAsTheCreatureSays) {
     const Model model = model_of_mesh(described);
     const Model expected = model_of_mesh(straight);
     for (int i = 0; i < model.particles(); ++i) EXPECT_LT((model.position[i] - expected.position[i]).norm(), 1e-9);
+}
+
+/// Outlines whose corners turn both ways, and the volume of a slab of them that is 0.4 thick.
+struct Outline {
+    const char* name;
+    double volume;
+    std::vector<std::array<double, 2>> corners;
+};
+
+const Outline outlines[] = {
+    {"chevron", 0.24, {{0, 0}, {2, 0.4}, {0, 0.8}, {0.5, 0.4}}},
+    {"L", 0.448, {{0, 0}, {2, 0}, {2, 0.4}, {0.8, 0.4}, {0.8, 0.8}, {0, 0.8}}},
+    {"T", 0.336, {{0, 0.3}, {1.6, 0.3}, {1.6, 0}, {2, 0}, {2, 0.9}, {1.6, 0.9}, {1.6, 0.6}, {0, 0.6}}},
+    {"U", 0.56, {{0, 0}, {2, 0}, {2, 1}, {1.5, 1}, {1.5, 0.4}, {0.5, 0.4}, {0.5, 1}, {0, 1}}},
+    {"whale", 0.312, {{0, 0.4}, {0.3, 0.2}, {0.8, 0.2}, {0.9, 0.05}, {1.2, 0.2}, {1.6, 0.3}, {2, 0}, {1.85, 0.4}, {2, 0.8}, {1.6, 0.5},
+                      {1.3, 0.6}, {0.7, 0.7}, {0.2, 0.6}}},
+    {"teeth", 0.88, {{0, 0}, {4, 0}, {4, 0.4}, {3.5, 0.4}, {3.5, 1}, {3, 1}, {3, 0.4}, {1, 0.4}, {1, 1}, {0.5, 1}, {0.5, 0.4}, {0, 0.4}}},
+};
+
+void PrintTo(const Outline& outline, std::ostream* out) {
+    test::print_name(outline.name, out);
+}
+
+/// A slab with whole faces; `on_edges` corners in the middle of each edge of the outline.
+Polygons slab(std::vector<std::array<double, 2>> corners, int on_edges) {
+    std::vector<std::array<double, 2>> all;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        for (int k = 0; k <= on_edges; ++k) {
+            const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
+            const double part = k / (on_edges + 1.0);
+            all.push_back({a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])});
+        }
+    Polygons slab;
+    const auto count = static_cast<int>(all.size());
+    std::vector<int> low, high;
+    for (int i = 0; i < 2 * count; ++i) slab.vertices.emplace_back(all[i % count][0], all[i % count][1], i < count ? 0 : 0.4);
+    for (int i = 0; i < count; ++i) low.push_back(count - 1 - i), high.push_back(count + i);
+    slab.faces = {low, high};
+    for (int i = 0; i < count; ++i) slab.faces.push_back({i, (i + 1) % count, (i + 1) % count + count, i + count});
+    return slab;
+}
+
+/// What a closed mesh must be: as check_mesh wants it, of this volume.
+TriangleMesh closed_mesh(const std::string& text, double volume, const char* file = "test.obj") {
+    TriangleMesh mesh = read_mesh(text, file);
+    check_mesh(mesh);
+    EXPECT_NEAR(signed_volume(mesh) / volume, 1, 1e-6);
+    return mesh;
+}
+
+void expect_same(const TriangleMesh& one, const TriangleMesh& other) {
+    EXPECT_EQ(one.vertices, other.vertices);
+    EXPECT_EQ(one.triangles, other.triangles);
+}
+
+class OutlineTest : public testing::TestWithParam<Outline> {};
+
+TEST_P(OutlineTest, IsTheSameSolidFromAnyCornerInAnyPlane) {
+    const Outline& outline = GetParam();
+    const Eigen::Matrix3d tilted = Eigen::AngleAxisd(0.7, Vector3d(1, -2, 3).normalized()).toRotationMatrix();
+    Eigen::Matrix3d turned;
+    turned << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+    for (const Eigen::Matrix3d& axes : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turned, tilted, Eigen::Matrix3d(-turned * tilted)})
+        for (const int on_edges : {0, 1, 3}) {
+            Polygons polygons = slab(outline.corners, on_edges);
+            for (Vector3d& vertex : polygons.vertices) vertex = axes * vertex + Vector3d(3, 0, -5);
+            if (axes.determinant() < 0) polygons.turn();
+            const TriangleMesh first = closed_mesh(polygons.obj(), outline.volume);
+            const std::size_t corners = outline.corners.size() * (on_edges + 1);
+            EXPECT_EQ(first.triangles.size(), 4 * corners - 4);
+            EXPECT_EQ(first.vertices.size(), 2 * corners);
+            for (std::size_t i = 1; i < corners; ++i) {
+                for (auto& face : polygons.faces) std::rotate(face.begin(), face.begin() + 1, face.end());
+                expect_same(closed_mesh(polygons.obj(), outline.volume), first);
+            }
+        }
+}
+
+/// Corners that one face has on an edge, and its neighbour has not.
+TEST_P(OutlineTest, NeedsNotHaveTheCornersOfItsNeighbours) {
+    const Outline& outline = GetParam();
+    Polygons polygons = slab(outline.corners, 2), plain = slab(outline.corners, 0);
+    const auto count = static_cast<int>(outline.corners.size());
+    std::vector<std::vector<int>> faces{polygons.faces[0]};  // below with the corners, above and at the sides without
+    for (std::size_t i = 1; i < plain.faces.size(); ++i) {
+        for (int& corner : plain.faces[i]) corner = 3 * corner;
+        faces.push_back(plain.faces[i]);
+    }
+    polygons.faces = faces;
+    EXPECT_EQ(closed_mesh(polygons.obj(), outline.volume).vertices.size(), 4 * static_cast<std::size_t>(count));
+}
+
+/// Each face with corners of its own, which differ by the rounding of floats.
+TEST_P(OutlineTest, NeedsNotShareCorners) {
+    const Outline& outline = GetParam();
+    const Polygons polygons = slab(outline.corners, 1);
+    for (const double rounding : {0.0, 1e-16, 1e-9, 1e-7, 3e-6, 5e-5}) {
+        Polygons apart;
+        std::size_t corners = 0;
+        for (const auto& face : polygons.faces) {
+            apart.faces.emplace_back();
+            for (const int corner : face) {
+                apart.faces.back().push_back(static_cast<int>(corners));
+                const double way = static_cast<double>(++corners % 3) - 1;
+                apart.vertices.push_back(polygons.vertices[corner] + way * rounding * Vector3d(0.5, 0.3, -0.4));
+            }
+        }
+        const TriangleMesh mesh = read_mesh(apart.obj(), "apart.obj");
+        EXPECT_NO_THROW(check_mesh(mesh)) << rounding;
+        EXPECT_EQ(mesh.vertices.size(), polygons.vertices.size()) << rounding;
+        EXPECT_NEAR(signed_volume(mesh) / outline.volume, 1, 1e-6 + 10 * rounding);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OutlineTest, testing::ValuesIn(outlines));
+
+/// A plate with a square hole, whose faces are joined to it by an edge that goes both ways.
+TEST(MeshFile, MayHaveAFaceWithAHole) {
+    Polygons plate;
+    for (const double z : {0.0, 0.4})
+        for (const auto& [x, y] : {std::pair{0., 0.}, {2., 0.}, {2., 2.}, {0., 2.}, {0.5, 0.5}, {0.5, 1.5}, {1.5, 1.5}, {1.5, 0.5}})
+            plate.vertices.emplace_back(x, y, z);
+    plate.faces = {{0, 4, 7, 6, 5, 4, 0, 3, 2, 1}, {8, 9, 10, 11, 8, 12, 13, 14, 15, 12}};
+    for (const int ring : {0, 4})
+        for (int i = 0; i < 4; ++i)
+            plate.faces.push_back({ring + i, ring + (i + 1) % 4, ring + (i + 1) % 4 + 8, ring + i + 8});
+    const TriangleMesh first = closed_mesh(plate.obj(), 1.2);
+    for (int i = 1; i < 10; ++i) {
+        for (auto& face : plate.faces) std::rotate(face.begin(), face.begin() + 1, face.end());
+        expect_same(closed_mesh(plate.obj(), 1.2), first);
+    }
+}
+
+/// A globe of quadrilaterals as programs write it: twice the meridian where it begins and ends, and each pole once for each meridian.
+TEST(MeshFile, MayHaveSeamsAndPoles) {
+    constexpr int meridians = 16, rings = 10;
+    double volume = 0;  // of frusta
+    for (int k = 0; k < rings; ++k) {
+        const double from = std::numbers::pi * k / rings, to = std::numbers::pi * (k + 1) / rings, r = std::sin(from), q = std::sin(to);
+        volume += (std::cos(from) - std::cos(to)) / 3 * (r * r + r * q + q * q) * 0.25 * meridians / 2 *
+                  std::sin(2 * std::numbers::pi / meridians);
+    }
+    for (const bool joined : {false, true})           // whether the seam is joined already
+        for (const bool halves : {false, true})       // of quadrilaterals, one of which is nothing at the poles
+            for (const double noise : {0.0, 1e-8}) {  // beside that of sin and cos
+                Polygons globe;
+                for (int k = 0; k <= rings; ++k)
+                    for (int i = 0; i <= meridians; ++i) {
+                        const double angle = 2 * std::numbers::pi * (joined ? i % meridians : i) / meridians;
+                        const double r = std::sin(std::numbers::pi * k / rings), x = std::cos(std::numbers::pi * k / rings);
+                        globe.vertices.emplace_back(x, 0.5 * r * std::cos(angle) + noise * (i % 3), 0.5 * r * std::sin(angle) - noise * (i % 2));
+                    }
+                for (int k = 0; k < rings; ++k)
+                    for (int i = 0; i < meridians; ++i) {
+                        const int a = k * (meridians + 1) + i, b = a + meridians + 1;
+                        if (halves)
+                            globe.faces.insert(globe.faces.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+                        else
+                            globe.faces.push_back({a, b, b + 1, a + 1});
+                    }
+                const TriangleMesh mesh = read_mesh(globe.obj(), "globe.obj");
+                EXPECT_NO_THROW(check_mesh(mesh)) << joined << halves << noise;
+                EXPECT_EQ(mesh.vertices.size(), static_cast<std::size_t>(meridians * (rings - 1) + 2)) << joined << halves << noise;
+                EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(2 * meridians * (rings - 1)));
+                EXPECT_NEAR(signed_volume(mesh) / volume, 1, 1e-6);
+            }
+}
+
+const Vector3d zero{0, 0, 0}, corner{2, 0.5, 0.4};
+
+/// The faces of a file with so many more vertices in front.
+std::string counted_from(int more, const std::string& faces) {
+    std::istringstream words(faces);
+    std::string text, word;
+    while (words >> word) text += word == "f" ? "\nf" : " " + std::to_string(std::stoi(word) + more);
+    return text;
+}
+
+/// Nothing that no face uses, and no face without area, moves or scales the body.
+TEST_F(Mesh, IsWhatItsFacesAre) {
+    const std::string plain = box(zero, corner).obj();
+    const std::string many[] = {
+        "v 100 -50 1e8\n" + plain.substr(0, plain.find('f')) + "v -3 7 7\n" + counted_from(1, plain.substr(plain.find('f'))),
+        plain + "v 9 9 9\n",
+        plain + "v 9 9 9\np 9\nl 1 9\nl 9/1 2/1\n",
+        plain + "v 9 9 9\nf 9 9 9\nf 9 1 9\nf 1 2 2\n",
+        plain + "v 1 0 0\nf 1 9 2\n",
+        plain + "v 1 0 0\nv 5 0 0\nf 1 9 10\n",
+        plain + "v 9 9 9\nvp 0.5\ncstype bezier\ndeg 3\ncurv 0 1 1 9\nparm u 0 1\nend\n",
+    };
+    const auto with_length = [&](const std::string& text) {
+        json body = creature(write("body.obj", text));
+        body["mesh"]["length"] = 1.5;
+        body["spacing"] = 0.075;
+        return body;
+    };
+    const Model expected = model_of_mesh(with_length(plain));
+    for (const std::string& text : many) EXPECT_EQ(model_of_mesh(with_length(text)).position, expected.position) << text;
+}
+
+struct Spelling {
+    const char* name;
+    const char* file;
+    std::function<std::string()> content;
+};
+
+void PrintTo(const Spelling& spelling, std::ostream* out) {
+    test::print_name(spelling.name, out);
+}
+
+const std::string whole_box = "v 0 0 0\nv 2 0 0\nv 0 .5 0\nv 2. 0.5 0\nv 0 0 4e-1\nv 2 0 +0.4\nv 0 0.5 .4E0\nv 2 0.5 0.4\n"
+                              "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
+
+std::string text_box() { return box(zero, corner).text_stl(); }
+std::string binary_box() { return box(zero, corner).binary_stl(); }
+
+const Spelling spellings[] = {
+    {"plain", "a.obj", [] { return whole_box; }},
+    {"largeName", "A.OBJ", [] { return whole_box; }},
+    {"cr", "a.obj", [] { return replaced(whole_box, "\n", "\r"); }},
+    {"crlf", "a.obj", [] { return replaced(whole_box, "\n", "\r\n"); }},
+    {"noLastEnd", "a.obj", [] { return whole_box.substr(0, whole_box.size() - 1); }},
+    {"tabs", "a.obj", [] { return replaced(replaced(whole_box, " ", "\t "), "\n", " \t\n"); }},
+    {"marked", "a.obj", [] { return "\xef\xbb\xbf" + whole_box; }},
+    {"utf16", "a.obj", [] { return utf16(u"\ufeff" + std::u16string(whole_box.begin(), whole_box.end()), false); }},
+    {"utf16Big", "a.obj", [] { return utf16(u"\ufeff" + std::u16string(whole_box.begin(), whole_box.end()), true); }},
+    {"utf16Bare", "a.obj", [] { return utf16(u"# \u6d77\n" + std::u16string(whole_box.begin(), whole_box.end()), false); }},
+    {"utf16BareBig", "a.obj", [] { return utf16(std::u16string(whole_box.begin(), whole_box.end()), true); }},
+    {"commented", "a.obj", [] { return "# C:\\models\\\n" + replaced(whole_box, "\n", "# v 1 2 \\\n\n#\n"); }},
+    {"continued", "a.obj", [] { return replaced(replaced(whole_box, "\nf", "\nf \\\n"), " 8 ", " \\  \r\n8\\\n "); }},
+    {"continuedCr", "a.obj", [] { return replaced(replaced(replaced(whole_box, "\n", "\r"), " 8 ", " \\\r8\\\r "), "v 2 ", "v\\\r2 "); }},
+    {"weights", "a.obj", [] { return replaced(whole_box, "\nv", " 1.0\nv"); }},
+    {"colours", "a.obj", [] { return "v 0 0 0 0.1 1 0.5\nv 2 0 0 255 0 0 1\n" + whole_box.substr(16); }},
+    {"large", "a.obj", [] { return replaced(replaced(whole_box, "v", "V"), "f", "F"); }},
+    {"fo", "a.obj", [] { return replaced(whole_box, "f ", "fo "); }},
+    {"textures", "a.obj", [] { return "vt 0 0\nvn 0 0 1\n" + replaced(replaced(whole_box, " 8 ", " 8/1/1 "), "f 1 ", "f 1//1 "); }},
+    {"emptySlashes", "a.obj", [] { return replaced(replaced(whole_box, " 8 ", " 8// "), "f 1 ", "f 1/ "); }},
+    {"backwards", "a.obj", [] { return replaced(whole_box, "f 1 5 7 3", "f -8 -4/-1 -2//-1 -6"); }},
+    {"facesFirst", "a.obj", [] { return whole_box.substr(whole_box.find('f')) + whole_box.substr(0, whole_box.find('f')); }},
+    {"statements", "a.obj",
+     [] {
+         return "mtllib a b.mtl\no f 1 2 3\ng a\ns off\nusemtl v 9 9 9\nvp 0.1\nlod 2\n#\n" + whole_box + "call x\nl 1 2\np 1\n";
+     }},
+    {"repeatedCorners", "a.obj", [] { return replaced(replaced(whole_box, "f 1 5 7 3", "f 1 1 5 7 7 7 3 1"), " 8 6", " 8 6 8 6 6"); }},
+    {"endOfFile", "a.obj", [] { return whole_box + '\x1a'; }},
+    {"text", "a.stl", text_box},
+    {"largeText", "A.STL", [] { return upper(text_box()); }},
+    {"largeTextCrlf", "a.stl", [] { return replaced(upper(text_box()), "\n", "\r\n"); }},
+    {"crText", "a.stl", [] { return replaced(text_box(), "\n", "\r"); }},
+    {"markedText", "a.stl", [] { return "\xef\xbb\xbf" + text_box(); }},
+    {"wideText", "a.stl",
+     [] {
+         const std::string text = text_box();
+         return utf16(u"\ufeff" + std::u16string(text.begin(), text.end()), false);
+     }},
+    {"named", "a.stl", [] { return replaced(text_box(), "solid test", "solid a fish, facet # 7 \\ vertex é"); }},
+    {"nameless", "a.stl", [] { return replaced(text_box(), "solid test", "solid"); }},
+    {"endsApart", "a.stl",
+     [] { return replaced(replaced(replaced(text_box(), "endloop", "end loop"), "endfacet", "End Facet"), "endsolid", "end solid"); }},
+    {"endless", "a.stl", [] { return text_box().substr(0, text_box().find("endsolid")); }},
+    {"severalSolids", "a.stl", [] { return replaced_second(text_box(), " facet", "endsolid test\nsolid another one\n facet"); }},
+    {"unendedSolids", "a.stl", [] { return replaced_second(text_box(), " facet", "solid\n facet"); }},
+    {"oneLine", "a.stl", [] { return replaced(text_box(), "\n", " "); }},
+    {"oneWordALine", "a.stl", [] { return replaced(replaced(text_box(), " test", ""), " ", "\n"); }},
+    {"noNormals", "a.stl", [] { return replaced(text_box(), "normal 0 0 0", "normal nan -1.#IND0 inf"); }},
+    {"exponents", "a.stl", [] { return replaced(replaced(text_box(), " 0.5", " +5.000000E-001"), " 2 ", " 2.e+00 "); }},
+    {"binary", "a.stl", binary_box},
+    {"coloured", "a.stl",
+     [] {
+         std::string bytes = binary_box();
+         bytes.replace(0, 10, "COLOR=\x01\x02\xff\xff");
+         for (std::size_t i = 132; i < bytes.size(); i += 50) bytes[i] = '\x7f', bytes[i + 1] = '\x80';
+         return bytes;
+     }},
+    {"zeroHead", "a.stl", [] { return std::string(80, '\0') + binary_box().substr(80); }},
+    {"trailing", "a.stl", [] { return binary_box() + std::string(7, '\0') + "endsolid\n"; }},
+};
+
+class SpellingTest : public Mesh, public testing::WithParamInterface<Spelling> {};
+
+TEST_P(SpellingTest, IsTheSameBody) {
+    const Model expected = model_of_mesh(creature(write("plain.obj", box(zero, corner).obj())));
+    const Spelling& spelling = GetParam();
+    EXPECT_EQ(model_of_mesh(creature(write(spelling.file, spelling.content()))).position, expected.position);
+    EXPECT_EQ(expected.particles(), 20 * 5 * 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SpellingTest, testing::ValuesIn(spellings));
+
+/// An outline of very many corners is cut up soon if it is round.
+TEST(MeshFile, MayHaveAFaceOfManyCorners) {
+    constexpr int count = 20'000;
+    std::vector<std::array<double, 2>> corners;
+    for (int i = 0; i < count; ++i)
+        corners.push_back({std::cos(2 * std::numbers::pi * i / count), std::sin(2 * std::numbers::pi * i / count)});
+    const TriangleMesh mesh = read_mesh(slab(corners, 0).obj(), "round.obj");
+    EXPECT_EQ(mesh.triangles.size(), 4u * count - 4);
+    EXPECT_NEAR(signed_volume(mesh) / (0.4 * std::numbers::pi), 1, 1e-6);
 }
 
 /// The lines of the lattice go through edges and corners of these, where a face must count once.
@@ -334,8 +676,6 @@ void PrintTo(const BadMesh& bad, std::ostream* out) {
     test::print_name(bad.name, out);
 }
 
-const Vector3d zero{0, 0, 0}, corner{2, 0.5, 0.4};
-
 Shape without_a_face() {
     Shape shape = box(zero, corner);
     shape.faces.erase(shape.faces.begin() + 4);
@@ -346,10 +686,16 @@ Shape with_a_turned_face() {
     std::swap(shape.faces[5][0], shape.faces[5][1]);
     return shape;
 }
-Shape with_a_flat_face() {
-    Shape shape = box(zero, corner);
-    shape.vertices.emplace_back(1, 0, 0);  // halfway between corners 0 and 1
-    shape.faces.push_back({0, 8, 1});
+/// A face with a row of teeth, each corner of which is in the way of what could be cut off.
+Polygons comb(int teeth) {
+    Polygons shape;
+    std::vector<int> face;
+    for (int i = 0; i < 2 * teeth; ++i) shape.vertices.emplace_back(i, i % 2 * teeth, 0);
+    shape.vertices.emplace_back(2 * teeth, 0, 0);
+    shape.vertices.emplace_back(2 * teeth, -teeth, 0);
+    shape.vertices.emplace_back(0, -teeth, 0);
+    for (int i = static_cast<int>(shape.vertices.size()); i-- > 0;) face.push_back(i);
+    shape.faces.push_back(face);
     return shape;
 }
 Shape with_a_fin() {
@@ -385,7 +731,15 @@ const BadMesh bad_meshes[] = {
     {"hole", [] { return without_a_face().obj(); }, "bad.obj", {"a hole at the edge from", "(0, 0, 0)", "alone"}},
     {"turned", [] { return with_a_turned_face().obj(); }, "bad.obj", {"inverted faces at the edge", "the face of line 14"}},
     {"insideOut", [] { return box(zero, corner).turned().obj(); }, "bad.obj", {"inside out", "-0.4"}},
-    {"flat", [] { return with_a_flat_face().obj(); }, "bad.obj", {"the face of line 22", "(0, 0, 0)", "no area"}},
+    {"bowTie", [] { return std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3 4\n"); }, "bad.obj",
+     {"the face of line 5", "(0, 0, 0)", "an outline that cuts or touches itself"}},
+    {"comb", [] { return comb(60'000).obj(); }, "bad.obj", {"the face of line 120004", "outline of 120003 corners", "smaller faces"}},
+    {"behindVertex", [] { return std::string("v 0 0 0 v 1 0 0\n"); }, "bad.obj", {"line 1", "\"v\" behind a vertex"}},
+    {"continued", [] { return std::string("v 0 0 0\nf 1 \\\n 1 \\\n x\n"); }, "bad.obj", {"line 2", "corner \"x\""}},
+    {"wide", [] { return utf16(u"v 0 0 0\nv 0 \u00e9 0\n", false); }, "bad.obj", {"line 2", "\"?\" is no coordinate"}},
+    {"noFacets", [] { return std::string("solid a\nendsolid a\n"); }, "bad.stl", {"has no faces"}},
+    {"manyFacets", [] { return std::string(80, ' ') + std::string("\xff\xff\x0f\0", 4) + std::string(50 << 20, '\0'); }, "bad.stl",
+     {"more than 200000 triangles"}},
     {"fin", [] { return with_a_fin().obj(); }, "bad.obj", {"belongs to 4 faces"}},
     {"crossed", [] { return box(zero, corner).add(box({0.5, -0.1, 0.1}, {0.8, 0.6, 0.3})).obj(); }, "bad.obj",
      {"intersects itself", "the face of line"}},
@@ -436,6 +790,7 @@ INSTANTIATE_TEST_SUITE_P(All, BadMeshTest, testing::ValuesIn(bad_meshes));
 
 const BadInput bad_bodies[] = {
     {R"({"mesh":{"file":"none.obj"}})", "creature.mesh.file: \"none.obj\"", "no such file"},
+    {R"({"mesh":{"file":"m\u00e9 \ud83d\udc1f\u0007.obj"}})", "creature.mesh.file: \"m\u00e9 \U0001f41f\\u0007.obj\"", "no such file"},
     {R"({"mesh":{"file":"ray.json"}})", "creature.mesh.file: \"ray.json\"", ".obj or .stl"},
     {R"({"mesh":{"file":"/dev/zero.obj"}})", "creature.mesh.file", "no such file"},
     {R"({"mesh":{"file":7}})", "creature.mesh.file", "string"},

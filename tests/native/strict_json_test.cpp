@@ -66,6 +66,18 @@ TEST(StrictJsonTest, ShowsValuesOnOneShortLine) {
     EXPECT_LE(shown(std::string(1000, 'x')).size(), 70u);
     EXPECT_GE(quoted(std::string(300, 'x')).size(), 302u);
     EXPECT_EQ(quoted("\xff"), "\"\\ufffd\"");
+    EXPECT_EQ(quoted("m\u00e9/\u6d77/\U0001f41f/a\\\"b"), "\"m\u00e9/\u6d77/\U0001f41f/a\\\\\\\"b\"");
+    EXPECT_EQ(quoted("\\u00e9 \\ud83d\\udc1f"), R"("\\u00e9 \\ud83d\\udc1f")");  // six characters each, not one
+    EXPECT_EQ(quoted("\x1b[31m\x7f\t\u0085\u00ad\u202e\u200b\u2028\ufeff\U000e0041"),
+              R"("\u001b[31m\u007f\t\u0085\u00ad\u202e\u200b\u2028\ufeff\udb40\udc41")");
+    EXPECT_EQ(quoted("\xc3\xa9\xc3 \xed\xa0\x80 \xc0\xaf"), "\"\u00e9\\ufffd \\ufffd\\ufffd\\ufffd \\ufffd\\ufffd\"");
+    for (std::size_t more = 0; more < 5; ++more) {  // no cut within a character
+        std::string fishes(more, 'x');
+        for (int i = 0; i < 200; ++i) fishes += "\U0001f41f";
+        EXPECT_EQ(nlohmann::json(natator::quoted(fishes)).dump().find("\\ufffd"), std::string::npos) << more;
+    }
+    EXPECT_EQ(as_one_line("a \"m\u00e9\" \\ b\nc\rd\x1b\xff" + std::string(1000, 'x')),
+              "a \"m\u00e9\" \\ b c d\\u001b\\ufffd" + std::string(1000, 'x'));
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ const char* const is_empty = ": the value is empty; must be left out or have one
 const BadValue bad_values[] = {
     {{"rnu", vacuum_scene}, "unknown command rnu; did you mean run?"},
     {{"qqqqq"}, "unknown command qqqqq; see "},
+    {{"f\u00e9\x1b[31m\xff\n\"\\"}, "unknown command f\u00e9\\u001b[31m\\ufffd \"\\; see "},
     {{""}, "unknown command \"\"; see "},
     {{}, "command: missing; must be "},
     {{"--vesion"}, "unknown option --vesion; did you mean --version?"},

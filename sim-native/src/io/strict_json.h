@@ -28,7 +28,12 @@ std::string figure_text(double value);
 /// A value as it is shown in messages: on one line, shortened to about 60 characters; of no JSON, NaN and Infinity too.
 std::string shown(const nlohmann::json& value);
 
-/// Text in quotes as it is shown in messages: on one line, shortened to about 400 characters.
+/// Text in quotes as it is shown in messages: on one line, shortened to about 400 bytes. Control characters and bytes that
+/// are no UTF-8 are escaped as in JSON (of shown values too), other characters stand as they are.
 std::string quoted(const std::string& text);
+
+/// A message as it is printed: ends of lines are spaces, the same characters are escaped as in quoted text, nothing is
+/// shortened.
+std::string as_one_line(const std::string& text);
 
 }  // namespace natator

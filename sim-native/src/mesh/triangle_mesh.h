@@ -18,16 +18,25 @@ struct TriangleMesh {
     std::string name(std::size_t triangle) const;
 };
 
+/// "the face of line 12", "facet 3".
+std::string face_name(long source, bool has_lines);
+
 /// "(0.1, 0.2, 0.3)".
 std::string shown(const Eigen::Vector3d& place);
 
 /// Volume inside a closed mesh, less than 0 if its faces look inwards.
 double signed_volume(const TriangleMesh& mesh);
 
-/// A mesh of its file's bytes: Wavefront .obj (`v` and `f`; faces of more corners are cut into fans; other lines do not
-/// count) if `name` ends so, else .stl, text or binary. Equal vertices become one. Throws InputError that says where:
-/// numbers that are none or not finite, corners that are not there, no faces, an end in the middle, more than
-/// limits::mesh_faces.
+/// Whether a file's name ends in .obj or .stl, in small letters or large ones.
+bool is_obj(const std::string& name);
+bool is_stl(const std::string& name);
+
+/// A mesh of its file's bytes: Wavefront .obj if `name` ends so, else .stl, text or binary. Throws InputError that says
+/// where: numbers that are none or not finite, corners that are not there, an end in the middle, more than
+/// limits::mesh_faces, and what triangles_of refuses.
+///
+/// The readers are our own. tinyobjloader and assimp take a number that is none for 0, tell no line of a face, and leave
+/// holes where a face has corners on a straight edge or repeats one; assimp reads in single precision and is 10 MB.
 TriangleMesh read_mesh(const std::string& bytes, const std::string& name);
 
 }  // namespace natator

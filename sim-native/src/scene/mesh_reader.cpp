@@ -19,7 +19,7 @@ namespace {
 
 /// The bytes of a mesh's file. Throws InputError.
 std::string mesh_bytes(const std::string& file, const std::filesystem::path& data) {
-    if (!file.ends_with(".obj") && !file.ends_with(".stl")) throw InputError("must be a path ending in .obj or .stl");
+    if (!is_obj(file) && !is_stl(file)) throw InputError("must be a path ending in .obj or .stl");
     const std::filesystem::path path = mesh_path(file, data);
     std::error_code failed;
     const auto status = std::filesystem::status(path, failed);

@@ -62,7 +62,7 @@ final class NewCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws InterruptedException {
-        if (!name.matches("[A-Za-z0-9][A-Za-z0-9_-]{0,63}")) {
+        if (!name.matches("[\\p{L}\\p{N}][\\p{L}\\p{M}\\p{N}_-]{0,63}")) {
             throw new InvalidInputException("NAME is " + name + "; expected at most 64 letters, digits, - and _, not beginning "
                     + "with - or _");
         }

@@ -14,6 +14,7 @@ import io.natator.stream.StreamBytes;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -100,6 +101,26 @@ class ExportCommandTest {
                 {"scene":"thesis/creature-1","genes":[1.75,0.5,0.5,0.5],"gait":{"frequency":1.75,"amplitude":[0.5,0.5],
                  "phase":[0,0.5]},"distance":0.5,"speed":0.125,"result":{"id":2,"status":"ok","distance":0.5,"simulated":3}}""");
         return run;
+    }
+
+    @Test
+    void theNameOfTheSceneIsToldAsItIs() throws IOException {
+        ObjectNode scene = StreamBytes.scene().put("scene", "m\u00e9/\u6d77 \"a\"\\b\u001b\n\ud83d\udc1f.json");
+        for (String format : List.of("usd", "ply", "glb")) {
+            StreamBytes stream = new StreamBytes().json("SCEN", scene).frame(1, 0).json("STOP", "{\"reason\":\"until\"}");
+            assertThat(export(simulator(stream, "exit 0"), "test/pool", "--format", format, "--duration", "1", "--output-dir",
+                    folder.resolve(format).toString())).as(err.toString()).isZero();
+        }
+
+        assertThat(Files.readString(folder.resolve("usd/swim.usda")).lines().filter(line -> line.contains("doc = ")))
+                .singleElement().asString().startsWith("    doc = \"m\u00e9/\u6d77 \\\"a\\\"\\\\b??\ud83d\udc1f.json").endsWith("\"");
+        assertThat(Files.readString(folder.resolve("glb/swim.glb"), StandardCharsets.ISO_8859_1))
+                .contains(new String("m\u00e9/\u6d77 \\\"a\\\"\\\\b??\ud83d\udc1f.json".getBytes(StandardCharsets.UTF_8),
+                        StandardCharsets.ISO_8859_1));
+        try (Stream<Path> files = Files.walk(folder.resolve("ply"))) {
+            assertThat(files.filter(file -> file.toString().endsWith(".ply"))).isNotEmpty().allSatisfy(file ->
+                    assertThat(Files.readString(file, StandardCharsets.ISO_8859_1)).contains("comment m?/? \"a\"\\b???.json"));
+        }
     }
 
     @ParameterizedTest

@@ -51,6 +51,12 @@ class LauncherTest {
         assertThat(said("./natator new scene minnow")).isEqualTo("-Dnatator.command=./natator");
     }
 
+    @Test
+    void aWorkingDirectoryThatIsGoneIsTold() throws IOException, InterruptedException {
+        assertThat(said("mkdir gone; cd gone; rmdir ../gone; natator show run; echo $?"))
+                .endsWith("natator: the working directory is no longer there: go to another one by cd\n1");
+    }
+
     /** As under cron and in containers, and where the locale is not installed. */
     @ParameterizedTest
     @ValueSource(strings = {"C", "POSIX", "xx_XX.UTF-8", ""})

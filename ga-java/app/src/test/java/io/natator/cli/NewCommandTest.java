@@ -123,10 +123,21 @@ class NewCommandTest {
         assertThat(creature.at("/mesh/digest").isMissingNode()).isTrue();
     }
 
+    /** Letters and digits are those of all scripts, with their marks. */
+    @ParameterizedTest
+    @ValueSource(strings = {"möwe", "Ålesund-2", "mo\u0308we", "海豚_1", "дельфин", "سمك", "मछली", "٣", "𐌰"})
+    void aNameIsWrittenInAnyScript(String name) throws IOException, InterruptedException {
+        Path scene = written("scene", name);
+
+        assertThat(Json.parse(Files.readString(scene), JsonNode.class).get("description").asText()).startsWith(name + ": ");
+        assertThat(tried()).hasSize(2);
+        assertThat(folder.resolve(name + "-gait.json")).exists();
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', value = {
         "scene a/b|NAME is a/b; expected at most 64 letters, digits, - and _",
-        "scene ..|NAME is ..; expected",
+        "scene ..|NAME is ..; expected", "scene é.x|NAME is é.x; expected", "scene \u0301|expected at most 64 letters", "scene 🐟|expected",
         "fish x|expected scene, creature or gait but was 'fish'",
         "scene x --output x.txt|--output is x.txt; expected a name that ends in .json",
         "scene x --output TAKEN|taken.json is already there; expected a new file",

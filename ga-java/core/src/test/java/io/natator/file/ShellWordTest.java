@@ -15,6 +15,7 @@ class ShellWordTest {
     void isQuotedOnlyWhereNeeded() {
         assertThat(ShellWord.of(Path.of("runs/creature-1_seed-1.json"))).isEqualTo("runs/creature-1_seed-1.json");
         assertThat(ShellWord.of("distance=1,work=0.5")).isEqualTo("distance=1,work=0.5");
+        assertThat(ShellWord.of("m\u00f6we/\u6d77\u8c5a.json")).isEqualTo("m\u00f6we/\u6d77\u8c5a.json");
         assertThat(ShellWord.of("runs/minnow one")).isEqualTo("'runs/minnow one'");
     }
 

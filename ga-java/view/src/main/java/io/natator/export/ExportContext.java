@@ -80,9 +80,9 @@ record ExportContext(StreamScene scene, ParticleSet shown, ParticleSet water, Pa
         return IntStream.of(muscleEnds()).map(particles::placeOf).toArray();
     }
 
-    /** Scene and program on one line, for comments in files. */
+    /** Scene and program on one line, for comments in files; characters without a form are question marks. */
     String title() {
         String program = scene.program() == null ? "" : ", Natator " + scene.program().path("version").asText();
-        return (scene.scene() + program).replaceAll("[^\\x20-\\x7e]|\"", "?");
+        return (scene.scene() + program).replaceAll("[\\p{Cc}\\p{Cs}\\u2028\\u2029]", "?");
     }
 }

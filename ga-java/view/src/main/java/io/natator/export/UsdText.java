@@ -9,6 +9,11 @@ final class UsdText {
     private UsdText() {
     }
 
+    /** A text of one line. */
+    static String quoted(String text) {
+        return '"' + text.replace("\\", "\\\\").replace("\"", "\\\"") + '"';
+    }
+
     static String number(float value) {
         return Float.isFinite(value) ? Float.toString(value)
                 : Float.isNaN(value) ? "nan" : value > 0 ? "inf" : "-inf";

@@ -195,7 +195,7 @@ final class UsdWriter implements FrameWriter {
         double codesPerSecond = 1 / swim.scene().timeStep();
         Path text = folder.resolve("swim.usda");
         try (BufferedWriter out = Files.newBufferedWriter(text)) {
-            out.write("#usda 1.0\n(\n    defaultPrim = \"Swim\"\n    doc = \"" + swim.title() + "\"\n    endTimeCode = "
+            out.write("#usda 1.0\n(\n    defaultPrim = \"Swim\"\n    doc = " + UsdText.quoted(swim.title()) + "\n    endTimeCode = "
                     + last + "\n    framesPerSecond = " + codesPerSecond + "\n    metersPerUnit = 1\n"
                     + "    startTimeCode = " + first + "\n    timeCodesPerSecond = " + codesPerSecond
                     + "\n    upAxis = \"Y\"\n)\n\ndef Xform \"Swim\" (kind = \"component\")\n{");

@@ -142,7 +142,7 @@ public final class StreamReader {
     }
 
     private static String shown(String text) {
-        String clean = text.replaceAll("\\P{Print}", "?");
+        String clean = text.replaceAll("[\\p{Cc}\\p{Cs}\\u2028\\u2029]", "?");
         return '"' + (clean.length() > 80 ? clean.substring(0, 80) + "…" : clean) + '"';
     }
 }
